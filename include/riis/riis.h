@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis.h - the whole public interface of riis: heart valves as resistive immersed implicit surfaces.
+ *
+ *   riis_valve  --riis_surface_create-->  riis_surface  --riis_mark_nodes-->  riis_mark_result
+ *   (named parameters)                    (triangles, Embree scene)           (nodes within the half thickness)
+ *
+ * The shortest true program:
+ *
+ *   riis_valve *valve = NULL; riis_surface *surface = NULL; riis_mesh *mesh = NULL; riis_mark_result *result = NULL;
+ *   int64_t n_marked; const int64_t *node_id; const double *distance;
+ *   riis_valve_create("aortic", &valve);
+ *   riis_surface_create(valve, NULL, &surface);
+ *   riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh);
+ *   riis_mark_result_create(&result);
+ *   riis_mark_nodes(surface, mesh, NULL, result);                                  (once a time step)
+ *   riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL);
+ *
+ * Conventions, true for every function unless it says otherwise:
+ *
+ * - Lengths are in one unit of the caller's choice. The valve tables are in centimetres; a placement's scale turns them
+ *   into the mesh's unit (0.01 for metres). Angles are degrees. Anything called *_id counts from 0.
+ * - A function that can fail returns a riis_status: 0 is success; > 0 means that the call was refused and no object
+ *   changed; < 0 means that an object passed for writing is only fit to be destroyed. riis_last_error() has the text.
+ *   No function aborts, prints, throws, or lets an exception out.
+ * - New objects are the last argument, written only on success. Destroying takes the address of the handle, sets it to
+ *   NULL, and accepts NULL.
+ * - Option structs begin with struct_size and are filled by their init function, which takes the size that the caller
+ *   compiled with; a NULL options pointer means all defaults. Fields are only ever appended.
+ * - A handle may be read (const) by any number of threads at once; it is written by one thread with no reader beside it.
+ *   Different handles never interfere. Results are bitwise the same for any number of threads.
+ * - Each call runs with the default floating-point environment and puts the caller's back: traps, rounding mode and
+ *   flush-to-zero of the caller neither change the result nor fire inside. The caller's OpenMP and TBB settings stay.
+ *
+ * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
+ * models: application to cardiac valves" (2025); docs/theory.md lists every departure from it.
+ */
+#ifndef RIIS_RIIS_H
+#define RIIS_RIIS_H
+
+#include <stdint.h>
+
+#define RIIS_VERSION_MAJOR 0
+#define RIIS_VERSION_MINOR 1
+#define RIIS_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define RIIS_API __attribute__((visibility("default")))
+#else
+#define RIIS_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Status, errors, log, version
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* What a call returns. The values are part of the ABI and never change; new ones are appended at either end. */
+typedef int32_t riis_status;
+enum {
+  RIIS_OK = 0,
+  RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
+  RIIS_INVALID_STRUCT_SIZE = 2, /* struct_size does not fit any release of this struct: not filled by its init function,
+                                   or the caller was compiled against a newer riis.h than the library */
+  RIIS_INVALID_PARAMETER = 3,   /* a valve or one of its parameters: unknown name, value out of range, values that do not go together */
+  RIIS_INVALID_SURFACE = 4,     /* the caller's surface arrays: empty, non-finite, index out of range, zero area */
+  RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
+  RIIS_LIMIT_EXCEEDED = 6,      /* the request is sound but larger than the library takes on */
+  RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
+  RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or does not hold what it should (riis_vtk.h) */
+  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing, such as a display (riis_vtk.h) */
+  RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it; destroy the objects passed for writing */
+};
+
+/* The status's own name, such as "RIIS_INVALID_ARGUMENT"; "unknown status" for a value that is none. Static text. */
+RIIS_API const char *riis_status_name(riis_status status);
+
+/* The text of the last failed call of the calling thread: what was wrong, naming the argument and its value. "" if none
+ * has failed. Never NULL. Owned by the library, valid until the next failing call of the same thread; a successful call
+ * leaves it alone. */
+RIIS_API const char *riis_last_error(void);
+
+/* Version of the library that was linked, not of this header. Any pointer may be NULL. */
+RIIS_API void riis_version(int32_t *major, int32_t *minor, int32_t *patch);
+/* The same as static text, "0.1.0". */
+RIIS_API const char *riis_version_string(void);
+
+/* Receives what the library would like to say: one line without a newline, valid during the call only. May be called
+ * from any thread that calls the library; must not call the library and must not throw or jump out. */
+typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
+enum {
+  RIIS_LOG_INFO = 0,   /* what was built and how large */
+  RIIS_LOG_WARNING = 1 /* something was done that the caller may not expect, such as skipped triangles */
+};
+/* Sets the log function of the process; NULL, the default, is silence. Safe from any thread; a message under way in
+ * another thread may still reach the function that was set before. */
+RIIS_API void riis_set_log(riis_log_function function, void *user_data);
+
+/* Takes the default where a field says so. */
+#define RIIS_AUTO (-1.0)
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Valve: named parameters (paper, table "Aortic valve parameters")
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* A parametric valve: its kind and the value of each of its parameters. No geometry is made before riis_surface_create. */
+typedef struct riis_valve riis_valve;
+
+/* Makes a valve of a kind by name with the paper's parameter values. Kinds: "aortic".
+ * Errors: RIIS_INVALID_PARAMETER for an unknown kind. */
+RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
+RIIS_API void riis_valve_destroy(riis_valve **valve);
+
+/* Sets a parameter by the paper's name. Parameters of one cusp carry its name: "right.leaflet_angle", "left.rotation",
+ * "non_coronary.bending_power"; those of the whole valve none: "root_radius". Scalars have 1 value, vectors 3 (rotation,
+ * translation: x, y, z; t0_* and t3_*: right, left, non-coronary cusp). A name without a cusp where the parameter
+ * belongs to a cusp ("translation", "leaflet_angle") sets it for all three cusps.
+ *   n_values  length of values; must be the parameter's own length
+ *   values    copied
+ * Each value is checked against the parameter's range here; whether parameters go together (a bending height below the
+ * leaflet height) is checked by riis_surface_create, so that the order of setting them does not matter.
+ * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is then unchanged. */
+RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values);
+/* The same for a parameter with one value. */
+RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
+/* Copies a parameter's values out. n_values must be the parameter's own length. A name that stands for all three cusps
+ * cannot be read (RIIS_INVALID_PARAMETER): the cusps may differ. */
+RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values, double *values);
+
+/* One parameter described. The texts are static. */
+typedef struct riis_parameter {
+  const char *name;        /* as riis_valve_set takes it */
+  const char *unit;        /* "length", "degree" or "1" */
+  const char *description; /* one line */
+  int64_t n_values;        /* 1 or 3 */
+  double default_values[3];/* the paper's; entries beyond n_values are 0 */
+  double minimum;          /* of every value, inclusive */
+  double maximum;          /* of every value, inclusive */
+} riis_parameter;
+/* How many parameters the valve has. */
+RIIS_API riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters);
+/* Describes parameter number parameter_id, 0 <= parameter_id < n_parameters.
+ *   struct_size  sizeof(riis_parameter) of the caller; no more than that is written */
+RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
+                                          int64_t struct_size);
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Surface: triangles in space, ready to be asked for closest points
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* Triangles with their Embree scene, a half thickness, and nothing borrowed from the caller. */
+typedef struct riis_surface riis_surface;
+
+/* The leaflets of the aortic valve, as leaflet_id reports them. */
+enum { RIIS_LEAFLET_RIGHT = 0, RIIS_LEAFLET_LEFT = 1, RIIS_LEAFLET_NON_CORONARY = 2 };
+
+/* What to do with triangles of zero area in the caller's arrays. */
+enum {
+  RIIS_ZERO_AREA_REFUSE = 0, /* RIIS_INVALID_SURFACE naming the first */
+  RIIS_ZERO_AREA_SKIP = 1    /* leave them out, count them, log a warning; the ids of the others do not change */
+};
+
+/* How a surface is made and where it stands. */
+typedef struct riis_surface_options {
+  int64_t struct_size;
+  double half_thickness;     /* d_min: a node is marked when its distance to the surface is <= half_thickness (paper, 4.2).
+                                In placed (mesh) units, > 0. Default RIIS_AUTO: 0.1 * scale */
+  double tolerance;          /* generated valves: tolerance * half_thickness bounds |distance to the triangles - distance to the
+                                smooth surface|. 1e-6 to 1, default 0.05. Not used for surfaces from arrays */
+  double scale;              /* the placement x -> scale * rotation * x + translation, applied last, to valves and to arrays. */
+  double rotation_axis[3];   /*   scale 1e-12 to 1e12, default 1. The axis need not be unit, but not zero, default (0, 0, 1); */
+  double rotation_angle;     /*   rotation_angle in degrees, counter-clockwise seen against the axis, default 0;              */
+  double translation[3];     /*   translation in mesh units, default 0                                                        */
+  int32_t zero_area;         /* surfaces from arrays: RIIS_ZERO_AREA_*, default RIIS_ZERO_AREA_REFUSE */
+  int32_t flip_normals;      /* 1 turns every triangle over, so that normal and side change sign; default 0 */
+} riis_surface_options;
+/* Fills *options with the defaults; struct_size is sizeof(riis_surface_options) of the caller. */
+RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
+
+/* Makes the surface of a parametric valve: curves, polylines, Coons patches, quads, triangles, Embree scene (paper, 3 and
+ * 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face of the aortic
+ * valve. Triangles of zero area, which arise at the root point of each cusp, are dropped.
+ *   valve    read during the call only
+ *   options  NULL for defaults
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together; RIIS_LIMIT_EXCEEDED where the tolerance asks for
+ * more than 16,777,216 triangles. */
+RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface);
+
+/* The caller's own surface, triangles or quads, by arrays that are read during the call only. Filled by its init function;
+ * then set what there is. */
+typedef struct riis_surface_arrays {
+  int64_t struct_size;
+  int64_t n_vertices;        /* 1 to 2^31 - 1 */
+  const double *x, *y, *z;   /* vertex i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e100 */
+  int64_t stride;            /* in doubles; 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. Default 1 */
+  int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
+  const void *vertex_ids;    /* corners_per_face entries a face, in the order that makes the normal by the right-hand rule */
+  int32_t vertex_id_bits;    /* 32 or 64: vertex_ids points to int32_t or int64_t. Default 32 */
+  int32_t index_base;        /* 0 or 1: the number of the first vertex in vertex_ids. Default 0 */
+  int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
+  int32_t reserved;          /* 0 */
+  const int32_t *leaflet_id; /* one per face, >= 0; NULL: all 0 */
+} riis_surface_arrays;
+RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
+
+/* Makes a surface from arrays. The winding stays the caller's. A triangle's id is the caller's: the face's number for
+ * triangles, 2 * face and 2 * face + 1 for the halves of a quad, whatever was skipped.
+ * Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value. A triangle has zero area when its height over its longest
+ * edge is at most 1e-12 of that edge. */
+RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
+                                                     riis_surface **surface);
+
+/* Replaces the surface's content, as for a valve that moved: the handle stays, pointers got from it before end.
+ *   options  NULL keeps the options that the surface has, not the defaults
+ * On an error > 0 the surface is as it was. */
+RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options);
+RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
+                                                     const riis_surface_options *options);
+RIIS_API void riis_surface_destroy(riis_surface **surface);
+
+/* What a surface is. */
+typedef struct riis_surface_info {
+  int64_t n_vertices;
+  int64_t n_triangles;       /* those that are asked for closest points */
+  int64_t n_zero_area;       /* triangles left out because they have no area */
+  double half_thickness;     /* placed units */
+  double area;               /* of all triangles, placed units squared */
+  double lower[3], upper[3]; /* bounds of the triangles, placed units */
+  double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
+  double seconds_scene;      /* and the Embree scene */
+} riis_surface_info;
+/* struct_size is sizeof(riis_surface_info) of the caller; no more than that is written. */
+RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size);
+
+/* The vertices, xyz(3, n_vertices), after placement. Any pointer may be NULL. Owned by the surface, valid until its next
+ * update or its destruction. */
+RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices, const double **xyz);
+/* Where each vertex lies on its patch: uv(2, n_vertices), in [0,1]. *uv is NULL for a surface from arrays. */
+RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv);
+/* The triangles that closest points are sought on. Any pointer may be NULL. Lifetime as above.
+ *   vertex_id    (3, n_triangles), from 0
+ *   triangle_id  (n_triangles), ascending: the id that queries report. For a generated valve it is the position, 0, 1, 2, ...
+ *   leaflet_id   (n_triangles)
+ *   patch_id     (n_triangles); generated valves: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
+ *                surfaces from arrays: 0 */
+RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles, const int64_t **vertex_id,
+                                            const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id);
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Closest points (paper, 4.1)
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* The closest point of the surface to one point. */
+typedef struct riis_closest {
+  double distance;        /* >= 0 */
+  double point[3];        /* on the triangle */
+  double barycentric[3];  /* its weights of the triangle's three vertices, >= 0, sum 1 */
+  double normal[3];       /* unit normal of the triangle, by the right-hand rule */
+  int64_t triangle_id;    /* the lowest of the closest triangles' ids */
+  int32_t leaflet_id;
+  int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 on the surface. At an edge or
+                             a vertex that several triangles share, their angle-weighted normal decides (Baerentzen, Aanaes
+                             2005); vertices are shared when their placed coordinates are equal */
+} riis_closest;
+/* Every number is computed in double precision, equal to that of a loop over all triangles.
+ *   point        3 finite coordinates, magnitude at most 1e100
+ *   struct_size  sizeof(riis_closest) of the caller; no more than that is written */
+RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
+                                        int64_t struct_size);
+
+typedef struct riis_closest_options {
+  int64_t struct_size;
+  double distance_limit;  /* points farther than this get far_distance, ids -1, side 0, and zeros. Default RIIS_AUTO: no limit */
+  double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
+  int32_t n_threads;      /* 1 to 1024, or 0, the default: the processors this process may use */
+  int32_t reserved;       /* 0 */
+} riis_closest_options;
+RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
+
+/* Where the answers for many points go; NULL for what is not wanted. Fields as in riis_closest. */
+typedef struct riis_closest_arrays {
+  int64_t struct_size;
+  double *distance;       /* (n_points) */
+  double *point;          /* (3, n_points) */
+  double *barycentric;    /* (3, n_points) */
+  double *normal;         /* (3, n_points) */
+  int64_t *triangle_id;   /* (n_points) */
+  int32_t *leaflet_id;    /* (n_points) */
+  int32_t *side;          /* (n_points) */
+} riis_closest_arrays;
+RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
+
+/* Closest points of many points, in parallel.
+ *   n_points  >= 0
+ *   x, y, z   point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e100
+ *   stride    in doubles, >= 1
+ *   options   NULL for defaults
+ *   arrays    the arrays named in it are written; none may overlap another or the coordinates
+ * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
+RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y,
+                                         const double *z, int64_t stride, const riis_closest_options *options,
+                                         const riis_closest_arrays *arrays);
+
+/* The distance that a far point gets unless the caller chooses another: finite, so that it can be interpolated and compared
+ * without floating-point exceptions. */
+#define RIIS_FAR_DISTANCE 1.0e30
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Mesh: the nodes to be marked
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* The caller's nodes. The coordinates are borrowed: they must stay in place until the handle is destroyed or updated. */
+typedef struct riis_mesh riis_mesh;
+
+/* Borrows node coordinates and checks them once.
+ *   n_nodes   >= 1
+ *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e100
+ *   stride    in doubles, >= 1: 1 for separate arrays; 3 for xyz(3,n) with y = x + 1, z = x + 2
+ * Errors: RIIS_INVALID_MESH naming the node and the value. A process without nodes has nothing to mark: do not call. */
+RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
+                                      riis_mesh **mesh);
+/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Same arguments. */
+RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
+                                      int64_t stride);
+RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Marking (paper, 4.2)
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* The nodes that were found and where the surface is from them. Made once, reused every step: its memory is kept. */
+typedef struct riis_mark_result riis_mark_result;
+RIIS_API riis_status riis_mark_result_create(riis_mark_result **result);
+RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
+
+/* How nodes are sought. */
+enum {
+  RIIS_SEARCH_AUTO = 0,      /* the library's choice; never incomplete */
+  RIIS_SEARCH_EXHAUSTIVE = 1 /* every node is asked (paper, algorithm "Exhaustive node iteration") */
+};
+
+typedef struct riis_mark_options {
+  int64_t struct_size;
+  double distance_limit;     /* distances are wanted up to here, in mesh units, >= the surface's half thickness; marks stay those of the
+                                half thickness. Default RIIS_AUTO: the half thickness */
+  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out; NULL: all nodes. Read during the call only */
+  int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
+  int32_t n_threads;         /* 1 to 1024, or 0, the default: the processors this process may use */
+} riis_mark_options;
+RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size);
+
+/* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. The
+ * decision is on the reported distance, in double precision, inclusive.
+ *   surface, mesh  read; may be shared with other calls under way
+ *   options        NULL for defaults
+ *   result         its former content is replaced; pointers got from it before end
+ * Errors: RIIS_INVALID_MESH if a coordinate was made non-finite behind the mesh handle's back. On an error > 0 the result is
+ * as it was. */
+RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
+                                     riis_mark_result *result);
+
+/* The marked nodes, ascending by node_id, all arrays (n_marked). Any pointer may be NULL; with n_marked = 0 the arrays are NULL. Owned by
+ * the result, valid until the next riis_mark_nodes with it or its destruction. A result never marked with has none. */
+RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked, const int64_t **node_id,
+                                             const double **distance, const int64_t **triangle_id, const int32_t **leaflet_id);
+/* The same for all nodes within the distance limit, marked or not: a superset, equal to the marked nodes without a wider limit. */
+RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within, const int64_t **node_id,
+                                                   const double **distance, const int64_t **triangle_id,
+                                                   const int32_t **leaflet_id);
+
+/* The same as dense arrays of the caller's, one entry a node of the mesh; NULL for what is not wanted. Every entry is written.
+ *   n_nodes       length of the arrays; must be the number of nodes that was marked with
+ *   far_distance  distance of the nodes beyond the limit or masked out; RIIS_FAR_DISTANCE, or any value (NaN too) outside
+ *                 [0, distance limit], so that no far node can look near
+ *   mark          1 for marked nodes, 0 for others
+ *   distance      of every node within the distance limit, else far_distance
+ *   triangle_id   of every node within the distance limit, else -1
+ *   leaflet_id    of every node within the distance limit, else -1 */
+RIIS_API riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance, uint8_t *mark,
+                                            double *distance, int64_t *triangle_id, int32_t *leaflet_id);
+
+/* How the last marking went. */
+typedef struct riis_mark_stats {
+  int64_t n_nodes;
+  int64_t n_marked;
+  int64_t n_within_limit;
+  int64_t n_queries;    /* closest-point queries that were made; nodes outside the surface's inflated bounds need none */
+  double seconds;       /* wall time of riis_mark_nodes */
+  int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
+  int32_t n_threads;    /* threads that really ran */
+  int32_t complete;     /* 1: every node within the limit was found */
+  int32_t reserved;
+} riis_mark_stats;
+/* struct_size is sizeof(riis_mark_stats) of the caller; no more than that is written. */
+RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

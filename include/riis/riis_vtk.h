@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, pictures. A library of its own
+ * (riis_vtk), so that the core never links VTK. Conventions as in riis.h; errors come through riis_last_error() too.
+ *
+ * VTK keeps process-wide state: call these functions from one thread at a time. What VTK would print while a function
+ * runs is caught and becomes the error text.
+ */
+#ifndef RIIS_RIIS_VTK_H
+#define RIIS_RIIS_VTK_H
+
+#include <riis/riis.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Volume meshes
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* An unstructured grid as it was in the file, its points as doubles. */
+typedef struct riis_vtk_mesh riis_vtk_mesh;
+
+/* Reads an unstructured grid, .vtu (XML) or .vtk (legacy), chosen by the file's ending.
+ * Errors: RIIS_FILE_ERROR naming the file: missing, unreadable, another data set, truncated, no points. */
+RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
+RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
+
+/* The nodes in the file's order, xyz(3, n_nodes), for riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, ...). Any pointer
+ * may be NULL. Owned by the mesh, valid until its destruction. */
+RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells, const double **xyz);
+
+/* Adds, or replaces, the point arrays of a marking: riis_marked (UInt8, 0 or 1), riis_distance (Float64, far_distance beyond
+ * the limit), riis_leaflet (Int32, -1 beyond the limit). far_distance as in riis_mark_result_dense.
+ * Errors: RIIS_INVALID_ARGUMENT if the result is not of a mesh with as many nodes. */
+RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance);
+
+/* Writes the mesh with all its arrays to a .vtu file, points as Float64. The file is complete or not there: it is written
+ * beside its place and then moved.
+ * Errors: RIIS_FILE_ERROR naming the file. */
+RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Surfaces
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* Triangles or quads read from a file. */
+typedef struct riis_vtk_surface riis_vtk_surface;
+
+/* Reads a surface: .vtp, .vtu (its triangles, quads; another cell is an error naming it) or .stl. Polygons and strips are cut into
+ * triangles; a file of quads only keeps its quads. An Int32-convertible cell array riis_leaflet gives the leaflet ids.
+ * Errors: RIIS_FILE_ERROR naming the file. */
+RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface);
+RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
+/* Points *arrays, which its init function has filled, at the arrays of the surface, for riis_surface_create_from_arrays. They are owned by
+ * the surface, valid until its destruction. */
+RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays);
+
+/* Writes exactly the triangles that are queried, after placement, to a .vtp file: points Float64; cell arrays riis_leaflet,
+ * riis_patch (Int32), riis_triangle (Int64); point array riis_uv (2 x Float64) for generated valves. Complete or not there. */
+RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Pictures
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+enum { RIIS_VTK_VIEW_SIDE = 0, RIIS_VTK_VIEW_TOP = 1, RIIS_VTK_VIEW_OBLIQUE = 2 };
+
+typedef struct riis_vtk_picture_options {
+  int64_t struct_size;
+  int32_t view;           /* RIIS_VTK_VIEW_*; side looks along +y with z up, top along -z with y up. Default oblique */
+  int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
+  int32_t reserved;       /* 0 */
+} riis_vtk_picture_options;
+RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
+
+/* Draws two panels into a .png file: the surface with its leaflets in different colours, and the cells all of whose nodes
+ * are marked, coloured by leaflet, in the faint outline of the mesh.
+ *   mesh  with marks set; NULL draws the surface alone, in one panel
+ * Errors: RIIS_UNAVAILABLE without a usable X display (VTK itself would abort the process); RIIS_FILE_ERROR naming the file. */
+RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
+                                   const riis_vtk_picture_options *options, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
