@@ -194,7 +194,7 @@ RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_sur
 typedef struct riis_surface_arrays {
   int64_t struct_size;
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
-  const double *x, *y, *z;   /* vertex i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e100 */
+  const double *x, *y, *z;   /* vertex i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60 */
   int64_t stride;            /* in doubles; 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
   const void *vertex_ids;    /* corners_per_face entries a face, in the order that makes the normal by the right-hand rule */
@@ -208,8 +208,8 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 
 /* Makes a surface from arrays. The winding stays the caller's. A triangle's id is the caller's: the face's number for
  * triangles, 2 * face and 2 * face + 1 for the halves of a quad, whatever was skipped.
- * Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value. A triangle has zero area when its height over its longest
- * edge is at most 1e-12 of that edge. */
+ * Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value. A triangle has zero area when its height over its
+ * longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
                                                      riis_surface **surface);
 
@@ -266,7 +266,7 @@ typedef struct riis_closest {
                              2005); vertices are shared when their placed coordinates are equal */
 } riis_closest;
 /* Every number is computed in double precision, equal to that of a loop over all triangles.
- *   point        3 finite coordinates, magnitude at most 1e100
+ *   point        3 finite coordinates, magnitude at most 1e60
  *   struct_size  sizeof(riis_closest) of the caller; no more than that is written */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
@@ -295,7 +295,7 @@ RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64
 
 /* Closest points of many points, in parallel.
  *   n_points  >= 0
- *   x, y, z   point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e100
+ *   x, y, z   point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
  *   stride    in doubles, >= 1
  *   options   NULL for defaults
  *   arrays    the arrays named in it are written; none may overlap another or the coordinates
@@ -317,7 +317,7 @@ typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once.
  *   n_nodes   >= 1
- *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e100
+ *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
  *   stride    in doubles, >= 1: 1 for separate arrays; 3 for xyz(3,n) with y = x + 1, z = x + 2
  * Errors: RIIS_INVALID_MESH naming the node and the value. A process without nodes has nothing to mark: do not call. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
@@ -357,8 +357,8 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  *   surface, mesh  read; may be shared with other calls under way
  *   options        NULL for defaults
  *   result         its former content is replaced; pointers got from it before end
- * Errors: RIIS_INVALID_MESH if a coordinate was made non-finite behind the mesh handle's back. On an error > 0 the result is
- * as it was. */
+ * Errors: RIIS_INVALID_MESH if a coordinate was made non-finite behind the mesh handle's back. On an error > 0 the content of
+ * the result is as it was, though its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                                      riis_mark_result *result);
 

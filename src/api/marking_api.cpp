@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_mesh_*, riis_mark_*: argument checks around marking.
+#include "api/errors.hpp"
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "marking/mark_nodes.hpp"
+#include "parallel/parallel_for.hpp"
+
+using riis::guarded;
+using riis::require;
+
+namespace {
+
+// Sizes of the first release.
+constexpr std::size_t options_size = 32, stats_size = 56;
+
+const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0};
+
+double limit_of(const riis_mark_options &options, double half_thickness) {
+  if (options.distance_limit == RIIS_AUTO) return half_thickness;
+  if (!(options.distance_limit >= half_thickness && options.distance_limit <= 1e60))
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %g; it must be from the half thickness, %g, to 1e60",
+               options.distance_limit, half_thickness);
+  return options.distance_limit;
+}
+
+int threads_of(const riis_mark_options &options) {
+  riis::check_n_threads(options.n_threads, "options.n_threads");
+  return options.n_threads ? options.n_threads : riis::default_thread_count();
+}
+
+std::int32_t search_of(const riis_mark_options &options) {
+  if (options.search != RIIS_SEARCH_AUTO && options.search != RIIS_SEARCH_EXHAUSTIVE)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", options.search);
+  return options.search;
+}
+
+template <class T>
+void put(T *to, T value) {
+  if (to) *to = value;
+}
+
+void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **node_id, const double **distance,
+              const std::int64_t **triangle_id, const std::int32_t **leaflet_id) {
+  put(n, static_cast<std::int64_t>(list.size()));
+  const bool empty = list.size() == 0;
+  put(node_id, empty ? nullptr : list.node_id.data());
+  put(distance, empty ? nullptr : list.distance.data());
+  put(triangle_id, empty ? nullptr : list.triangle_id.data());
+  put(leaflet_id, empty ? nullptr : list.leaflet_id.data());
+}
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride, riis_mesh **mesh) {
+  return guarded([&] {
+    require(mesh, "mesh");
+    *mesh = new riis_mesh{riis::make_mesh({n_nodes, x, y, z, stride})};
+  });
+}
+
+riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride) {
+  return guarded([&] { require(mesh, "mesh")->mesh = riis::make_mesh({n_nodes, x, y, z, stride}); });
+}
+
+void riis_mesh_destroy(riis_mesh **mesh) {
+  if (!mesh) return;
+  delete *mesh;
+  *mesh = nullptr;
+}
+
+riis_status riis_mark_result_create(riis_mark_result **result) {
+  return guarded([&] { *require(result, "result") = new riis_mark_result{}; });
+}
+
+void riis_mark_result_destroy(riis_mark_result **result) {
+  if (!result) return;
+  delete *result;
+  *result = nullptr;
+}
+
+riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(options, struct_size, options_size, "options", default_options); });
+}
+
+riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
+                            riis_mark_result *result) {
+  return guarded([&] {
+    const riis::Surface &content = *require(surface, "surface")->surface;
+    require(mesh, "mesh");
+    require(result, "result");
+    const riis_mark_options whole = riis::completed(options, options_size, "options", default_options);
+    const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
+                                      threads_of(whole)};
+    riis::mark_nodes(request, search_of(whole), result->result);
+  });
+}
+
+riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked, const int64_t **node_id,
+                                    const double **distance, const int64_t **triangle_id, const int32_t **leaflet_id) {
+  return guarded([&] {
+    get_list(require(result, "result")->result.marked_nodes(), n_marked, node_id, distance, triangle_id, leaflet_id);
+  });
+}
+
+riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within, const int64_t **node_id,
+                                          const double **distance, const int64_t **triangle_id, const int32_t **leaflet_id) {
+  return guarded(
+      [&] { get_list(require(result, "result")->result.within, n_within, node_id, distance, triangle_id, leaflet_id); });
+}
+
+riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance, uint8_t *mark,
+                                   double *distance, int64_t *triangle_id, int32_t *leaflet_id) {
+  return guarded([&] {
+    const riis::MarkResult &content = require(result, "result")->result;
+    if (n_nodes != content.stats.n_nodes)
+      riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is %lld; the result is of a mesh with %lld nodes",
+                 static_cast<long long>(n_nodes), static_cast<long long>(content.stats.n_nodes));
+    if (far_distance >= 0 && far_distance <= content.distance_limit)
+      riis::fail(RIIS_INVALID_ARGUMENT, "far_distance is %g; it must not lie between 0 and the distance limit %g", far_distance,
+                 content.distance_limit);
+    riis::write_dense(content, far_distance, mark, distance, triangle_id, leaflet_id);
+  });
+}
+
+riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size) {
+  return guarded([&] {
+    const riis_mark_stats &of_last_marking = require(result, "result")->result.stats;
+    riis::write_struct(stats, struct_size, stats_size, "stats", of_last_marking);
+  });
+}
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structs that cross the border with their size, so that a caller compiled against an older header keeps working: what it
+// does not know takes its default on the way in and is not written on the way out.
+#pragma once
+
+#include <cstring>
+#include <type_traits>
+
+#include "api/errors.hpp"
+
+namespace riis {
+
+// first_size is the struct's size in the first release that had it; all later sizes are multiples of 8 above it.
+inline void check_struct_size(std::int64_t size, std::size_t first_size, std::size_t size_here, const char *name) {
+  if (size < static_cast<std::int64_t>(first_size) || size > static_cast<std::int64_t>(size_here) || size % 8 != 0)
+    fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of %s is %lld; riis %s knows %lld to %lld: use its init function, and a header no newer than the library",
+         name, static_cast<long long>(size), riis_version_string(), static_cast<long long>(first_size),
+         static_cast<long long>(size_here));
+}
+
+// The body of an init function.
+template <class Struct>
+void init_struct(Struct *out, std::int64_t size, std::size_t first_size, const char *name, const Struct &defaults) {
+  static_assert(std::is_trivially_copyable_v<Struct>);
+  require(out, name);
+  check_struct_size(size, first_size, sizeof(Struct), name);
+  std::memcpy(out, &defaults, static_cast<std::size_t>(size));
+  out->struct_size = size;
+}
+
+// The caller's struct completed by defaults; all defaults for NULL.
+template <class Struct>
+Struct completed(const Struct *in, std::size_t first_size, const char *name, const Struct &defaults) {
+  Struct whole = defaults;
+  if (in) {
+    check_struct_size(in->struct_size, first_size, sizeof(Struct), name);
+    std::memcpy(&whole, in, static_cast<std::size_t>(in->struct_size));
+  }
+  whole.struct_size = sizeof(Struct);
+  return whole;
+}
+
+// As much of value as the caller has room for.
+template <class Struct>
+void write_struct(Struct *out, std::int64_t size, std::size_t first_size, const char *name, const Struct &value) {
+  require(out, name);
+  check_struct_size(size, first_size, sizeof(Struct), name);
+  std::memcpy(out, &value, static_cast<std::size_t>(size));
+}
+
+inline void check_n_threads(std::int32_t n_threads, const char *name) {
+  if (n_threads < 0 || n_threads > 1024)
+    fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be from 1 to 1024, or 0 for the default", name, n_threads);
+}
+
+}  // namespace riis

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_surface_* and riis_closest_*: argument checks around the stages from parameters to closest points.
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "api/errors.hpp"
+#include "api/handles.hpp"
+#include "api/log.hpp"
+#include "api/structs.hpp"
+#include "parallel/parallel_for.hpp"
+#include "surface/triangulate.hpp"
+#include "surface/user_arrays.hpp"
+#include "valve/patches.hpp"
+
+using riis::guarded;
+using riis::require;
+
+namespace {
+
+// Sizes of the first release.
+constexpr std::size_t options_size = 104, arrays_size = 88, info_size = 104, closest_size = 96, closest_options_size = 32,
+                      closest_arrays_size = 64;
+
+const riis_surface_options default_options{sizeof(riis_surface_options), RIIS_AUTO, 0.05, 1.0, {0, 0, 1}, 0, {0, 0, 0},
+                                           RIIS_ZERO_AREA_REFUSE, 0};
+const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0,
+                                         nullptr};
+const riis_closest_options default_closest_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0};
+const riis_closest_arrays default_closest_arrays{sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                                 nullptr};
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void check_range(const char *name, double value, double minimum, double maximum) {
+  if (!(value >= minimum && value <= maximum))
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.%s is %g; it must be from %g to %g", name, value, minimum, maximum);
+}
+
+void check_flag(const char *name, std::int32_t value) {
+  if (value != 0 && value != 1) riis::fail(RIIS_INVALID_ARGUMENT, "options.%s is %d; it must be 0 or 1", name, value);
+}
+
+void check_options(const riis_surface_options &options) {
+  check_range("scale", options.scale, 1e-12, 1e12);
+  if (options.half_thickness != RIIS_AUTO) check_range("half_thickness", options.half_thickness, 1e-50, 1e50);
+  check_range("tolerance", options.tolerance, 1e-6, 1.0);
+  check_range("rotation_angle", options.rotation_angle, -1e6, 1e6);
+  for (const double value : options.rotation_axis) check_range("rotation_axis", value, -1e50, 1e50);
+  for (const double value : options.translation) check_range("translation", value, -1e50, 1e50);
+  const double *axis = options.rotation_axis;
+  if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (%g, %g, %g); it must not be zero", axis[0], axis[1], axis[2]);
+  check_flag("zero_area", options.zero_area);
+  check_flag("flip_normals", options.flip_normals);
+}
+
+riis::Placement placement_of(const riis_surface_options &options) {
+  const double *axis = options.rotation_axis, *t = options.translation;
+  // Scaled before it is squared.
+  const double size = std::hypot(axis[0], axis[1], axis[2]);
+  return {options.scale, riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
+          {t[0], t[1], t[2]}};
+}
+
+double half_thickness_of(const riis_surface_options &options) {
+  return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
+}
+
+// Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
+template <class MakeTriangles>
+void fill(riis_surface &surface, const riis_surface_options &options, const MakeTriangles &make_triangles) {
+  Stopwatch stopwatch;
+  riis::TriangleSet triangles = make_triangles(placement_of(options));
+  const double seconds_triangles = stopwatch.lap();
+  auto made = std::make_unique<const riis::Surface>(std::move(triangles), half_thickness_of(options));
+  const double seconds_scene = stopwatch.lap();
+  riis::log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s", made->triangles().n_triangles(),
+                    seconds_triangles, seconds_scene);
+  surface.surface = std::move(made);
+  surface.options = options;
+  surface.seconds_triangles = seconds_triangles;
+  surface.seconds_scene = seconds_scene;
+}
+
+void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options) {
+  require(valve, "valve");
+  check_options(options);
+  fill(surface, options, [&](const riis::Placement &placement) {
+    const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
+    riis::TriangleSet triangles = riis::triangulate(valve->valve.kind().make_patches(valve->valve.values()), max_error, placement,
+                                                    options.flip_normals != 0);
+    if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve's parameters leave it without any area");
+    return triangles;
+  });
+}
+
+void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
+  const riis_surface_arrays whole = riis::completed(require(arrays, "arrays"), arrays_size, "arrays", default_arrays);
+  check_options(options);
+  fill(surface, options, [&](const riis::Placement &placement) {
+    return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP, options.flip_normals != 0);
+  });
+}
+
+template <class Fill>
+void create(const riis_surface_options *options, riis_surface **surface, const Fill &fill_surface) {
+  require(surface, "surface");
+  auto made = std::make_unique<riis_surface>();
+  fill_surface(*made, riis::completed(options, options_size, "options", default_options));
+  *surface = made.release();
+}
+
+const riis::Surface &content_of(const riis_surface *surface) { return *require(surface, "surface")->surface; }
+
+template <class T>
+void put(T *to, T value) {
+  if (to) *to = value;
+}
+
+// Entry i of the arrays that are wanted.
+void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis_closest &closest) {
+  const auto put_vector = [i](double *array, const double *value) {
+    if (array)
+      for (int c = 0; c < 3; ++c) array[3 * i + c] = value[c];
+  };
+  if (to.distance) to.distance[i] = closest.distance;
+  put_vector(to.point, closest.point);
+  put_vector(to.barycentric, closest.barycentric);
+  put_vector(to.normal, closest.normal);
+  if (to.triangle_id) to.triangle_id[i] = closest.triangle_id;
+  if (to.leaflet_id) to.leaflet_id[i] = closest.leaflet_id;
+  if (to.side) to.side[i] = closest.side;
+}
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(options, struct_size, options_size, "options", default_options); });
+}
+
+riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(arrays, struct_size, arrays_size, "arrays", default_arrays); });
+}
+
+riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
+  return guarded([&] {
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) { fill_from_valve(made, valve, whole); });
+  });
+}
+
+riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
+                                            riis_surface **surface) {
+  return guarded([&] {
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) { fill_from_arrays(made, arrays, whole); });
+  });
+}
+
+riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
+  return guarded([&] {
+    require(surface, "surface");
+    fill_from_valve(*surface, valve, riis::completed(options, options_size, "options", options ? default_options : surface->options));
+  });
+}
+
+riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
+                                            const riis_surface_options *options) {
+  return guarded([&] {
+    require(surface, "surface");
+    fill_from_arrays(*surface, arrays, riis::completed(options, options_size, "options", options ? default_options : surface->options));
+  });
+}
+
+void riis_surface_destroy(riis_surface **surface) {
+  if (!surface) return;
+  delete *surface;
+  *surface = nullptr;
+}
+
+riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = content_of(surface);
+    const riis::TriangleSet &set = content.triangles();
+    const auto &[lower, upper] = content.scene().bounds();
+    riis::write_struct(info, struct_size, info_size, "info",
+                       riis_surface_info{static_cast<int64_t>(set.n_vertices()), static_cast<int64_t>(set.n_triangles()),
+                                         set.n_zero_area, content.half_thickness(), content.area(),
+                                         {lower.x, lower.y, lower.z}, {upper.x, upper.y, upper.z},
+                                         surface->seconds_triangles, surface->seconds_scene});
+  });
+}
+
+riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices, const double **xyz) {
+  return guarded([&] {
+    const riis::TriangleSet &set = content_of(surface).triangles();
+    put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    put(xyz, set.xyz.data());
+  });
+}
+
+riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv) {
+  return guarded([&] {
+    const riis::TriangleSet &set = content_of(surface).triangles();
+    put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    put(uv, set.uv.empty() ? nullptr : set.uv.data());
+  });
+}
+
+riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles, const int64_t **vertex_id,
+                                   const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id) {
+  return guarded([&] {
+    const riis::TriangleSet &set = content_of(surface).triangles();
+    put(n_triangles, static_cast<int64_t>(set.n_triangles()));
+    put(vertex_id, set.vertex_id.data());
+    put(triangle_id, set.triangle_id.data());
+    put(leaflet_id, set.leaflet_id.data());
+    put(patch_id, set.patch_id.data());
+  });
+}
+
+riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = content_of(surface);
+    require(point, "point");
+    riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
+    const riis::Vec3 p{point[0], point[1], point[2]};
+    const riis::ClosestTriangle found = content.scene().closest(p, std::numeric_limits<double>::infinity());
+    riis::write_struct(closest, struct_size, closest_size, "closest", content.describe(p, found));
+  });
+}
+
+riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(options, struct_size, closest_options_size, "options", default_closest_options); });
+}
+
+riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(arrays, struct_size, closest_arrays_size, "arrays", default_closest_arrays); });
+}
+
+riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y, const double *z,
+                                int64_t stride, const riis_closest_options *options, const riis_closest_arrays *arrays) {
+  return guarded([&] {
+    const riis::Surface &content = content_of(surface);
+    const riis_closest_options whole = riis::completed(options, closest_options_size, "options", default_closest_options);
+    const riis_closest_arrays to =
+        riis::completed(require(arrays, "arrays"), closest_arrays_size, "arrays", default_closest_arrays);
+    if (n_points < 0) riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
+    riis::check_n_threads(whole.n_threads, "options.n_threads");
+    const bool limited = whole.distance_limit != RIIS_AUTO;
+    if (limited && !(whole.distance_limit >= 0))
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %g; it must be at least 0", whole.distance_limit);
+    const double limit = limited ? whole.distance_limit : std::numeric_limits<double>::infinity();
+    if (limited && whole.far_distance >= 0 && whole.far_distance <= limit)
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.far_distance is %g; it must not lie between 0 and the distance limit %g",
+                 whole.far_distance, limit);
+    if (n_points == 0) return;
+    const riis::StridedPoints points{n_points, x, y, z, stride};
+    riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
+
+    const riis_closest far{whole.far_distance, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, -1, -1, 0};
+    constexpr std::int64_t points_per_block = 512;
+    const int n_threads = whole.n_threads ? whole.n_threads : riis::default_thread_count();
+    riis::parallel_for((n_points + points_per_block - 1) / points_per_block, n_threads, [&](std::int64_t block, int) {
+      const std::int64_t begin = block * points_per_block, end = std::min(begin + points_per_block, n_points);
+      for (std::int64_t i = begin; i < end; ++i) {
+        const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
+        write_closest(to, i, found.triangle < 0 ? far : content.describe(points[i], found));
+      }
+    });
+  });
+}
+}

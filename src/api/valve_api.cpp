@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_valve_*: argument checks around valve/parameters.
+#include "api/errors.hpp"
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+
+using riis::guarded;
+using riis::require;
+
+extern "C" {
+
+riis_status riis_valve_create(const char *kind, riis_valve **valve) {
+  return guarded([&] {
+    require(valve, "valve");
+    *valve = new riis_valve{riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
+  });
+}
+
+void riis_valve_destroy(riis_valve **valve) {
+  if (!valve) return;
+  delete *valve;
+  *valve = nullptr;
+}
+
+riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values) {
+  return guarded([&] {
+    require(valve, "valve");
+    require(name, "name");
+    require(values, "values");
+    valve->valve.set(name, n_values, values);
+  });
+}
+
+riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value) {
+  return riis_valve_set(valve, name, 1, &value);
+}
+
+riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values, double *values) {
+  return guarded([&] {
+    require(valve, "valve");
+    require(name, "name");
+    require(values, "values");
+    valve->valve.get(name, n_values, values);
+  });
+}
+
+riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
+  return guarded([&] {
+    require(valve, "valve");
+    *require(n_parameters, "n_parameters") = static_cast<int64_t>(valve->valve.kind().parameters.size());
+  });
+}
+
+riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter, int64_t struct_size) {
+  return guarded([&] {
+    require(valve, "valve");
+    const auto &specs = valve->valve.kind().parameters;
+    if (parameter_id < 0 || parameter_id >= static_cast<int64_t>(specs.size()))
+      riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is %lld; the %s valve has parameters 0 to %lld",
+                 static_cast<long long>(parameter_id), valve->valve.kind().name, static_cast<long long>(specs.size()) - 1);
+    const riis::ParameterSpec &spec = specs[static_cast<std::size_t>(parameter_id)];
+    const auto &defaults = spec.default_values;
+    riis::write_struct(parameter, struct_size, 72, "parameter",
+                       riis_parameter{spec.name, spec.unit, spec.description, spec.n_values,
+                                      {defaults[0], defaults[1], defaults[2]}, spec.minimum, spec.maximum});
+  });
+}
+}

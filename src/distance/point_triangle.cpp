@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "distance/point_triangle.hpp"
+
+#include <limits>
+
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+namespace {
+
+struct Weights {
+  double b, c;  // of the second and third corner; the first has the rest
+};
+
+// Weights of the point of the triangle's plane closest to a + r. n = ab x ac.
+Weights plane_weights(Vec3 r, Vec3 ab, Vec3 ac, Vec3 n, double inverse_nn) {
+  return {dot(cross(r, ac), n) * inverse_nn, dot(cross(ab, r), n) * inverse_nn};
+}
+
+bool inside(Weights w) { return w.b >= 0 && w.c >= 0 && w.b + w.c <= 1; }
+
+// Parameter of the point of the segment closest to its first end + r.
+double segment_parameter(Vec3 r, Vec3 edge) {
+  const double t = dot(r, edge) / dot(edge, edge);
+  return t > 0 ? (t < 1 ? t : 1.0) : 0.0;
+}
+
+}  // namespace
+
+PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, ac = c - a, bc = c - b, ap = p - a, bp = p - b;
+  const double t_ab = segment_parameter(ap, ab), t_ac = segment_parameter(ap, ac), t_bc = segment_parameter(bp, bc);
+
+  PointOnTriangle best{};
+  best.distance_sq = std::numeric_limits<double>::infinity();
+  const auto offer = [&](Vec3 point, double weight_a, double weight_b, double weight_c) {
+    const Vec3 difference = p - point;
+    const double distance_sq = dot(difference, difference);
+    if (distance_sq < best.distance_sq) best = {distance_sq, point, {weight_a, weight_b, weight_c}};
+  };
+  // A clamped end is the corner itself, so that triangles that share it agree on the distance to the last bit.
+  const auto on_edge = [](Vec3 first, Vec3 edge, Vec3 last, double t) { return t == 1.0 ? last : first + t * edge; };
+  offer(on_edge(a, ab, b, t_ab), 1 - t_ab, t_ab, 0);
+  offer(on_edge(b, bc, c, t_bc), 0, 1 - t_bc, t_bc);
+  offer(on_edge(a, ac, c, t_ac), 1 - t_ac, 0, t_ac);
+
+  const Vec3 n = cross(ab, ac);
+  const double inverse_nn = 1.0 / dot(n, n);
+  Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
+  if (inside(w)) {
+    // The weights of a needle carry an error of rounding over its sine; projecting what is left removes most of it.
+    const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
+    const Weights refined{w.b + rest.b, w.c + rest.c};
+    if (inside(refined)) w = refined;
+    offer(a + (w.b * ab + w.c * ac), 1 - (w.b + w.c), w.b, w.c);
+  }
+  return best;
+}
+
+ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p) {
+  ClosestTriangle best{std::numeric_limits<double>::infinity(), -1};
+  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
+    const auto [a, b, c] = set.corners(i);
+    const double distance_sq = closest_point_on_triangle(p, a, b, c).distance_sq;
+    // Positions ascend, so the first of equals is the lowest.
+    if (distance_sq < best.distance_sq) best = {distance_sq, static_cast<std::int64_t>(i)};
+  }
+  return best;
+}
+
+}  // namespace riis

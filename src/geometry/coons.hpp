@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bilinearly blended Coons patches of four polylines as a grid of quads (paper, 3.3 "Surface structure").
+// In: four boundary polylines that meet at their ends. Out: grid points at the union of their parameters.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geometry/polyline.hpp"
+
+namespace riis {
+
+// The sides of a patch, named by the parameter that is constant on them. side_v0 and side_v1 run with u, side_u0 and side_u1
+// run with v. A collapsed side has length 0.
+struct PatchSides {
+  const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
+};
+
+// One line of the grid. Where vertices of two opposite sides nearly coincide in parameter they share a line, each side keeping its
+// own vertex: no sliver quads, and no vertex of a shared curve is lost or moved, so neighbouring patches stay without cracks.
+struct GridLine {
+  double t0, t1;  // parameter on the first and the second side that the line ends on
+  double middle;  // their mean: the line's u (or v)
+};
+
+// The union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without length gives none.
+std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
+
+struct QuadGrid {
+  std::vector<double> u, v;  // ascending from 0 to 1
+  std::vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
+
+  const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
+};
+
+// The Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged where that moves a point by
+// at most max_merge_shift along a side.
+QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift);
+
+// S(u,v): bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for the weight's
+// numerator; it is u - u_{o-1}.)
+Vec3 evaluate(const QuadGrid &grid, double u, double v);
+
+}  // namespace riis

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rotations and the placement x -> scale * rotation * x + translation.
+#pragma once
+
+#include "geometry/vec3.hpp"
+
+namespace riis {
+
+struct Rotation {
+  Vec3 row_x, row_y, row_z;
+};
+
+inline Vec3 operator*(const Rotation &rotation, Vec3 a) {
+  return {dot(rotation.row_x, a), dot(rotation.row_y, a), dot(rotation.row_z, a)};
+}
+
+// By an angle in degrees about an axis of any length > 0, counter-clockwise seen against the axis. Exact for multiples of 90
+// degrees about a coordinate axis.
+Rotation rotation_about(Vec3 axis, double degrees);
+
+// First about x, then y, then z, by degrees: how the paper's rotation [x, y, z] of a cusp is read.
+Rotation rotation_xyz(Vec3 degrees);
+
+struct Placement {
+  double scale;
+  Rotation rotation;
+  Vec3 translation;
+};
+
+inline Vec3 place(const Placement &placement, Vec3 a) {
+  return placement.scale * (placement.rotation * a) + placement.translation;
+}
+
+// Sine and cosine of degrees, exact at multiples of 90.
+struct SineCosine {
+  double sine, cosine;
+};
+SineCosine sine_cosine_degrees(double degrees);
+
+}  // namespace riis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/polyline.hpp"
+
+#include <algorithm>
+
+namespace riis {
+
+Polyline make_polyline(const std::vector<Vec3> &points) {
+  Polyline polyline{{points.front()}, {0.0}, 0.0};
+  for (const Vec3 &point : points) {
+    const double step = distance(polyline.points.back(), point);
+    // A step too short to change the sum would repeat a t.
+    if (!(polyline.length + step > polyline.length)) continue;
+    polyline.length += step;
+    polyline.points.push_back(point);
+    polyline.t.push_back(polyline.length);
+  }
+  if (polyline.length > 0) {
+    // The end point is the curve's, whatever step was dropped before it: neighbours share it.
+    polyline.points.back() = points.back();
+    for (double &t : polyline.t) t /= polyline.length;
+  }
+  return polyline;
+}
+
+Vec3 evaluate(const Polyline &polyline, double t) {
+  const auto after = std::upper_bound(polyline.t.begin(), polyline.t.end(), t);
+  if (after == polyline.t.end()) return polyline.points.back();
+  if (after == polyline.t.begin()) return polyline.points.front();
+  const auto i = static_cast<std::size_t>(after - polyline.t.begin());
+  const double t0 = polyline.t[i - 1], t1 = polyline.t[i];
+  return mix(polyline.points[i - 1], polyline.points[i], (t - t0) / (t1 - t0));
+}
+
+}  // namespace riis

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/mark_nodes.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// Calls visit for every found node, ascending.
+template <class Visit>
+void for_each_found(const Collection &collection, const Visit &visit) {
+  for (const Collection::Block &block : collection.blocks) {
+    const auto &found = collection.by_thread[static_cast<std::size_t>(block.thread)];
+    for (std::size_t i = block.begin; i < block.end; ++i) visit(found[i]);
+  }
+}
+
+// The found nodes as lists. All memory is reserved before anything is overwritten.
+void fill_lists(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, MarkResult &result) {
+  std::size_t n_within = 0, n_marked = 0;
+  for_each_found(result.collection, [&](const FoundNode &found) {
+    ++n_within;
+    if (found.distance <= half_thickness) ++n_marked;
+  });
+  const std::size_t n_in_marked = limit_is_wider ? n_marked : 0;
+  result.within.reserve(n_within);
+  result.marked.reserve(n_in_marked);
+
+  result.within.resize(n_within);
+  result.marked.resize(n_in_marked);
+  std::size_t i = 0, j = 0;
+  for_each_found(result.collection, [&](const FoundNode &found) {
+    const auto triangle = static_cast<std::size_t>(found.triangle);
+    const std::int64_t triangle_id = triangles.triangle_id[triangle];
+    const std::int32_t leaflet_id = triangles.leaflet_id[triangle];
+    result.within.set(i++, found.node, found.distance, triangle_id, leaflet_id);
+    if (limit_is_wider && found.distance <= half_thickness)
+      result.marked.set(j++, found.node, found.distance, triangle_id, leaflet_id);
+  });
+}
+
+}  // namespace
+
+void mark_nodes(const SearchRequest &request, std::int32_t, MarkResult &result) {
+  const auto start = std::chrono::steady_clock::now();
+  // One search so far: whatever was asked for, it is this one.
+  const SearchReport report = search_exhaustively(request, result.collection);
+  const double half_thickness = request.surface.half_thickness();
+  const bool limit_is_wider = request.distance_limit > half_thickness;
+  fill_lists(request.surface.triangles(), half_thickness, limit_is_wider, result);
+  result.limit_is_wider = limit_is_wider;
+  result.distance_limit = request.distance_limit;
+  result.n_threads = request.n_threads;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  result.stats = {request.mesh.nodes.n,
+                  static_cast<std::int64_t>(result.marked_nodes().size()),
+                  static_cast<std::int64_t>(result.within.size()),
+                  report.n_queries,
+                  elapsed.count(),
+                  RIIS_SEARCH_EXHAUSTIVE,
+                  report.n_threads,
+                  1,
+                  0};
+}
+
+void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance, std::int64_t *triangle_id,
+                 std::int32_t *leaflet_id) {
+  constexpr std::int64_t nodes_per_block = 65536;
+  const std::int64_t n_nodes = result.stats.n_nodes;
+  parallel_for((n_nodes + nodes_per_block - 1) / nodes_per_block, result.n_threads, [&](std::int64_t block, int) {
+    const std::int64_t begin = block * nodes_per_block, end = std::min(begin + nodes_per_block, n_nodes);
+    if (mark) std::fill(mark + begin, mark + end, std::uint8_t{0});
+    if (distance) std::fill(distance + begin, distance + end, far_distance);
+    if (triangle_id) std::fill(triangle_id + begin, triangle_id + end, std::int64_t{-1});
+    if (leaflet_id) std::fill(leaflet_id + begin, leaflet_id + end, -1);
+  });
+  for (const std::int64_t node : result.marked_nodes().node_id)
+    if (mark) mark[node] = 1;
+  const NodeList &within = result.within;
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    const std::int64_t node = within.node_id[i];
+    if (distance) distance[node] = within.distance[i];
+    if (triangle_id) triangle_id[node] = within.triangle_id[i];
+    if (leaflet_id) leaflet_id[node] = within.leaflet_id[i];
+  }
+}
+
+}  // namespace riis

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marking from request to result: the search, then the lists.
+#pragma once
+
+#include "marking/exhaustive.hpp"
+#include "marking/mark_result.hpp"
+
+namespace riis {
+
+// search is RIIS_SEARCH_*, a known one. A failure leaves the content of the result as it was.
+void mark_nodes(const SearchRequest &request, std::int32_t search, MarkResult &result);
+
+// Dense arrays of the result, any of them null; docs at riis_mark_result_dense.
+void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance, std::int64_t *triangle_id,
+                 std::int32_t *leaflet_id);
+
+}  // namespace riis

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The default floating-point environment for the length of a scope, the caller's afterwards. Solvers run with traps
+// (-ffpe-trap), flush-to-zero (-ffast-math) or another rounding mode: none may change a result or fire inside. Each thread that
+// computes needs its own.
+#pragma once
+
+#include <cfenv>
+
+namespace riis {
+
+class FloatEnvironment {
+ public:
+  FloatEnvironment() noexcept {
+    std::fegetenv(&caller_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~FloatEnvironment() { std::fesetenv(&caller_); }
+  FloatEnvironment(const FloatEnvironment &) = delete;
+  FloatEnvironment &operator=(const FloatEnvironment &) = delete;
+
+ private:
+  std::fenv_t caller_;
+};
+
+}  // namespace riis

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seam through which every parallel loop goes; the only file that names OpenMP.
+#pragma once
+
+#include <omp.h>
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+
+#include "parallel/float_environment.hpp"
+
+namespace riis {
+
+// The processors that this process may use: what n_threads = 0 stands for. (OpenMP's count of processors follows the
+// affinity mask of the process and, unlike the mask of the calling thread, does not shrink when threads are bound.)
+inline int default_thread_count() noexcept {
+  const int n = omp_get_num_procs();
+  return n < 1 ? 1 : n;
+}
+
+// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads and returns how many threads ran. Blocks are
+// handed out in ascending order, so each thread sees ascending block numbers. The first exception is thrown again here
+// after all threads have stopped. No setting of the caller's OpenMP changes; inside a caller's parallel region the loop runs
+// on as many threads as nesting allows.
+template <class Body>
+int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+  if (n_threads > n_blocks) n_threads = n_blocks < 1 ? 1 : static_cast<int>(n_blocks);
+  std::atomic<std::int64_t> next_block{0};
+  std::exception_ptr first_exception;
+  int n_ran = 1;
+#pragma omp parallel num_threads(n_threads) default(none) \
+    shared(n_blocks, body, next_block, first_exception, n_ran)
+  {
+    const FloatEnvironment environment;
+    const int thread = omp_get_thread_num();
+    if (thread == 0) n_ran = omp_get_num_threads();
+    try {
+      for (std::int64_t block; (block = next_block.fetch_add(1, std::memory_order_relaxed)) < n_blocks;)
+        body(block, thread);
+    } catch (...) {
+      next_block.store(n_blocks, std::memory_order_relaxed);
+#pragma omp critical(riis_first_exception)
+      {
+        if (!first_exception) first_exception = std::current_exception();
+      }
+    }
+  }
+  if (first_exception) std::rethrow_exception(first_exception);
+  return n_ran;
+}
+
+}  // namespace riis

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles in an Embree scene, asked for closest points. The only file, with its .cpp, that names Embree.
+// In: a triangle set, a point, a limit. Out: the closest triangle, equal to the brute force over the same kernel.
+//
+// Embree works in single precision. Here it only culls: coordinates are recentred and scaled by a power of two to the size of
+// the surface, boxes are rounded outwards, radii inflated by more than Embree's rounding; every candidate is decided in double.
+#pragma once
+
+#include <memory>
+
+#include "distance/point_triangle.hpp"
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+
+struct Bounds {
+  Vec3 lower, upper;
+};
+
+class TriangleScene {
+ public:
+  // Keeps a copy of the corners; the set may go. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY as Embree says.
+  explicit TriangleScene(const TriangleSet &set);
+  ~TriangleScene();
+  TriangleScene(const TriangleScene &) = delete;
+  TriangleScene &operator=(const TriangleScene &) = delete;
+
+  // The closest triangle to p, if its distance is at most limit (>= 0, may be infinite); triangle -1 if there is none. p is
+  // finite with coordinates up to max_coordinate. May be called by several threads at once.
+  ClosestTriangle closest(Vec3 p, double limit) const;
+
+  const Bounds &bounds() const { return bounds_; }
+
+  struct Implementation;  // public for Embree's callbacks
+
+ private:
+  Bounds bounds_;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// A lower bound on the distance from p to anything inside the bounds, 0 inside them.
+double distance_to_bounds(Vec3 p, const Bounds &bounds);
+
+}  // namespace riis

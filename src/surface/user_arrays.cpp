@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/user_arrays.hpp"
+
+#include <limits>
+
+#include "api/errors.hpp"
+#include "api/log.hpp"
+
+namespace riis {
+namespace {
+
+using ll = long long;
+
+void check_fields(const riis_surface_arrays &arrays) {
+  require(arrays.x, "arrays.x");
+  require(arrays.y, "arrays.y");
+  require(arrays.z, "arrays.z");
+  require(arrays.vertex_ids, "arrays.vertex_ids");
+  if (arrays.stride < 1) fail(RIIS_INVALID_ARGUMENT, "arrays.stride is %lld; it must be at least 1", ll{arrays.stride});
+  if (arrays.vertex_id_bits != 32 && arrays.vertex_id_bits != 64)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.vertex_id_bits is %d; it must be 32 or 64", arrays.vertex_id_bits);
+  if (arrays.index_base != 0 && arrays.index_base != 1)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.index_base is %d; it must be 0 or 1", arrays.index_base);
+  if (arrays.corners_per_face != 3 && arrays.corners_per_face != 4)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.corners_per_face is %d; it must be 3 or 4", arrays.corners_per_face);
+  if (arrays.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "arrays.reserved is %d; it must be 0", arrays.reserved);
+  if (arrays.n_vertices < 1 || arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
+    fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is %lld; it must be from 1 to 2147483647", ll{arrays.n_vertices});
+  const std::int64_t max_faces = max_triangles / (arrays.corners_per_face - 2);
+  if (arrays.n_faces < 1) fail(RIIS_INVALID_SURFACE, "arrays.n_faces is %lld; it must be at least 1", ll{arrays.n_faces});
+  if (arrays.n_faces > max_faces)
+    fail(RIIS_LIMIT_EXCEEDED, "arrays.n_faces is %lld; it must be at most %lld", ll{arrays.n_faces}, ll{max_faces});
+}
+
+std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
+  const std::int64_t number = arrays.vertex_id_bits == 32 ? static_cast<const std::int32_t *>(arrays.vertex_ids)[i]
+                                                          : static_cast<const std::int64_t *>(arrays.vertex_ids)[i];
+  const std::int64_t base = arrays.index_base;
+  if (number < base || number - base >= arrays.n_vertices)
+    fail(RIIS_INVALID_SURFACE, "arrays.vertex_ids: corner %lld of face %lld is %lld; it must be from %lld to %lld",
+         ll{i % arrays.corners_per_face}, ll{i / arrays.corners_per_face}, ll{number}, ll{base},
+         ll{arrays.n_vertices - 1 + base});
+  return number - base;
+}
+
+void place_vertices(const riis_surface_arrays &arrays, const Placement &placement, TriangleSet &set) {
+  set.xyz.reserve(static_cast<std::size_t>(3 * arrays.n_vertices));
+  for (std::int64_t i = 0; i < arrays.n_vertices; ++i) {
+    const Vec3 p{arrays.x[i * arrays.stride], arrays.y[i * arrays.stride], arrays.z[i * arrays.stride]};
+    const Vec3 placed = place(placement, p);
+    const double coordinates[6] = {p.x, p.y, p.z, placed.x, placed.y, placed.z};
+    for (int c = 0; c < 6; ++c)
+      if (!(std::abs(coordinates[c]) <= max_coordinate))
+        fail(RIIS_INVALID_SURFACE, "%s of vertex %lld%s is %g; it must be finite and at most %g in magnitude",
+             c % 3 == 0 ? "x" : (c % 3 == 1 ? "y" : "z"), ll{i}, c < 3 ? "" : ", placed,", coordinates[c], max_coordinate);
+    set.xyz.insert(set.xyz.end(), {placed.x, placed.y, placed.z});
+  }
+}
+
+}  // namespace
+
+TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Placement &placement, bool skip_zero_area,
+                                  bool flip_normals) {
+  check_fields(arrays);
+  TriangleSet set;
+  place_vertices(arrays, placement, set);
+  const std::int64_t corners = arrays.corners_per_face, halves = corners - 2;
+  const auto n_triangles = static_cast<std::size_t>(arrays.n_faces * halves);
+  set.vertex_id.reserve(3 * n_triangles);
+  set.triangle_id.reserve(n_triangles);
+  set.leaflet_id.reserve(n_triangles);
+  for (std::int64_t face = 0; face < arrays.n_faces; ++face) {
+    const std::int32_t leaflet_id = arrays.leaflet_id ? arrays.leaflet_id[face] : 0;
+    if (leaflet_id < 0) fail(RIIS_INVALID_SURFACE, "arrays.leaflet_id of face %lld is %d; it must be at least 0", ll{face}, leaflet_id);
+    for (std::int64_t half = 0; half < halves; ++half) {
+      const std::int64_t a = vertex_id_at(arrays, face * corners);
+      std::int64_t b = vertex_id_at(arrays, face * corners + half + 1);
+      std::int64_t c = vertex_id_at(arrays, face * corners + half + 2);
+      if (has_zero_area(set.vertex(a), set.vertex(b), set.vertex(c))) {
+        if (!skip_zero_area)
+          fail(RIIS_INVALID_SURFACE, "face %lld (vertices %lld, %lld, %lld%s) has zero area", ll{face}, ll{a + arrays.index_base},
+               ll{b + arrays.index_base}, ll{c + arrays.index_base}, corners == 4 ? ", one half of a quad" : "");
+        ++set.n_zero_area;
+        continue;
+      }
+      if (flip_normals) std::swap(b, c);
+      set.vertex_id.insert(set.vertex_id.end(), {a, b, c});
+      set.triangle_id.push_back(face * halves + half);
+      set.leaflet_id.push_back(leaflet_id);
+    }
+  }
+  set.patch_id.assign(set.triangle_id.size(), 0);
+  if (set.n_triangles() == 0)
+    fail(RIIS_INVALID_SURFACE, "none of the %lld faces has any area", ll{arrays.n_faces});
+  if (set.n_zero_area > 0)
+    log_message(RIIS_LOG_WARNING, "%lld of %lld triangles have zero area and were left out", ll{set.n_zero_area}, ll{arrays.n_faces * halves});
+  return set;
+}
+
+}  // namespace riis

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/errors.hpp"
+#include "valve/aortic.hpp"
+
+namespace riis {
+namespace {
+
+// A name as it appears in an error: cut, because it may be anything.
+struct Shown {
+  explicit Shown(std::string_view text) : size(static_cast<int>(std::min<std::size_t>(text.size(), 80))), data(text.data()) {}
+  int size;
+  const char *data;
+};
+
+[[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
+  const Shown shown(name);
+  fail(RIIS_INVALID_PARAMETER, "'%.*s' is not a parameter of the %s valve", shown.size, shown.data, kind.name);
+}
+
+// Whether the spec's name is a leaflet's name, a dot, and the given name.
+bool is_of_a_leaflet(const ParameterSpec &spec, std::string_view name) {
+  const std::string_view full = spec.name;
+  return full.size() > name.size() + 1 && full.substr(full.size() - name.size()) == name &&
+         full[full.size() - name.size() - 1] == '.';
+}
+
+void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_values, const double *values) {
+  const Shown shown(name);
+  if (n_values != spec.n_values)
+    fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' has %d value%s, not %lld", shown.size, shown.data, spec.n_values,
+         spec.n_values == 1 ? "" : "s", static_cast<long long>(n_values));
+  for (int i = 0; i < spec.n_values; ++i)
+    if (!(values[i] >= spec.minimum && values[i] <= spec.maximum))
+      fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' is %g; it must be from %g to %g", shown.size, shown.data, values[i],
+           spec.minimum, spec.maximum);
+}
+
+}  // namespace
+
+const ValveKind &find_valve_kind(std::string_view name) {
+  if (name == "aortic") return aortic_valve_kind();
+  const Shown shown(name);
+  fail(RIIS_INVALID_PARAMETER, "'%.*s' is not a kind of valve; there is: aortic", shown.size, shown.data);
+}
+
+Valve::Valve(const ValveKind &kind) : kind_(&kind) {
+  values_.reserve(kind.parameters.size());
+  for (const ParameterSpec &spec : kind.parameters) values_.push_back(spec.default_values);
+}
+
+void Valve::set(std::string_view name, std::int64_t n_values, const double *new_values) {
+  const auto &specs = kind_->parameters;
+  const auto named = [&](const ParameterSpec &spec) { return spec.name == name || is_of_a_leaflet(spec, name); };
+  if (std::none_of(specs.begin(), specs.end(), named)) fail_unknown(*kind_, name);
+  for (const ParameterSpec &spec : specs)
+    if (named(spec)) check(spec, name, n_values, new_values);
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (named(specs[i])) std::copy_n(new_values, n_values, values_[i].begin());
+}
+
+void Valve::get(std::string_view name, std::int64_t n_values, double *out) const {
+  const auto &specs = kind_->parameters;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (specs[i].name != name) continue;
+    if (n_values != specs[i].n_values)
+      fail(RIIS_INVALID_PARAMETER, "parameter '%s' has %d value%s, not %lld", specs[i].name, specs[i].n_values,
+           specs[i].n_values == 1 ? "" : "s", static_cast<long long>(n_values));
+    std::copy_n(values_[i].begin(), n_values, out);
+    return;
+  }
+  for (const ParameterSpec &spec : specs)
+    if (is_of_a_leaflet(spec, name))
+      fail(RIIS_INVALID_PARAMETER, "parameter '%s' belongs to one leaflet each: ask for '%s'",
+           spec.name + (std::string_view(spec.name).size() - name.size()), spec.name);
+  fail_unknown(*kind_, name);
+}
+
+}  // namespace riis

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a data set of triangles, quads, polygons and triangle strips, whose cells have been checked. Out: plain arrays of
+// triangles, or of quads where the data set holds nothing else, with a leaflet id for each face.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace riis::vtk {
+
+struct Faces {
+  std::vector<double> xyz;               // (3, n_vertices): all points, used or not
+  std::vector<std::int64_t> vertex_ids;  // (corners_per_face, n_faces)
+  std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set names none
+  std::int32_t corners_per_face = 3;
+};
+
+// The path is for the error text only.
+Faces faces_of(const std::string &path, vtkPointSet *data);
+
+}  // namespace riis::vtk

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vtk/files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "vtk/vtk_errors.hpp"
+
+namespace riis::vtk {
+namespace {
+
+std::string system_text(int error) { return std::generic_category().message(error); }
+
+// The file itself where the path is a link to an existing file.
+std::string resolved(const std::string &path) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::canonical(path, error);
+  return error ? path : target.string();
+}
+
+// Creates an empty file with a name of its own beside the place and returns the name.
+std::string create_beside(const std::string &place) {
+  static int n_created = 0;
+  const std::filesystem::path folder = std::filesystem::path(place).parent_path();
+  for (;;) {
+    const std::string name = ".riis-" + std::to_string(getpid()) + "-" + std::to_string(n_created++) + ".tmp";
+    const std::string path = (folder / name).string();
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      close(file);
+      return path;
+    }
+    if (errno != EEXIST) throw std::system_error(errno, std::generic_category());
+  }
+}
+
+// Some file systems report a failed write only when the data has to reach the disk.
+int synchronise(const std::string &path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return errno;
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  return error;
+}
+
+}  // namespace
+
+std::string ending_of(const std::string &path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
+}
+
+std::int64_t check_readable(const std::string &path) {
+  struct stat status;
+  if (stat(path.c_str(), &status) != 0) fail_file(path, "cannot be read: " + system_text(errno));
+  if (S_ISDIR(status.st_mode)) fail_file(path, "is a directory");
+  if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
+  if (access(path.c_str(), R_OK) != 0) fail_file(path, "cannot be read: " + system_text(errno));
+  if (status.st_size == 0) fail_file(path, "is empty");
+  return status.st_size;
+}
+
+std::string tail_of(const std::string &path, std::int64_t n_bytes) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::int64_t size = file ? static_cast<std::int64_t>(file.tellg()) : 0;
+  std::string tail(static_cast<std::size_t>(std::min(size, n_bytes)), '\0');
+  file.seekg(size - static_cast<std::int64_t>(tail.size()));
+  if (!file.read(tail.data(), static_cast<std::streamsize>(tail.size()))) tail.clear();
+  return tail;
+}
+
+ReplacingFile::ReplacingFile(const std::string &path) : path_(path), place_(resolved(path)) {
+  struct stat status;
+  if (stat(place_.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail_file(path, "is a directory");
+    if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
+    if (access(place_.c_str(), W_OK) != 0) fail_file(path, "cannot be written: " + system_text(errno));
+  }
+  try {
+    temporary_ = create_beside(place_);
+  } catch (const std::system_error &error) {
+    fail_file(path, "cannot be written: " + system_text(error.code().value()));
+  }
+}
+
+ReplacingFile::~ReplacingFile() {
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void ReplacingFile::commit(const std::string &closing) {
+  if (const int error = synchronise(temporary_)) fail_file(path_, "cannot be written: " + system_text(error));
+  if (tail_of(temporary_, 64).find(closing) == std::string::npos) {
+    fail_file(path_, "could not be written completely (is the disk full?)");
+  }
+  if (std::rename(temporary_.c_str(), place_.c_str()) != 0) {
+    fail_file(path_, "cannot be written: " + system_text(errno));
+  }
+  temporary_.clear();
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vtk/grid_files.hpp"
+
+#include <array>
+#include <fstream>
+
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkGenericCell.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include "vtk/files.hpp"
+
+namespace riis::vtk {
+namespace {
+
+// What the VTKFile element at the beginning of an XML file says that the file holds; "" if there is none.
+std::string xml_type(const std::string &path) {
+  std::string head(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::size_t element = head.find("<VTKFile");
+  const std::size_t type = element == std::string::npos ? element : head.find("type=", element);
+  if (type == std::string::npos || type + 6 > head.size()) return "";
+  const std::size_t end = head.find(head[type + 5], type + 6);
+  return end == std::string::npos ? "" : head.substr(type + 6, end - type - 6);
+}
+
+// VTK's parser stops at appended data without looking for the end of the file.
+void check_xml(const std::string &path, const std::string &wanted_type) {
+  check_readable(path);
+  const std::string type = xml_type(path);
+  if (type.empty()) fail_file(path, "is not a VTK XML file");
+  if (type != wanted_type) fail_file(path, "holds " + type + ", not " + wanted_type);
+  if (tail_of(path, 4096).find("</VTKFile>") == std::string::npos)
+    fail_file(path, "is truncated: </VTKFile> is missing");
+}
+
+void check_array_lengths(const std::string &path, vtkFieldData *data, const char *kind, vtkIdType n) {
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    const vtkAbstractArray *array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != n) {
+      const char *name = const_cast<vtkAbstractArray *>(array)->GetName();
+      fail_file(path, std::string(kind) + " array " + (name ? name : "without a name") + " has " +
+                          std::to_string(array->GetNumberOfTuples()) + " values for " + std::to_string(n));
+    }
+  }
+}
+
+void check_data_set(const std::string &path, vtkPointSet *data) {
+  if (data->GetNumberOfPoints() == 0) fail_file(path, "holds no points");
+  check_array_lengths(path, data->GetPointData(), "point", data->GetNumberOfPoints());
+  check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
+}
+
+// Offsets must be sound before any cell can be looked at.
+void check_offsets(const std::string &path, vtkCellArray *cells) {
+  if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
+}
+
+void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_id, vtkIdType n_points) {
+  if (point_id < 0 || point_id >= n_points) {
+    fail_file(path, "cell " + std::to_string(cell_id) + " names point " + std::to_string(point_id) + " of " +
+                        std::to_string(n_points));
+  }
+}
+
+void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType n_points) {
+  check_offsets(path, cells);
+  const vtkIdType n_cells = cells ? cells->GetNumberOfCells() : 0;
+  for (vtkIdType cell_id = 0; cell_id < n_cells; ++cell_id) {
+    vtkIdType n = 0;
+    const vtkIdType *ids = nullptr;
+    cells->GetCellAtId(cell_id, n, ids);
+    for (vtkIdType i = 0; i < n; ++i) check_point_id(path, cell_id, ids[i], n_points);
+  }
+}
+
+// How many points a cell of each type has: 0 where the type leaves it open, -1 where there is no such type.
+std::array<int, 256> points_of_cell_types() {
+  std::array<int, 256> n_points{};
+  for (int type = 0; type < 256; ++type) {
+    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    const bool variable = type >= VTK_HIGHER_ORDER_EDGE || (cell && cell->RequiresExplicitFaceRepresentation());
+    n_points[static_cast<std::size_t>(type)] = !cell ? -1 : variable ? 0 : static_cast<int>(cell->GetNumberOfPoints());
+  }
+  return n_points;
+}
+
+// VTK's cells trust the number of their points.
+void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
+  static const std::array<int, 256> points_of_type = points_of_cell_types();
+  for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
+    const int type = grid->GetCellType(cell_id);
+    const int n_expected = points_of_type[static_cast<std::size_t>(type)];
+    const vtkIdType n = grid->GetCells()->GetCellSize(cell_id);
+    if (n_expected < 0)
+      fail_file(path, "cell " + std::to_string(cell_id) + " has the unknown type " + std::to_string(type));
+    if (n_expected > 0 && n != n_expected) {
+      fail_file(path, "cell " + std::to_string(cell_id) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type) +
+                          " with " + std::to_string(n) + " points");
+    }
+  }
+}
+
+// A polyhedron's faces: at its location the number of faces, then for each face its size and its points.
+void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
+                      vtkIdType n_points) {
+  const vtkIdType n_values = faces->GetNumberOfValues();
+  const auto value = [&](vtkIdType i) {
+    if (i < 0 || i >= n_values) fail_file(path, "cell " + std::to_string(cell_id) + " has broken polyhedron faces");
+    return faces->GetValue(i);
+  };
+  vtkIdType position = location;
+  const vtkIdType n_faces = value(position++);
+  for (vtkIdType face = 0; face < n_faces; ++face) {
+    const vtkIdType n_corners = value(position++);
+    for (vtkIdType corner = 0; corner < n_corners; ++corner) check_point_id(path, cell_id, value(position++), n_points);
+  }
+}
+
+void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
+  for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
+    if (grid->GetCellType(cell_id) != VTK_POLYHEDRON) continue;
+    vtkIdTypeArray *faces = grid->GetFaces();
+    vtkIdTypeArray *locations = grid->GetFaceLocations();
+    if (!faces || !locations || locations->GetNumberOfValues() <= cell_id) {
+      fail_file(path, "cell " + std::to_string(cell_id) + " is a polyhedron without faces");
+    }
+    check_polyhedron(path, cell_id, locations->GetValue(cell_id), faces, grid->GetNumberOfPoints());
+  }
+}
+
+void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
+  check_data_set(path, grid);
+  check_point_ids(path, grid->GetCells(), grid->GetNumberOfPoints());
+  check_cell_sizes(path, grid);
+  check_polyhedra(path, grid);
+}
+
+// Runs an XML reader and compares what it hands out with what the file promised.
+template <class Reader, class DataSet>
+vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
+  vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  caught.check(path);
+  if (reader->GetErrorCode() != vtkErrorCode::NoError) {
+    fail_file(path, vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode()));
+  }
+  vtkSmartPointer<DataSet> data = reader->GetOutput();
+  if (!data || data->GetNumberOfPoints() != reader->GetNumberOfPoints() ||
+      data->GetNumberOfCells() != reader->GetNumberOfCells()) {
+    fail_file(path, "holds fewer points or cells than it promises");
+  }
+  return data;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const CaughtOutput &caught) {
+  check_readable(path);
+  vtkNew<vtkUnstructuredGridReader> reader;
+  reader->SetFileName(path.c_str());
+  if (!reader->IsFileUnstructuredGrid()) fail_file(path, "is not a legacy VTK file with an unstructured grid");
+  // Left to itself the reader keeps one array of a kind.
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllNormalsOn();
+  reader->ReadAllTensorsOn();
+  reader->ReadAllColorScalarsOn();
+  reader->ReadAllTCoordsOn();
+  reader->ReadAllFieldsOn();
+  reader->Update();
+  caught.check(path);
+  vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
+  if (!grid) fail_file(path, "could not be read");
+  // The legacy format has no end mark: a file cut after its points would pass for a grid without cells.
+  if (grid->GetNumberOfPoints() > 0 && grid->GetNumberOfCells() == 0)
+    fail_file(path, "holds no cells (is it truncated?)");
+  return grid;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught) {
+  const std::string ending = ending_of(path);
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
+  if (ending == "vtu") {
+    check_xml(path, "UnstructuredGrid");
+    grid = read_xml<vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(path, caught);
+  } else if (ending == "vtk") {
+    grid = read_legacy(path, caught);
+  } else {
+    fail_file(path, "a mesh must be a .vtu or .vtk file");
+  }
+  check_grid(path, grid);
+  return grid;
+}
+
+vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught) {
+  check_xml(path, "PolyData");
+  const auto data = read_xml<vtkXMLPolyDataReader, vtkPolyData>(path, caught);
+  check_data_set(path, data);
+  for (vtkCellArray *cells : {data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips()}) {
+    check_point_ids(path, cells, data->GetNumberOfPoints());
+  }
+  return data;
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the opaque mesh handle holds.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+struct riis_vtk_mesh {
+  vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
+};

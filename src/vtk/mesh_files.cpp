@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Volume meshes of riis_vtk.h: a file to a grid with double points, marks into its point arrays, the grid to a .vtu
+// file.
+#include <riis/riis_vtk.h>
+
+#include <memory>
+
+#include <vtkDoubleArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include "vtk/array_names.hpp"
+#include "vtk/files.hpp"
+#include "vtk/grid_files.hpp"
+#include "vtk/mesh.hpp"
+#include "vtk/vtk_errors.hpp"
+#include "vtk/xml_writing.hpp"
+
+namespace riis::vtk {
+namespace {
+
+void make_points_double(vtkUnstructuredGrid *grid) {
+  if (vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())) return;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->DeepCopy(grid->GetPoints());
+  grid->SetPoints(points);
+}
+
+template <class Array>
+vtkSmartPointer<Array> point_array(const char *name, vtkIdType n_points) {
+  const auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(n_points);
+  return array;
+}
+
+void check_is_of_mesh(const riis_mark_result *result, vtkIdType n_nodes) {
+  riis_mark_stats stats{};
+  check_core(riis_mark_result_stats(result, &stats, sizeof stats));
+  if (stats.n_nodes != n_nodes) {
+    fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with " + std::to_string(stats.n_nodes) + " nodes, this mesh has " +
+                                    std::to_string(n_nodes));
+  }
+}
+
+void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance) {
+  const vtkIdType n = grid->GetNumberOfPoints();
+  check_is_of_mesh(result, n);
+  const auto marked = point_array<vtkUnsignedCharArray>(marked_array, n);
+  const auto distance = point_array<vtkDoubleArray>(distance_array, n);
+  const auto leaflet = point_array<vtkTypeInt32Array>(leaflet_array, n);
+  check_core(riis_mark_result_dense(result, n, far_distance, marked->GetPointer(0), distance->GetPointer(0), nullptr,
+                                    leaflet->GetPointer(0)));
+  for (vtkDataArray *array : {static_cast<vtkDataArray *>(marked), static_cast<vtkDataArray *>(distance),
+                              static_cast<vtkDataArray *>(leaflet)}) {
+    grid->GetPointData()->AddArray(array);
+  }
+}
+
+}  // namespace
+}  // namespace riis::vtk
+
+using namespace riis::vtk;
+
+extern "C" {
+
+RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(path, "path");
+    require(mesh, "mesh");
+    auto made = std::make_unique<riis_vtk_mesh>();
+    made->grid = read_grid(path, caught);
+    make_points_double(made->grid);
+    *mesh = made.release();
+  });
+}
+
+RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
+  if (!mesh) return;
+  delete *mesh;
+  *mesh = nullptr;
+}
+
+RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
+                                         const double **xyz) {
+  return guarded([&](const CaughtOutput &) {
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    if (n_nodes) *n_nodes = grid->GetNumberOfPoints();
+    if (n_cells) *n_cells = grid->GetNumberOfCells();
+    if (xyz) *xyz = vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance) {
+  return guarded(
+      [&](const CaughtOutput &) { set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance); });
+}
+
+RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(mesh, "mesh");
+    write_xml<vtkXMLUnstructuredGridWriter>(require(path, "path"), "vtu", mesh->grid, caught);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a failure leaves this library: fail() throws, guarded() turns whatever is thrown into a status and the core's
+// last error. While a body runs, what VTK has to say is caught instead of printed.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <string>
+
+#include <vtkSmartPointer.h>
+
+#include "parallel/float_environment.hpp"
+
+class vtkOutputWindow;
+
+namespace riis::vtk {
+
+struct Failure {
+  riis_status status;
+  std::string text;
+};
+
+[[noreturn]] void fail(riis_status status, std::string text);
+// "PATH: reason", a RIIS_FILE_ERROR; a path too long for the error text loses its beginning, not the reason.
+[[noreturn]] void fail_file(const std::string &path, const std::string &reason);
+// Passes an error of the core on, with the core's text.
+void check_core(riis_status status);
+
+template <class T>
+T *require(T *pointer, const char *argument) {
+  if (!pointer) fail(RIIS_INVALID_ARGUMENT, std::string(argument) + " is NULL");
+  return pointer;
+}
+
+// Takes the place of VTK's process-wide output window for the length of a scope.
+class CaughtOutput {
+ public:
+  CaughtOutput();
+  ~CaughtOutput();
+  CaughtOutput(const CaughtOutput &) = delete;
+  CaughtOutput &operator=(const CaughtOutput &) = delete;
+
+  // The first error since the scope began, in one line without VTK's source positions; "" if there was none. The first
+  // one is the cause, those after it come from VTK's layers above.
+  std::string first_error() const;
+  // Fails with RIIS_FILE_ERROR for the path if VTK reported an error.
+  void check(const std::string &path) const;
+
+ private:
+  class Window;
+  vtkSmartPointer<Window> window_;
+  vtkSmartPointer<vtkOutputWindow> caller_window_;
+  int caller_displays_;
+};
+
+// Status and text of the exception that is being handled.
+riis_status record_current_exception() noexcept;
+
+// Every public function's body runs in here and receives the caught output.
+template <class Body>
+riis_status guarded(Body &&body) noexcept {
+  const FloatEnvironment environment;
+  try {
+    const CaughtOutput caught;
+    body(caught);
+    return RIIS_OK;
+  } catch (...) {
+    return record_current_exception();
+  }
+}
+
+}  // namespace riis::vtk
