@@ -82,7 +82,7 @@ void riis_mark_result_destroy(riis_mark_result **result) {
 }
 
 riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, options_size, "options", default_options); });
+  return guarded([&] { riis::init_struct<options_size>(options, struct_size, "options", default_options); });
 }
 
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
@@ -91,7 +91,7 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     const riis::Surface &content = *require(surface, "surface")->surface;
     require(mesh, "mesh");
     require(result, "result");
-    const riis_mark_options whole = riis::completed(options, options_size, "options", default_options);
+    const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
     const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
                                       threads_of(whole)};
     riis::mark_nodes(request, search_of(whole), result->result);
@@ -128,7 +128,7 @@ riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nod
 riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size) {
   return guarded([&] {
     const riis_mark_stats &of_last_marking = require(result, "result")->result.stats;
-    riis::write_struct(stats, struct_size, stats_size, "stats", of_last_marking);
+    riis::write_struct<stats_size>(stats, struct_size, "stats", of_last_marking);
   });
 }
 }

@@ -11,7 +11,10 @@
 namespace riis {
 
 // first_size is the struct's size in the first release that had it; all later sizes are multiples of 8 above it.
-inline void check_struct_size(std::int64_t size, std::size_t first_size, std::size_t size_here, const char *name) {
+template <std::size_t first_size, class Struct>
+void check_struct_size(std::int64_t size, const char *name) {
+  static_assert(std::is_trivially_copyable_v<Struct> && first_size <= sizeof(Struct) && sizeof(Struct) % 8 == 0);
+  constexpr std::size_t size_here = sizeof(Struct);
   if (size < static_cast<std::int64_t>(first_size) || size > static_cast<std::int64_t>(size_here) || size % 8 != 0)
     fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of %s is %lld; riis %s knows %lld to %lld: use its init function, and a header no newer than the library",
          name, static_cast<long long>(size), riis_version_string(), static_cast<long long>(first_size),
@@ -19,21 +22,20 @@ inline void check_struct_size(std::int64_t size, std::size_t first_size, std::si
 }
 
 // The body of an init function.
-template <class Struct>
-void init_struct(Struct *out, std::int64_t size, std::size_t first_size, const char *name, const Struct &defaults) {
-  static_assert(std::is_trivially_copyable_v<Struct>);
+template <std::size_t first_size, class Struct>
+void init_struct(Struct *out, std::int64_t size, const char *name, const Struct &defaults) {
   require(out, name);
-  check_struct_size(size, first_size, sizeof(Struct), name);
+  check_struct_size<first_size, Struct>(size, name);
   std::memcpy(out, &defaults, static_cast<std::size_t>(size));
   out->struct_size = size;
 }
 
 // The caller's struct completed by defaults; all defaults for NULL.
-template <class Struct>
-Struct completed(const Struct *in, std::size_t first_size, const char *name, const Struct &defaults) {
+template <std::size_t first_size, class Struct>
+Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   Struct whole = defaults;
   if (in) {
-    check_struct_size(in->struct_size, first_size, sizeof(Struct), name);
+    check_struct_size<first_size, Struct>(in->struct_size, name);
     std::memcpy(&whole, in, static_cast<std::size_t>(in->struct_size));
   }
   whole.struct_size = sizeof(Struct);
@@ -41,10 +43,10 @@ Struct completed(const Struct *in, std::size_t first_size, const char *name, con
 }
 
 // As much of value as the caller has room for.
-template <class Struct>
-void write_struct(Struct *out, std::int64_t size, std::size_t first_size, const char *name, const Struct &value) {
+template <std::size_t first_size, class Struct>
+void write_struct(Struct *out, std::int64_t size, const char *name, const Struct &value) {
   require(out, name);
-  check_struct_size(size, first_size, sizeof(Struct), name);
+  check_struct_size<first_size, Struct>(size, name);
   std::memcpy(out, &value, static_cast<std::size_t>(size));
 }
 

@@ -20,7 +20,7 @@ using riis::require;
 namespace {
 
 // Sizes of the first release.
-constexpr std::size_t options_size = 104, arrays_size = 88, info_size = 104, closest_size = 96, closest_options_size = 32,
+constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104, closest_size = 96, closest_options_size = 32,
                       closest_arrays_size = 64;
 
 const riis_surface_options default_options{sizeof(riis_surface_options), RIIS_AUTO, 0.05, 1.0, {0, 0, 1}, 0, {0, 0, 0},
@@ -106,7 +106,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
 }
 
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
-  const riis_surface_arrays whole = riis::completed(require(arrays, "arrays"), arrays_size, "arrays", default_arrays);
+  const riis_surface_arrays whole = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
   check_options(options);
   fill(surface, options, [&](const riis::Placement &placement) {
     return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP, options.flip_normals != 0);
@@ -117,7 +117,7 @@ template <class Fill>
 void create(const riis_surface_options *options, riis_surface **surface, const Fill &fill_surface) {
   require(surface, "surface");
   auto made = std::make_unique<riis_surface>();
-  fill_surface(*made, riis::completed(options, options_size, "options", default_options));
+  fill_surface(*made, riis::completed<options_size>(options, "options", default_options));
   *surface = made.release();
 }
 
@@ -148,11 +148,11 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis_clo
 extern "C" {
 
 riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, options_size, "options", default_options); });
+  return guarded([&] { riis::init_struct<options_size>(options, struct_size, "options", default_options); });
 }
 
 riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, arrays_size, "arrays", default_arrays); });
+  return guarded([&] { riis::init_struct<arrays_size>(arrays, struct_size, "arrays", default_arrays); });
 }
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
@@ -171,7 +171,7 @@ riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, c
 riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
   return guarded([&] {
     require(surface, "surface");
-    fill_from_valve(*surface, valve, riis::completed(options, options_size, "options", options ? default_options : surface->options));
+    fill_from_valve(*surface, valve, riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -179,7 +179,7 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
                                             const riis_surface_options *options) {
   return guarded([&] {
     require(surface, "surface");
-    fill_from_arrays(*surface, arrays, riis::completed(options, options_size, "options", options ? default_options : surface->options));
+    fill_from_arrays(*surface, arrays, riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -194,7 +194,7 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const riis::Surface &content = content_of(surface);
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
-    riis::write_struct(info, struct_size, info_size, "info",
+    riis::write_struct<info_size>(info, struct_size, "info",
                        riis_surface_info{static_cast<int64_t>(set.n_vertices()), static_cast<int64_t>(set.n_triangles()),
                                          set.n_zero_area, content.half_thickness(), content.area(),
                                          {lower.x, lower.y, lower.z}, {upper.x, upper.y, upper.z},
@@ -237,25 +237,25 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
     riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
     const riis::Vec3 p{point[0], point[1], point[2]};
     const riis::ClosestTriangle found = content.scene().closest(p, std::numeric_limits<double>::infinity());
-    riis::write_struct(closest, struct_size, closest_size, "closest", content.describe(p, found));
+    riis::write_struct<closest_size>(closest, struct_size, "closest", content.describe(p, found));
   });
 }
 
 riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, closest_options_size, "options", default_closest_options); });
+  return guarded([&] { riis::init_struct<closest_options_size>(options, struct_size, "options", default_closest_options); });
 }
 
 riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, closest_arrays_size, "arrays", default_closest_arrays); });
+  return guarded([&] { riis::init_struct<closest_arrays_size>(arrays, struct_size, "arrays", default_closest_arrays); });
 }
 
 riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y, const double *z,
                                 int64_t stride, const riis_closest_options *options, const riis_closest_arrays *arrays) {
   return guarded([&] {
     const riis::Surface &content = content_of(surface);
-    const riis_closest_options whole = riis::completed(options, closest_options_size, "options", default_closest_options);
+    const riis_closest_options whole = riis::completed<closest_options_size>(options, "options", default_closest_options);
     const riis_closest_arrays to =
-        riis::completed(require(arrays, "arrays"), closest_arrays_size, "arrays", default_closest_arrays);
+        riis::completed<closest_arrays_size>(require(arrays, "arrays"), "arrays", default_closest_arrays);
     if (n_points < 0) riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
     riis::check_n_threads(whole.n_threads, "options.n_threads");
     const bool limited = whole.distance_limit != RIIS_AUTO;

@@ -60,7 +60,7 @@ riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, 
                  static_cast<long long>(parameter_id), valve->valve.kind().name, static_cast<long long>(specs.size()) - 1);
     const riis::ParameterSpec &spec = specs[static_cast<std::size_t>(parameter_id)];
     const auto &defaults = spec.default_values;
-    riis::write_struct(parameter, struct_size, 72, "parameter",
+    riis::write_struct<72>(parameter, struct_size, "parameter",
                        riis_parameter{spec.name, spec.unit, spec.description, spec.n_values,
                                       {defaults[0], defaults[1], defaults[2]}, spec.minimum, spec.maximum});
   });

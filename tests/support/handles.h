@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Surfaces that many tests start from. Include after riis.h and test_support.h. */
+#ifndef RIIS_TEST_HANDLES_H
+#define RIIS_TEST_HANDLES_H
+
+static inline riis_surface_options surface_options(void) {
+  riis_surface_options options;
+  CHECK_OK(riis_surface_options_init(&options, sizeof options));
+  return options;
+}
+
+static inline riis_mark_options mark_options(void) {
+  riis_mark_options options;
+  CHECK_OK(riis_mark_options_init(&options, sizeof options));
+  return options;
+}
+
+/* The default aortic valve; options may be NULL. */
+static inline riis_surface *aortic_surface(const riis_surface_options *options) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_OK(riis_surface_create(valve, options, &surface));
+  riis_valve_destroy(&valve);
+  return surface;
+}
+
+/* Triangles from arrays: xyz(3, n_vertices), ids(3, n_triangles). */
+static inline riis_surface_arrays triangle_arrays(int64_t n_vertices, const double *xyz, int64_t n_triangles, const int32_t *ids) {
+  riis_surface_arrays arrays;
+  CHECK_OK(riis_surface_arrays_init(&arrays, sizeof arrays));
+  arrays.n_vertices = n_vertices;
+  arrays.x = xyz;
+  arrays.y = xyz + 1;
+  arrays.z = xyz + 2;
+  arrays.stride = 3;
+  arrays.n_faces = n_triangles;
+  arrays.vertex_ids = ids;
+  return arrays;
+}
+
+static inline riis_surface *surface_from(const riis_surface_arrays *arrays, const riis_surface_options *options) {
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_create_from_arrays(arrays, options, &surface));
+  return surface;
+}
+
+static inline riis_surface_info info_of(const riis_surface *surface) {
+  riis_surface_info info;
+  CHECK_OK(riis_surface_get_info(surface, &info, sizeof info));
+  return info;
+}
+
+static inline riis_closest closest_to(const riis_surface *surface, double x, double y, double z) {
+  const double point[3] = {x, y, z};
+  riis_closest closest;
+  CHECK_OK(riis_closest_point(surface, point, &closest, sizeof closest));
+  return closest;
+}
+
+/* n random triangles in [-1,1]^3, none without area. *xyz (9 n) and *ids (3 n) are to be freed. */
+static inline void random_soup(random_source *random, int64_t n, double size, double **xyz, int32_t **ids) {
+  *xyz = malloc((size_t)n * 9 * sizeof **xyz);
+  *ids = malloc((size_t)n * 3 * sizeof **ids);
+  for (int64_t i = 0; i < n; ++i) {
+    double centre[3];
+    for (int c = 0; c < 3; ++c) centre[c] = random_between(random, -1, 1);
+    for (int k = 0; k < 9; ++k) (*xyz)[9 * i + k] = centre[k % 3] + size * random_between(random, -1, 1);
+    for (int k = 0; k < 3; ++k) (*ids)[3 * i + k] = (int32_t)(3 * i + k);
+  }
+}
+
+#endif

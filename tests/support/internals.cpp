@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "internals.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include "api/errors.hpp"
+#include "distance/point_triangle.hpp"
+#include "geometry/coons.hpp"
+#include "surface/triangle_scene.hpp"
+#include "surface/triangulate.hpp"
+#include "valve/parameters.hpp"
+#include "valve/patches.hpp"
+
+using namespace riis;
+
+namespace {
+
+Vec3 vec(const double *p) { return {p[0], p[1], p[2]}; }
+
+void put(Vec3 from, double *to) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+}
+
+Bezier curve(int degree, const double *control) {
+  Bezier made{degree, {}};
+  for (int i = 0; i <= degree; ++i) made.control[static_cast<std::size_t>(i)] = vec(control + 3 * i);
+  return made;
+}
+
+std::vector<Vec3> list(std::int64_t n, const double *points) {
+  std::vector<Vec3> made;
+  for (std::int64_t i = 0; i < n; ++i) made.push_back(vec(points + 3 * i));
+  return made;
+}
+
+template <class T>
+T *room(std::size_t n) {
+  return static_cast<T *>(std::malloc(std::max<std::size_t>(n, 1) * sizeof(T)));
+}
+
+QuadGrid grid_of(const std::int64_t *n, const double *const *points, double max_merge_shift) {
+  const Polyline sides[4] = {make_polyline(list(n[0], points[0])), make_polyline(list(n[1], points[1])),
+                             make_polyline(list(n[2], points[2])), make_polyline(list(n[3], points[3]))};
+  return make_quad_grid({&sides[0], &sides[1], &sides[2], &sides[3]}, max_merge_shift);
+}
+
+}  // namespace
+
+extern "C" {
+
+void bezier_evaluate(int degree, const double *control, double t, double *point) { put(evaluate(curve(degree, control), t), point); }
+
+void bezier_derivative(int degree, const double *control, double t, double *vector) {
+  put(derivative(curve(degree, control), t), vector);
+}
+
+double bezier_arc_length(int degree, const double *control, double t0, double t1) {
+  return arc_length(curve(degree, control), t0, t1);
+}
+
+void bezier_split(int degree, const double *control, double t, double *left, double *right) {
+  const auto [below, above] = split(curve(degree, control), t);
+  for (int i = 0; i <= degree; ++i) {
+    put(below.control[static_cast<std::size_t>(i)], left + 3 * i);
+    put(above.control[static_cast<std::size_t>(i)], right + 3 * i);
+  }
+}
+
+double bezier_flatness(int degree, const double *control) { return flatness(curve(degree, control)); }
+
+riis_status bezier_flatten(int degree, const double *control, double max_flatness, int64_t *n_points, double **points) {
+  return guarded([&] {
+    const std::vector<Vec3> made = flatten(curve(degree, control), max_flatness);
+    *n_points = static_cast<int64_t>(made.size());
+    *points = room<double>(3 * made.size());
+    for (std::size_t i = 0; i < made.size(); ++i) put(made[i], *points + 3 * i);
+  });
+}
+
+double polyline_make(int64_t n, const double *points, int64_t *n_kept, double *t) {
+  const Polyline made = make_polyline(list(n, points));
+  *n_kept = static_cast<int64_t>(made.t.size());
+  std::copy(made.t.begin(), made.t.end(), t);
+  return made.length;
+}
+
+void polyline_evaluate(int64_t n, const double *points, double t, double *point) {
+  put(evaluate(make_polyline(list(n, points)), t), point);
+}
+
+quad_grid coons_grid(const int64_t *n, const double *const *points, double max_merge_shift) {
+  const QuadGrid made = grid_of(n, points, max_merge_shift);
+  quad_grid grid{static_cast<int64_t>(made.u.size()), static_cast<int64_t>(made.v.size()), room<double>(made.u.size()),
+                 room<double>(made.v.size()), room<double>(3 * made.points.size())};
+  std::copy(made.u.begin(), made.u.end(), grid.u);
+  std::copy(made.v.begin(), made.v.end(), grid.v);
+  for (std::size_t i = 0; i < made.points.size(); ++i) put(made.points[i], grid.points + 3 * i);
+  return grid;
+}
+
+void coons_evaluate(const int64_t *n, const double *const *points, double u, double v, double *point) {
+  put(evaluate(grid_of(n, points, 0), u, v), point);
+}
+
+void quad_grid_free(quad_grid *grid) {
+  std::free(grid->u);
+  std::free(grid->v);
+  std::free(grid->points);
+}
+
+double quad_kappa(const double *p00, const double *p10, const double *p11, const double *p01) {
+  return quad_flatness(vec(p00), vec(p10), vec(p11), vec(p01));
+}
+
+double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric) {
+  const PointOnTriangle on = closest_point_on_triangle(vec(p), vec(abc), vec(abc + 3), vec(abc + 6));
+  put(on.point, point);
+  std::copy(on.barycentric.begin(), on.barycentric.end(), barycentric);
+  return on.distance_sq;
+}
+
+riis_status aortic_patches(const char *name, double value, patch_set *set) {
+  return guarded([&] {
+    Valve valve(find_valve_kind("aortic"));
+    if (name) valve.set(name, 1, &value);
+    const PatchSet made = valve.kind().make_patches(valve.values());
+    const std::size_t n_curves = made.curves.size(), n_patches = made.patches.size();
+    *set = {static_cast<int64_t>(n_curves), static_cast<int64_t>(n_patches), room<int32_t>(n_curves), room<double>(12 * n_curves),
+            room<int64_t>(4 * n_patches),   room<int32_t>(n_patches),        room<int32_t>(n_patches)};
+    for (std::size_t i = 0; i < n_curves; ++i) {
+      set->degree[i] = made.curves[i].degree;
+      for (std::size_t k = 0; k < 4; ++k) put(made.curves[i].control[k], set->control + 12 * i + 3 * k);
+    }
+    for (std::size_t i = 0; i < n_patches; ++i) {
+      const Patch &patch = made.patches[i];
+      const std::size_t sides[4] = {patch.side_v0, patch.side_v1, patch.side_u0, patch.side_u1};
+      for (std::size_t k = 0; k < 4; ++k) set->sides[4 * i + k] = static_cast<int64_t>(sides[k]);
+      set->leaflet_id[i] = patch.leaflet_id;
+      set->flip[i] = patch.flip;
+    }
+  });
+}
+
+void patch_set_free(patch_set *set) {
+  std::free(set->degree);
+  std::free(set->control);
+  std::free(set->sides);
+  std::free(set->leaflet_id);
+  std::free(set->flip);
+}
+
+int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points, double limit) {
+  TriangleSet set;
+  set.xyz.assign(xyz, xyz + 9 * n_triangles);
+  for (int64_t i = 0; i < 3 * n_triangles; ++i) set.vertex_id.push_back(i);
+  for (int64_t i = 0; i < n_triangles; ++i) set.triangle_id.push_back(i);
+  set.leaflet_id.assign(static_cast<std::size_t>(n_triangles), 0);
+  const TriangleScene scene(set);
+  int64_t n_different = 0;
+  for (int64_t i = 0; i < n_points; ++i) {
+    const Vec3 p = vec(points + 3 * i);
+    ClosestTriangle expected = closest_by_brute_force(set, p);
+    if (!(std::sqrt(expected.distance_sq) <= limit)) expected = {std::numeric_limits<double>::infinity(), -1};
+    const ClosestTriangle got = scene.closest(p, limit);
+    n_different += got.triangle != expected.triangle || got.distance_sq != expected.distance_sq;
+  }
+  return n_different;
+}
+}

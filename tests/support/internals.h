@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The stages behind the public interface, for tests in C. Points are arrays of 3 doubles; what is returned by pointer belongs to the caller
+ * (free). A refusal is returned as its status with the text in riis_last_error(). */
+#ifndef RIIS_TEST_INTERNALS_H
+#define RIIS_TEST_INTERNALS_H
+
+#include <riis/riis.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Bézier curves: degree 2 or 3, control[3 * (degree + 1)]. */
+void bezier_evaluate(int degree, const double *control, double t, double *point);
+void bezier_derivative(int degree, const double *control, double t, double *vector);
+double bezier_arc_length(int degree, const double *control, double t0, double t1);
+void bezier_split(int degree, const double *control, double t, double *left, double *right);
+double bezier_flatness(int degree, const double *control);
+riis_status bezier_flatten(int degree, const double *control, double max_flatness, int64_t *n_points, double **points);
+
+/* Polylines. */
+double polyline_make(int64_t n, const double *points, int64_t *n_kept, double *t); /* t has room for n; returns the length */
+void polyline_evaluate(int64_t n, const double *points, double t, double *point);
+
+/* Coons patches of four polylines: n[4] points each, sides in the order v0, v1, u0, u1. */
+typedef struct quad_grid {
+  int64_t n_u, n_v;
+  double *u, *v, *points; /* points[3 * (j * n_u + i)] */
+} quad_grid;
+quad_grid coons_grid(const int64_t *n, const double *const *points, double max_merge_shift);
+void coons_evaluate(const int64_t *n, const double *const *points, double u, double v, double *point);
+void quad_grid_free(quad_grid *grid);
+double quad_kappa(const double *p00, const double *p10, const double *p11, const double *p01);
+
+/* The decision kernel: returns the squared distance. */
+double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric);
+
+/* The aortic valve's curves and patches at its default parameters, changed by one (name may be NULL). */
+typedef struct patch_set {
+  int64_t n_curves, n_patches;
+  int32_t *degree;     /* a curve */
+  double *control;     /* 12 a curve */
+  int64_t *sides;      /* 4 a patch: v0, v1, u0, u1 */
+  int32_t *leaflet_id; /* a patch */
+  int32_t *flip;       /* a patch */
+} patch_set;
+riis_status aortic_patches(const char *name, double value, patch_set *set);
+void patch_set_free(patch_set *set);
+
+/* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the closest triangle to
+ * each point; returns for how many points squared distance (bits) or triangle differ. Points beyond the limit must give none. */
+int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points, double limit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

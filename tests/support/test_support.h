@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * What every test needs: CMocka with its headers in order, checks on doubles (CMocka 1.1.5 compares floats), random numbers with
+ * a printed seed. */
+#ifndef RIIS_TEST_SUPPORT_H
+#define RIIS_TEST_SUPPORT_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+/* |a - b| <= tolerance, and neither is NaN. */
+#define CHECK_NEAR(a, b, tolerance)                                                                              \
+  do {                                                                                                           \
+    const double check_a = (a), check_b = (b), check_t = (tolerance);                                            \
+    if (!(fabs(check_a - check_b) <= check_t))                                                                   \
+      fail_msg("%s = %.17g, %s = %.17g: differ by %.3g, more than %.3g", #a, check_a, #b, check_b, check_a - check_b, check_t); \
+  } while (0)
+
+#define CHECK_AT_MOST(a, limit)                                                                         \
+  do {                                                                                                  \
+    const double check_a = (a), check_l = (limit);                                                      \
+    if (!(check_a <= check_l)) fail_msg("%s = %.17g is more than %s = %.17g", #a, check_a, #limit, check_l); \
+  } while (0)
+
+/* Same bits. */
+#define CHECK_SAME(a, b)                                                                 \
+  do {                                                                                   \
+    const double check_a = (a), check_b = (b);                                           \
+    if (memcmp(&check_a, &check_b, sizeof check_a) != 0)                                 \
+      fail_msg("%s = %.17g, %s = %.17g: not the same bits", #a, check_a, #b, check_b);   \
+  } while (0)
+
+#ifdef RIIS_RIIS_H
+#define CHECK_OK(call)                                                                                         \
+  do {                                                                                                         \
+    const riis_status check_s = (call);                                                                        \
+    if (check_s != RIIS_OK) fail_msg("%s: %s: %s", #call, riis_status_name(check_s), riis_last_error());       \
+  } while (0)
+
+/* The call is refused with this status and a text that holds every one of the parts (up to three, separated by '|'). */
+static inline void check_refused(riis_status expected, riis_status got, const char *parts, const char *call) {
+  char copy[256];
+  if (got != expected)
+    fail_msg("%s: %s instead of %s (%s)", call, riis_status_name(got), riis_status_name(expected), riis_last_error());
+  snprintf(copy, sizeof copy, "%s", parts);
+  for (char *part = strtok(copy, "|"); part; part = strtok(NULL, "|"))
+    if (!strstr(riis_last_error(), part)) fail_msg("%s: the text \"%s\" lacks \"%s\"", call, riis_last_error(), part);
+}
+#define CHECK_REFUSED(status, parts, call) check_refused(status, call, parts, #call)
+#endif
+
+/* Random numbers: splitmix64. The seed is the time, or RIIS_TEST_SEED to repeat a run. */
+typedef struct random_source {
+  uint64_t state;
+} random_source;
+
+static inline random_source random_start(const char *name) {
+  const char *given = getenv("RIIS_TEST_SEED");
+  struct timespec now;
+  random_source random;
+  timespec_get(&now, TIME_UTC);
+  random.state = given ? strtoull(given, NULL, 10) : ((uint64_t)now.tv_sec << 20) ^ (uint64_t)now.tv_nsec;
+  printf("%s: RIIS_TEST_SEED=%llu\n", name, (unsigned long long)random.state);
+  return random;
+}
+
+static inline uint64_t random_bits(random_source *random) {
+  uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+static inline double random_between(random_source *random, double low, double high) {
+  return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
+}
+
+#endif

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Closest points through the Embree scene against the independent oracle and against plain loops: every triangle, every place, every limit. */
+#include <riis/riis.h>
+
+#include "oracle.h"
+#include "test_support.h"
+
+#include "handles.h"
+
+static random_source rng;
+
+static void single_equals_the_oracle(riis_surface *surface, int n_points, double reach) {
+  int64_t n;
+  const double *xyz;
+  const int64_t *vertex_id;
+  const riis_surface_info info = info_of(surface);
+  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
+  CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, NULL, NULL));
+  double size = 0;
+  for (int c = 0; c < 3; ++c) size = fmax(size, fmax(fabs(info.lower[c]), fabs(info.upper[c])));
+  for (int i = 0; i < n_points; ++i) {
+    double p[3], largest = size;
+    for (int c = 0; c < 3; ++c) {
+      const double extent = info.upper[c] - info.lower[c];
+      p[c] = random_between(&rng, info.lower[c] - reach * extent, info.upper[c] + reach * extent);
+      largest = fmax(largest, fabs(p[c]));
+    }
+    const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
+    int64_t triangle;
+    CHECK_NEAR(closest.distance, (double)oracle_distance(p, n, vertex_id, xyz, &triangle), 1e-12 * largest);
+  }
+}
+
+static void aortic_valve_equals_the_oracle(void **state) {
+  (void)state;
+  riis_surface_options options = surface_options();
+  for (int trial = 0; trial < 4; ++trial) {
+    /* Near the origin, 300 cm away, in metres and turned. */
+    options.scale = trial < 2 ? 1 : 0.01;
+    options.rotation_angle = 77 * trial;
+    for (int c = 0; c < 3; ++c) options.translation[c] = trial % 2 ? random_between(&rng, -300, 300) : 0;
+    riis_surface *surface = aortic_surface(&options);
+    single_equals_the_oracle(surface, 250, 0.5);
+    single_equals_the_oracle(surface, 20, 1000);
+    riis_surface_destroy(&surface);
+  }
+}
+
+static void random_soups_equal_the_oracle(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 40; ++trial) {
+    const int64_t n = 1 + (int64_t)(random_bits(&rng) % 300);
+    double *xyz;
+    int32_t *ids;
+    random_soup(&rng, n, pow(10, random_between(&rng, -3, 1)), &xyz, &ids);
+    riis_surface_arrays arrays = triangle_arrays(3 * n, xyz, n, ids);
+    riis_surface_options options = surface_options();
+    options.scale = pow(10, random_between(&rng, -6, 6));
+    for (int c = 0; c < 3; ++c) options.translation[c] = options.scale * random_between(&rng, -100, 100);
+    riis_surface *surface = surface_from(&arrays, &options);
+    single_equals_the_oracle(surface, 200, trial % 2 ? 0.3 : 30);
+    riis_surface_destroy(&surface);
+    free(xyz);
+    free(ids);
+  }
+}
+
+/* Far beyond where single precision separates triangles. */
+static void far_points_equal_the_oracle(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  int64_t n, triangle;
+  const double *xyz;
+  const int64_t *vertex_id;
+  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
+  CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, NULL, NULL));
+  for (int power = 1; power <= 59; power += 2) {
+    const double r = pow(10, power), p[3] = {r, -0.3 * r, 0.7 * r};
+    const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
+    CHECK_NEAR(closest.distance / r, (double)oracle_distance(p, n, vertex_id, xyz, &triangle) / r, 1e-15);
+  }
+  riis_surface_destroy(&surface);
+}
+
+/* Equal distances: a grid of coplanar, repeated and mirrored triangles has ties everywhere; the lowest id wins, whatever the order. */
+static void ties_go_to_the_lowest_id(void **state) {
+  (void)state;
+  enum { copies = 50 };
+  double xyz[9 * copies];
+  int32_t ids[3 * copies];
+  const double triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  for (int i = 0; i < copies; ++i) {
+    for (int k = 0; k < 9; ++k) xyz[9 * i + k] = triangle[k] + (k % 3 == 2 ? (i % 2 ? 1.0 : -1.0) : 0); /* planes z = -1 and z = 1 */
+    for (int k = 0; k < 3; ++k) ids[3 * i + k] = 3 * i + k;
+  }
+  riis_surface_arrays arrays = triangle_arrays(3 * copies, xyz, copies, ids);
+  riis_surface *surface = surface_from(&arrays, NULL);
+  assert_int_equal(closest_to(surface, 0.2, 0.2, 0).triangle_id, 0);
+  assert_int_equal(closest_to(surface, 0.2, 0.2, 0.5).triangle_id, 1);
+  assert_int_equal(closest_to(surface, 0.2, 0.2, 3).triangle_id, 1);
+  assert_int_equal(closest_to(surface, 0.2, 0.2, -3).triangle_id, 0);
+  assert_int_equal(closest_to(surface, -5, -5, 0).triangle_id, 0);
+  riis_surface_destroy(&surface);
+}
+
+/* Batches: every output equal to the single query's, bit by bit, for any number of threads, layout and choice of arrays. */
+static void batches_equal_single_queries(void **state) {
+  (void)state;
+  enum { n = 3000 };
+  static double xyz[3 * n], x[n], y[n], z[n], distance[n], point[3 * n], barycentric[3 * n], normal[3 * n], only_distance[n];
+  static int64_t triangle_id[n];
+  static int32_t leaflet_id[n], side[n];
+  riis_surface *surface = aortic_surface(NULL);
+  for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -2, 2);
+  for (int i = 0; i < n; ++i) x[i] = xyz[3 * i], y[i] = xyz[3 * i + 1], z[i] = xyz[3 * i + 2];
+  riis_closest_options options;
+  riis_closest_arrays arrays, few;
+  CHECK_OK(riis_closest_options_init(&options, sizeof options));
+  CHECK_OK(riis_closest_arrays_init(&arrays, sizeof arrays));
+  CHECK_OK(riis_closest_arrays_init(&few, sizeof few));
+  arrays.distance = distance, arrays.point = point, arrays.barycentric = barycentric, arrays.normal = normal;
+  arrays.triangle_id = triangle_id, arrays.leaflet_id = leaflet_id, arrays.side = side;
+  few.distance = only_distance;
+  for (int threads = 0; threads <= 4; ++threads) {
+    options.n_threads = threads;
+    CHECK_OK(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, threads ? &options : NULL, &arrays));
+    CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
+    for (int i = 0; i < n; ++i) {
+      const riis_closest one = closest_to(surface, x[i], y[i], z[i]);
+      CHECK_SAME(distance[i], one.distance);
+      CHECK_SAME(only_distance[i], one.distance);
+      assert_memory_equal(point + 3 * i, one.point, sizeof one.point);
+      assert_memory_equal(barycentric + 3 * i, one.barycentric, sizeof one.barycentric);
+      assert_memory_equal(normal + 3 * i, one.normal, sizeof one.normal);
+      assert_int_equal(triangle_id[i], one.triangle_id);
+      assert_int_equal(leaflet_id[i], one.leaflet_id);
+      assert_int_equal(side[i], one.side);
+    }
+  }
+  /* A limit: near points unchanged, far points marked as such. */
+  options.distance_limit = 0.3;
+  options.far_distance = -5;
+  static double limited[n];
+  static int64_t limited_triangle[n];
+  CHECK_OK(riis_closest_arrays_init(&few, sizeof few));
+  few.distance = limited, few.triangle_id = limited_triangle;
+  CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
+  int n_far = 0;
+  for (int i = 0; i < n; ++i) {
+    const int far = distance[i] > 0.3;
+    n_far += far;
+    CHECK_SAME(limited[i], far ? -5 : distance[i]);
+    assert_int_equal(limited_triangle[i], far ? -1 : triangle_id[i]);
+  }
+  assert_true(n_far > 100 && n_far < n - 100);
+  CHECK_OK(riis_closest_points(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
+  riis_surface_destroy(&surface);
+}
+
+/* What single queries report fits together: the point on the triangle, at the distance, the normal its own, the side the sign of the height. */
+static void closest_is_consistent(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  int64_t n;
+  const double *xyz;
+  const int64_t *vertex_id;
+  const int32_t *leaflet_id;
+  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
+  CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, &leaflet_id, NULL));
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double p[3] = {random_between(&rng, -1.6, 1.6), random_between(&rng, -1.6, 1.6), random_between(&rng, -1.1, 0.2)};
+    const riis_closest c = closest_to(surface, p[0], p[1], p[2]);
+    assert_true(c.triangle_id >= 0 && c.triangle_id < n);
+    assert_int_equal(c.leaflet_id, leaflet_id[c.triangle_id]);
+    double distance_sq = 0, height = 0, unit = 0;
+    for (int k = 0; k < 3; ++k) {
+      double at = 0;
+      for (int v = 0; v < 3; ++v) at += c.barycentric[v] * xyz[3 * vertex_id[3 * c.triangle_id + v] + k];
+      CHECK_NEAR(c.point[k], at, 1e-14);
+      distance_sq += (p[k] - c.point[k]) * (p[k] - c.point[k]);
+      height += (p[k] - c.point[k]) * c.normal[k];
+      unit += c.normal[k] * c.normal[k];
+    }
+    CHECK_NEAR(c.distance, sqrt(distance_sq), 1e-15);
+    CHECK_NEAR(unit, 1, 1e-14);
+    /* Above the inside of a triangle the line to the closest point is the normal's. */
+    if (c.barycentric[0] > 1e-6 && c.barycentric[1] > 1e-6 && c.barycentric[2] > 1e-6 && c.distance > 1e-6) {
+      CHECK_NEAR(fabs(height), c.distance, 1e-9);
+      assert_int_equal(c.side, height > 0 ? 1 : -1);
+    }
+  }
+  riis_surface_destroy(&surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(aortic_valve_equals_the_oracle), cmocka_unit_test(random_soups_equal_the_oracle),
+      cmocka_unit_test(far_points_equal_the_oracle),    cmocka_unit_test(ties_go_to_the_lowest_id),
+      cmocka_unit_test(batches_equal_single_queries),   cmocka_unit_test(closest_is_consistent),
+  };
+  rng = random_start("test_closest_points");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

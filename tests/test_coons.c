@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "internals.h"
+#include "test_support.h"
+
+/* Sides of a curved square, in the order v0, v1, u0, u1, meeting at their ends; u parameters 0 0.3 0.6 1 and 0 0.5 0.6 1 as in the paper. */
+static const double side_v0[12] = {0, 0, 0, 3, 0, 0, 6, 0, 0, 10, 0, 0};
+static const double side_v1[12] = {0, 8, 2, 5, 8, 2, 6, 8, 2, 10, 8, 2};
+static const double side_u0[9] = {0, 0, 0, 0, 4, 3, 0, 8, 2};
+static const double side_u1[6] = {10, 0, 0, 10, 8, 2};
+static const int64_t sizes[4] = {4, 4, 3, 2};
+static const double *const sides[4] = {side_v0, side_v1, side_u0, side_u1};
+
+static void parameters_are_merged_as_in_the_paper(void **state) {
+  (void)state;
+  quad_grid grid = coons_grid(sizes, sides, 1e-9);
+  const double expected[5] = {0, 0.3, 0.5, 0.6, 1};
+  const int64_t n_u = grid.n_u, n_v = grid.n_v;
+  double u[5];
+  if (n_u == 5) memcpy(u, grid.u, sizeof u);
+  quad_grid_free(&grid);
+  assert_int_equal(n_u, 5);
+  assert_int_equal(n_v, 3);
+  for (int i = 0; i < 5; ++i) CHECK_NEAR(u[i], expected[i], 1e-15);
+}
+
+static void boundary_is_the_polylines_to_the_last_bit(void **state) {
+  (void)state;
+  quad_grid grid = coons_grid(sizes, sides, 0);
+  double p[3];
+  int different = 0;
+  for (int64_t i = 0; i < grid.n_u; ++i) {
+    polyline_evaluate(sizes[0], side_v0, grid.u[i], p);
+    different += memcmp(p, grid.points + 3 * i, sizeof p) != 0;
+    polyline_evaluate(sizes[1], side_v1, grid.u[i], p);
+    different += memcmp(p, grid.points + 3 * ((grid.n_v - 1) * grid.n_u + i), sizeof p) != 0;
+  }
+  for (int64_t j = 0; j < grid.n_v; ++j) {
+    polyline_evaluate(sizes[2], side_u0, grid.v[j], p);
+    different += memcmp(p, grid.points + 3 * j * grid.n_u, sizeof p) != 0;
+    polyline_evaluate(sizes[3], side_u1, grid.v[j], p);
+    different += memcmp(p, grid.points + 3 * (j * grid.n_u + grid.n_u - 1), sizeof p) != 0;
+  }
+  quad_grid_free(&grid);
+  assert_int_equal(different, 0);
+}
+
+/* The Coons formula from the polylines themselves, at any (u,v): the grid is bilinear between its lines and loses nothing. */
+static void surface_equals_the_coons_formula_everywhere(void **state) {
+  (void)state;
+  random_source rng = random_start("test_coons");
+  for (int trial = 0; trial < 500; ++trial) {
+    const double u = random_between(&rng, 0, 1), v = random_between(&rng, 0, 1);
+    double got[3], c0[3], c1[3], d0[3], d1[3];
+    coons_evaluate(sizes, sides, u, v, got);
+    polyline_evaluate(sizes[0], side_v0, u, c0);
+    polyline_evaluate(sizes[1], side_v1, u, c1);
+    polyline_evaluate(sizes[2], side_u0, v, d0);
+    polyline_evaluate(sizes[3], side_u1, v, d1);
+    for (int c = 0; c < 3; ++c) {
+      const double p00 = side_v0[c], p10 = side_v0[9 + c], p01 = side_v1[c], p11 = side_v1[9 + c];
+      const double expected = (1 - v) * c0[c] + v * c1[c] + (1 - u) * d0[c] + u * d1[c] - (1 - u) * (1 - v) * p00 -
+                              u * (1 - v) * p10 - (1 - u) * v * p01 - u * v * p11;
+      CHECK_NEAR(got[c], expected, 1e-13);
+    }
+  }
+  double corner[3];
+  coons_evaluate(sizes, sides, 1, 1, corner); /* the paper's index is empty at 1 */
+  for (int c = 0; c < 3; ++c) CHECK_NEAR(corner[c], side_v1[9 + c], 0);
+}
+
+static void nearly_equal_parameters_share_a_line(void **state) {
+  (void)state;
+  const double v0[9] = {0, 0, 0, 0.5, 0, 0, 1, 0, 0}, v1[9] = {0, 1, 0, 0.5001, 1, 0, 1, 1, 0};
+  const double u0[6] = {0, 0, 0, 0, 1, 0}, u1[6] = {1, 0, 0, 1, 1, 0};
+  const int64_t n[4] = {3, 3, 2, 2};
+  const double *const points[4] = {v0, v1, u0, u1};
+  quad_grid apart = coons_grid(n, points, 1e-6), together = coons_grid(n, points, 1e-3);
+  const int64_t n_apart = apart.n_u, n_together = together.n_u;
+  /* Both vertices are still there, to the last bit: a neighbour that shares a side has them, too. */
+  const int kept = memcmp(together.points + 3, v0 + 3, 3 * sizeof(double)) == 0 &&
+                   memcmp(together.points + 3 * (n_together + 1), v1 + 3, 3 * sizeof(double)) == 0;
+  quad_grid_free(&apart);
+  quad_grid_free(&together);
+  assert_int_equal(n_apart, 4);
+  assert_int_equal(n_together, 3);
+  assert_true(kept);
+}
+
+static void a_collapsed_side_gives_no_parameters(void **state) {
+  (void)state;
+  const double v0[6] = {0, 0, 0, 0, 0, 0}, v1[9] = {-1, 1, 0, 0.25, 1, 0, 1, 1, 0};
+  const double u0[6] = {0, 0, 0, -1, 1, 0}, u1[6] = {0, 0, 0, 1, 1, 0};
+  const int64_t n[4] = {2, 3, 2, 2};
+  const double *const points[4] = {v0, v1, u0, u1};
+  quad_grid grid = coons_grid(n, points, 0);
+  const int64_t n_u = grid.n_u;
+  double at_root = 0;
+  for (int64_t i = 0; i < 3 * grid.n_u; ++i) at_root += fabs(grid.points[i]);
+  quad_grid_free(&grid);
+  assert_int_equal(n_u, 3);
+  CHECK_NEAR(at_root, 0, 0);
+}
+
+static void kappa_of_known_quads(void **state) {
+  (void)state;
+  const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {1, 1, 0}, d[3] = {0, 1, 0}, lifted[3] = {1, 1, 1}, wide[3] = {3, 1, 0};
+  CHECK_NEAR(quad_kappa(a, b, c, d), 0, 0);
+  CHECK_NEAR(quad_kappa(a, b, lifted, d), 0.25, 1e-16);
+  CHECK_NEAR(quad_kappa(a, b, wide, d), 0.5, 1e-16); /* a planar trapezoid */
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(parameters_are_merged_as_in_the_paper),       cmocka_unit_test(boundary_is_the_polylines_to_the_last_bit),
+      cmocka_unit_test(surface_equals_the_coons_formula_everywhere), cmocka_unit_test(nearly_equal_parameters_share_a_line),
+      cmocka_unit_test(a_collapsed_side_gives_no_parameters),        cmocka_unit_test(kappa_of_known_quads),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

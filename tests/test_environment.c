@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero; OpenMP settings and
+ * parallel regions; errors and logs of several threads; standard output and error. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* feenableexcept */
+#endif
+#include <fenv.h>
+#include <omp.h>
+#include <unistd.h>
+#include <riis/riis.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#include "test_support.h"
+
+#include "handles.h"
+
+enum { n = 20000 };
+static double nodes[3 * n];
+
+/* Everything a step does, as one number that depends on every bit. */
+static uint64_t digest_of_a_step(int threads) {
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  riis_mark_options options = mark_options();
+  int64_t n_listed;
+  const int64_t *node_id, *triangle_id;
+  const double *distance;
+  uint64_t digest = 14695981039346656037u;
+  options.n_threads = threads;
+  options.distance_limit = 0.3;
+  CHECK_OK(riis_mesh_create(n, nodes, nodes + 1, nodes + 2, 3, &mesh));
+  CHECK_OK(riis_mark_result_create(&result));
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  CHECK_OK(riis_mark_result_within_limit(result, &n_listed, &node_id, &distance, &triangle_id, NULL));
+  for (int64_t i = 0; i < n_listed; ++i) {
+    uint64_t bits;
+    memcpy(&bits, distance + i, sizeof bits);
+    digest = (digest ^ bits) * 1099511628211u;
+    digest = (digest ^ (uint64_t)node_id[i] ^ ((uint64_t)triangle_id[i] << 32)) * 1099511628211u;
+  }
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  return digest;
+}
+
+static uint64_t expected;
+
+static void traps_do_not_fire_and_stay(void **state) {
+  (void)state;
+  feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+  const uint64_t got = digest_of_a_step(2);
+  const int traps = fegetexcept();
+  fedisableexcept(FE_ALL_EXCEPT);
+  assert_true(got == expected);
+  assert_int_equal(traps, FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+
+static void rounding_mode_does_not_matter_and_stays(void **state) {
+  (void)state;
+  fesetround(FE_UPWARD);
+  const uint64_t got = digest_of_a_step(2);
+  const int mode = fegetround();
+  fesetround(FE_TONEAREST);
+  assert_true(got == expected);
+  assert_int_equal(mode, FE_UPWARD);
+}
+
+static void flush_to_zero_stays(void **state) {
+  (void)state;
+#if defined(__SSE2__)
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040); /* as -ffast-math leaves it */
+  const uint64_t got = digest_of_a_step(2);
+  const unsigned after = _mm_getcsr();
+  _mm_setcsr(before);
+  assert_true(got == expected);
+  assert_int_equal(after & 0x8040, 0x8040);
+#else
+  skip();
+#endif
+}
+
+static void openmp_settings_stay(void **state) {
+  (void)state;
+  omp_set_num_threads(3);
+  omp_set_dynamic(0);
+  omp_set_schedule(omp_sched_guided, 7);
+  assert_true(digest_of_a_step(2) == expected);
+  omp_sched_t kind;
+  int chunk;
+  omp_get_schedule(&kind, &chunk);
+  assert_int_equal(omp_get_max_threads(), 3);
+  assert_int_equal(kind, omp_sched_guided);
+  assert_int_equal(chunk, 7);
+}
+
+/* Each of the caller's threads marks on its own; one surface and mesh are read by all. */
+static void works_inside_a_parallel_region(void **state) {
+  (void)state;
+  int n_wrong = 0;
+#pragma omp parallel for num_threads(3) reduction(+ : n_wrong)
+  for (int i = 0; i < 6; ++i) n_wrong += digest_of_a_step(i % 3) != expected;
+  assert_int_equal(n_wrong, 0);
+
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mesh *mesh = NULL;
+  CHECK_OK(riis_mesh_create(n, nodes, nodes + 1, nodes + 2, 3, &mesh));
+  int64_t counts[8];
+#pragma omp parallel for num_threads(4)
+  for (int i = 0; i < 8; ++i) {
+    riis_mark_result *result = NULL;
+    counts[i] = -1;
+    if (riis_mark_result_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
+      riis_mark_result_marked(result, &counts[i], NULL, NULL, NULL, NULL);
+    riis_mark_result_destroy(&result);
+    /* The first side asked for makes what sides need, in whichever thread. */
+    riis_closest closest;
+    if (riis_closest_point(surface, nodes + 3 * i, &closest, sizeof closest) != RIIS_OK) counts[i] = -2;
+  }
+  for (int i = 1; i < 8; ++i) assert_int_equal(counts[i], counts[0]);
+  assert_true(counts[0] > 0);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+}
+
+static void errors_belong_to_their_thread(void **state) {
+  (void)state;
+  char texts[4][64];
+#pragma omp parallel num_threads(4)
+  {
+    const int t = omp_get_thread_num();
+    riis_mesh *mesh = NULL;
+    for (int i = 0; i < 1000; ++i) riis_mesh_create(-1 - t, nodes, nodes, nodes, 1, &mesh);
+    snprintf(texts[t], sizeof texts[t], "%s", riis_last_error());
+  }
+  for (int t = 0; t < 4; ++t) {
+    char part[32];
+    snprintf(part, sizeof part, "n_nodes is %d;", -1 - t);
+    assert_non_null(strstr(texts[t], part));
+  }
+  /* Success leaves the text alone. */
+  riis_valve *valve = NULL;
+  assert_true(riis_valve_create("none", &valve) != RIIS_OK);
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  riis_valve_destroy(&valve);
+  assert_non_null(strstr(riis_last_error(), "'none'"));
+}
+
+static void log_line(void *user_data, int32_t level, const char *message) {
+  char *to = user_data;
+  if (level == RIIS_LOG_INFO && strstr(message, "triangles")) snprintf(to, 256, "%s", message);
+}
+
+static void log_goes_to_the_callers_function_only(void **state) {
+  (void)state;
+  char line[256] = "";
+  riis_set_log(log_line, line);
+  riis_surface *surface = aortic_surface(NULL);
+  assert_non_null(strstr(line, "surface: "));
+  assert_null(strchr(line, '\n'));
+  riis_set_log(NULL, NULL);
+  line[0] = 0;
+  riis_surface_destroy(&surface);
+  surface = aortic_surface(NULL);
+  riis_surface_destroy(&surface);
+  assert_string_equal(line, "");
+}
+
+/* A step and a refusal with both standard streams led into a file: it stays empty. */
+static void nothing_is_printed(void **state) {
+  (void)state;
+  FILE *file = tmpfile();
+  assert_non_null(file);
+  fflush(stdout);
+  fflush(stderr);
+  const int out = dup(1), err = dup(2);
+  dup2(fileno(file), 1);
+  dup2(fileno(file), 2);
+  const uint64_t got = digest_of_a_step(2);
+  riis_valve *valve = NULL;
+  const riis_status refused = riis_valve_create("none", &valve);
+  fflush(stdout);
+  fflush(stderr);
+  dup2(out, 1);
+  dup2(err, 2);
+  close(out);
+  close(err);
+  fseek(file, 0, SEEK_END);
+  const long size = ftell(file);
+  fclose(file);
+  assert_true(got == expected);
+  assert_int_equal(refused, RIIS_INVALID_PARAMETER);
+  assert_int_equal(size, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(traps_do_not_fire_and_stay),
+      cmocka_unit_test(rounding_mode_does_not_matter_and_stays),
+      cmocka_unit_test(flush_to_zero_stays),
+      cmocka_unit_test(openmp_settings_stay),
+      cmocka_unit_test(works_inside_a_parallel_region),
+      cmocka_unit_test(errors_belong_to_their_thread),
+      cmocka_unit_test(log_goes_to_the_callers_function_only),
+      cmocka_unit_test(nothing_is_printed),
+  };
+  random_source rng = random_start("test_environment");
+  for (int i = 0; i < n; ++i) {
+    nodes[3 * i] = random_between(&rng, -1.6, 1.6);
+    nodes[3 * i + 1] = random_between(&rng, -1.6, 1.6);
+    nodes[3 * i + 2] = random_between(&rng, -1.2, 0.3);
+  }
+  expected = digest_of_a_step(1);
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

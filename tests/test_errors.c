@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Every refusal of the public interface by code and text. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+static const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
+static const int32_t ids[3] = {0, 1, 2};
+
+static void statuses_have_names(void **state) {
+  (void)state;
+  static const char *const names[] = {"RIIS_INTERNAL_ERROR", "RIIS_OK", "RIIS_INVALID_ARGUMENT", "RIIS_INVALID_STRUCT_SIZE",
+                                      "RIIS_INVALID_PARAMETER", "RIIS_INVALID_SURFACE", "RIIS_INVALID_MESH", "RIIS_LIMIT_EXCEEDED",
+                                      "RIIS_OUT_OF_MEMORY", "RIIS_FILE_ERROR", "RIIS_UNAVAILABLE"};
+  for (int status = -1; status <= 9; ++status) assert_string_equal(riis_status_name(status), names[status + 1]);
+  assert_string_equal(riis_status_name(10), "unknown status");
+  assert_string_equal(riis_status_name(-2), "unknown status");
+}
+
+static void version_is_the_headers(void **state) {
+  (void)state;
+  int32_t major = -1, minor = -1, patch = -1;
+  char text[32];
+  riis_version(&major, &minor, &patch);
+  assert_int_equal(major, RIIS_VERSION_MAJOR);
+  assert_int_equal(minor, RIIS_VERSION_MINOR);
+  assert_int_equal(patch, RIIS_VERSION_PATCH);
+  snprintf(text, sizeof text, "%d.%d.%d", major, minor, patch);
+  assert_string_equal(riis_version_string(), text);
+  riis_version(NULL, NULL, NULL);
+}
+
+static void null_arguments_are_named(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  riis_surface_arrays arrays = triangle_arrays(4, xyz, 1, ids);
+  riis_closest_arrays out;
+  double values[3] = {0, 0, 0};
+  int64_t n;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_OK(riis_mark_result_create(&result));
+  CHECK_OK(riis_closest_arrays_init(&out, sizeof out));
+#define NULL_IS_NAMED(name, call) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, name " is NULL", call)
+  NULL_IS_NAMED("kind", riis_valve_create(NULL, &valve));
+  NULL_IS_NAMED("valve", riis_valve_create("aortic", NULL));
+  NULL_IS_NAMED("valve", riis_valve_set(NULL, "xq", 1, values));
+  NULL_IS_NAMED("name", riis_valve_set(valve, NULL, 1, values));
+  NULL_IS_NAMED("values", riis_valve_set(valve, "xq", 1, NULL));
+  NULL_IS_NAMED("name", riis_valve_set_scalar(valve, NULL, 1));
+  NULL_IS_NAMED("valve", riis_valve_get(NULL, "xq", 1, values));
+  NULL_IS_NAMED("name", riis_valve_get(valve, NULL, 1, values));
+  NULL_IS_NAMED("values", riis_valve_get(valve, "xq", 1, NULL));
+  NULL_IS_NAMED("valve", riis_valve_n_parameters(NULL, &n));
+  NULL_IS_NAMED("n_parameters", riis_valve_n_parameters(valve, NULL));
+  NULL_IS_NAMED("valve", riis_valve_parameter(NULL, 0, NULL, 72));
+  NULL_IS_NAMED("parameter", riis_valve_parameter(valve, 0, NULL, 72));
+  NULL_IS_NAMED("options", riis_surface_options_init(NULL, 96));
+  NULL_IS_NAMED("arrays", riis_surface_arrays_init(NULL, 88));
+  NULL_IS_NAMED("options", riis_closest_options_init(NULL, 32));
+  NULL_IS_NAMED("arrays", riis_closest_arrays_init(NULL, 64));
+  NULL_IS_NAMED("options", riis_mark_options_init(NULL, 32));
+  NULL_IS_NAMED("valve", riis_surface_create(NULL, NULL, &surface));
+  NULL_IS_NAMED("surface", riis_surface_create(valve, NULL, NULL));
+  NULL_IS_NAMED("arrays", riis_surface_create_from_arrays(NULL, NULL, &surface));
+  NULL_IS_NAMED("surface", riis_surface_create_from_arrays(&arrays, NULL, NULL));
+  NULL_IS_NAMED("surface", riis_surface_update(NULL, valve, NULL));
+  NULL_IS_NAMED("valve", riis_surface_update(surface, NULL, NULL));
+  NULL_IS_NAMED("surface", riis_surface_update_from_arrays(NULL, &arrays, NULL));
+  NULL_IS_NAMED("arrays", riis_surface_update_from_arrays(surface, NULL, NULL));
+  NULL_IS_NAMED("surface", riis_surface_get_info(NULL, NULL, 104));
+  NULL_IS_NAMED("info", riis_surface_get_info(surface, NULL, 104));
+  NULL_IS_NAMED("surface", riis_surface_vertices(NULL, NULL, NULL));
+  NULL_IS_NAMED("surface", riis_surface_vertex_parameters(NULL, NULL, NULL));
+  NULL_IS_NAMED("surface", riis_surface_triangles(NULL, NULL, NULL, NULL, NULL, NULL));
+  NULL_IS_NAMED("surface", riis_closest_point(NULL, values, NULL, 96));
+  NULL_IS_NAMED("point", riis_closest_point(surface, NULL, NULL, 96));
+  NULL_IS_NAMED("closest", riis_closest_point(surface, values, NULL, 96));
+  NULL_IS_NAMED("surface", riis_closest_points(NULL, 1, xyz, xyz, xyz, 1, NULL, &out));
+  NULL_IS_NAMED("y", riis_closest_points(surface, 1, xyz, NULL, xyz, 1, NULL, &out));
+  NULL_IS_NAMED("arrays", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, NULL, NULL));
+  NULL_IS_NAMED("x", riis_mesh_create(4, NULL, xyz, xyz, 1, &mesh));
+  NULL_IS_NAMED("y", riis_mesh_create(4, xyz, NULL, xyz, 1, &mesh));
+  NULL_IS_NAMED("z", riis_mesh_create(4, xyz, xyz, NULL, 1, &mesh));
+  NULL_IS_NAMED("mesh", riis_mesh_create(4, xyz, xyz, xyz, 1, NULL));
+  NULL_IS_NAMED("mesh", riis_mesh_update(NULL, 4, xyz, xyz, xyz, 1));
+  NULL_IS_NAMED("result", riis_mark_result_create(NULL));
+  NULL_IS_NAMED("surface", riis_mark_nodes(NULL, mesh, NULL, result));
+  NULL_IS_NAMED("mesh", riis_mark_nodes(surface, NULL, NULL, result));
+  NULL_IS_NAMED("result", riis_mark_nodes(surface, mesh, NULL, NULL));
+  NULL_IS_NAMED("result", riis_mark_result_marked(NULL, &n, NULL, NULL, NULL, NULL));
+  NULL_IS_NAMED("result", riis_mark_result_within_limit(NULL, &n, NULL, NULL, NULL, NULL));
+  NULL_IS_NAMED("result", riis_mark_result_dense(NULL, 4, 1e30, NULL, NULL, NULL, NULL));
+  NULL_IS_NAMED("result", riis_mark_result_stats(NULL, NULL, 56));
+  NULL_IS_NAMED("stats", riis_mark_result_stats(result, NULL, 56));
+  /* Destroying takes NULL, a NULL handle, and a handle, and leaves NULL. */
+  riis_valve_destroy(NULL);
+  riis_surface_destroy(NULL);
+  riis_mesh_destroy(NULL);
+  riis_mark_result_destroy(NULL);
+  for (int twice = 0; twice < 2; ++twice) {
+    riis_valve_destroy(&valve);
+    riis_surface_destroy(&surface);
+    riis_mesh_destroy(&mesh);
+    riis_mark_result_destroy(&result);
+    assert_true(!valve && !surface && !mesh && !result);
+  }
+}
+
+static void parameters_are_refused_by_name(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  double values[3] = {0, 0, NAN};
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic", riis_valve_create("tricuspid", &valve));
+  assert_null(valve);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "''", riis_valve_create("", &valve));
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radios'|aortic", riis_valve_set_scalar(valve, "root_radios", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'.leaflet_angle'", riis_valve_set_scalar(valve, ".leaflet_angle", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.'", riis_valve_set_scalar(valve, "right.", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'angle'", riis_valve_set_scalar(valve, "angle", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "''", riis_valve_set_scalar(valve, "", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is nan", riis_valve_set_scalar(valve, "root_radius", NAN));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is inf", riis_valve_set_scalar(valve, "root_radius", INFINITY));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is 0", riis_valve_set_scalar(valve, "root_radius", 0));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is -1.29", riis_valve_set_scalar(valve, "root_radius", -1.29));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'left.leaflet_angle' is 180|1 to 179", riis_valve_set_scalar(valve, "left.leaflet_angle", 180));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_power' is 0.5|from 1", riis_valve_set_scalar(valve, "leaflet_power", 0.5));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.translation'|3 values, not 1", riis_valve_set_scalar(valve, "right.translation", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|1 value, not 3", riis_valve_set(valve, "xq", 3, values));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'translation' is nan", riis_valve_set(valve, "translation", 3, values));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not -1", riis_valve_set(valve, "xq", -1, values));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'translation'|'right.translation'", riis_valve_get(valve, "translation", 3, values));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not 2", riis_valve_get(valve, "xq", 2, values));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 39", riis_valve_parameter(valve, -1, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 40", riis_valve_parameter(valve, 40, NULL, 72));
+  /* Nothing of all this stuck. */
+  CHECK_OK(riis_valve_get(valve, "root_radius", 1, values));
+  CHECK_SAME(values[0], 1.29);
+  CHECK_OK(riis_valve_get(valve, "right.translation", 3, values));
+  CHECK_SAME(values[2], -1.0);
+  /* A name longer than any text. */
+  char long_name[5000];
+  memset(long_name, 'x', sizeof long_name - 1);
+  long_name[sizeof long_name - 1] = 0;
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "xxx|aortic", riis_valve_set_scalar(valve, long_name, 1));
+  riis_valve_destroy(&valve);
+}
+
+static void surface_options_are_refused_by_name(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options options;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+#define OPTION_IS_REFUSED(field, value, text)                                                  \
+  do {                                                                                         \
+    options = surface_options();                                                               \
+    options.field = value;                                                                     \
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_surface_create(valve, &options, &surface)); \
+    assert_null(surface);                                                                      \
+  } while (0)
+  OPTION_IS_REFUSED(half_thickness, 0, "half_thickness is 0");
+  OPTION_IS_REFUSED(half_thickness, -0.1, "half_thickness is -0.1");
+  OPTION_IS_REFUSED(half_thickness, NAN, "half_thickness is nan");
+  OPTION_IS_REFUSED(half_thickness, INFINITY, "half_thickness is inf");
+  OPTION_IS_REFUSED(tolerance, 0, "tolerance is 0|1e-06 to 1");
+  OPTION_IS_REFUSED(tolerance, 1.5, "tolerance is 1.5");
+  OPTION_IS_REFUSED(tolerance, NAN, "tolerance is nan");
+  OPTION_IS_REFUSED(scale, 0, "scale is 0");
+  OPTION_IS_REFUSED(scale, -1, "scale is -1");
+  OPTION_IS_REFUSED(scale, INFINITY, "scale is inf");
+  OPTION_IS_REFUSED(rotation_angle, NAN, "rotation_angle is nan");
+  OPTION_IS_REFUSED(rotation_axis[1], NAN, "rotation_axis is nan");
+  OPTION_IS_REFUSED(rotation_axis[2], 0, "rotation_axis is (0, 0, 0)");
+  OPTION_IS_REFUSED(translation[0], -INFINITY, "translation is -inf");
+  OPTION_IS_REFUSED(zero_area, 2, "zero_area is 2");
+  OPTION_IS_REFUSED(flip_normals, -1, "flip_normals is -1");
+  options = surface_options();
+  options.tolerance = 1e-6;
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
+  options.half_thickness = 1e-50; /* absurd together, each in range */
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
+  riis_valve_destroy(&valve);
+}
+
+static void surface_arrays_are_refused_by_name(void **state) {
+  (void)state;
+  riis_surface *surface = NULL;
+  riis_surface_arrays arrays;
+  double bad[12];
+  int32_t bad_ids[3] = {0, 1, 4}, negative[1] = {-3};
+#define ARRAYS_ARE_REFUSED(status, change, text)                                                 \
+  do {                                                                                           \
+    arrays = triangle_arrays(4, xyz, 1, ids);                                                    \
+    change;                                                                                      \
+    CHECK_REFUSED(status, text, riis_surface_create_from_arrays(&arrays, NULL, &surface));       \
+    assert_null(surface);                                                                        \
+  } while (0)
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.x = NULL, "arrays.x is NULL");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.y = NULL, "arrays.y is NULL");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.z = NULL, "arrays.z is NULL");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.vertex_ids = NULL, "arrays.vertex_ids is NULL");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.stride = 0, "arrays.stride is 0");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.vertex_id_bits = 16, "arrays.vertex_id_bits is 16");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.index_base = 2, "arrays.index_base is 2");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.corners_per_face = 5, "arrays.corners_per_face is 5");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.reserved = 1, "arrays.reserved is 1");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_vertices = 0, "arrays.n_vertices is 0");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_vertices = INT64_C(1) << 40, "arrays.n_vertices is 1099511627776");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_faces = 0, "arrays.n_faces is 0");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_faces = -7, "arrays.n_faces is -7");
+  ARRAYS_ARE_REFUSED(RIIS_LIMIT_EXCEEDED, arrays.n_faces = 16777217, "arrays.n_faces is 16777217|16777216");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.vertex_ids = bad_ids, "corner 2 of face 0 is 4|0 to 3");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.index_base = 1, "corner 0 of face 0 is 0|1 to 4");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.leaflet_id = negative, "leaflet_id of face 0 is -3");
+  memcpy(bad, xyz, sizeof bad);
+  bad[11] = INFINITY; /* not even used by a face */
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2), "z of vertex 3 is inf");
+  bad[11] = 1e61;
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2), "z of vertex 3 is 1e+61");
+  /* In range before its placement, beyond after it. */
+  bad[11] = 1e59;
+  riis_surface_options options = surface_options();
+  options.scale = 100;
+  arrays = triangle_arrays(4, bad, 1, ids);
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "vertex 3, placed,|1e+61", riis_surface_create_from_arrays(&arrays, &options, &surface));
+}
+
+static void points_and_meshes_are_refused_by_name(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mesh *mesh = NULL;
+  riis_closest closest;
+  riis_closest_options options;
+  riis_closest_arrays out;
+  double nodes[12], distance[4] = {-9, -9, -9, -9};
+  memcpy(nodes, xyz, sizeof nodes);
+  CHECK_OK(riis_closest_options_init(&options, sizeof options));
+  CHECK_OK(riis_closest_arrays_init(&out, sizeof out));
+  out.distance = distance;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is 0", riis_mesh_create(0, xyz, xyz, xyz, 1, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -5", riis_mesh_create(-5, xyz, xyz, xyz, 1, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is 0", riis_mesh_create(4, xyz, xyz, xyz, 0, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is -3", riis_mesh_create(4, xyz, xyz, xyz, -3, &mesh));
+  nodes[7] = NAN;
+  nodes[11] = NAN;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "y of node 2 is nan", riis_mesh_create(4, nodes, nodes + 1, nodes + 2, 3, &mesh));
+  nodes[7] = -INFINITY;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "y of node 2 is -inf", riis_mesh_create(4, nodes, nodes + 1, nodes + 2, 3, &mesh));
+  nodes[7] = -2e60;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "y of node 2 is -2e+60", riis_mesh_create(4, nodes, nodes + 1, nodes + 2, 3, &mesh));
+  assert_null(mesh);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "y of point 2 is -2e+60", riis_closest_points(surface, 4, nodes, nodes + 1, nodes + 2, 3, NULL, &out));
+  for (int i = 0; i < 4; ++i) CHECK_SAME(distance[i], -9);
+  const double not_a_point[3] = {0, 0, NAN};
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "z of point 0 is nan", riis_closest_point(surface, not_a_point, &closest, sizeof closest));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_points is -1", riis_closest_points(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
+  options.n_threads = 1025;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  options.n_threads = 0;
+  options.distance_limit = -2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is -2", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  options.distance_limit = NAN;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is nan", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  options.distance_limit = 5;
+  options.far_distance = 5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 5", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  riis_surface_destroy(&surface);
+}
+
+static void marking_options_are_refused_by_name(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_OK(riis_mark_result_create(&result));
+#define MARK_OPTION_IS_REFUSED(field, value, text)                                                  \
+  do {                                                                                              \
+    riis_mark_options options = mark_options();                                                     \
+    options.field = value;                                                                          \
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result));    \
+  } while (0)
+  MARK_OPTION_IS_REFUSED(distance_limit, 0.05, "distance_limit is 0.05|half thickness, 0.1");
+  MARK_OPTION_IS_REFUSED(distance_limit, NAN, "distance_limit is nan");
+  MARK_OPTION_IS_REFUSED(distance_limit, INFINITY, "distance_limit is inf");
+  MARK_OPTION_IS_REFUSED(search, 2, "search is 2");
+  MARK_OPTION_IS_REFUSED(search, -1, "search is -1");
+  MARK_OPTION_IS_REFUSED(n_threads, -1, "n_threads is -1");
+  MARK_OPTION_IS_REFUSED(n_threads, 4096, "n_threads is 4096");
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+}
+
+/* A caller of an older header gets and gives less; one of a newer header is told. */
+static void struct_sizes_are_checked(void **state) {
+  (void)state;
+  riis_surface_options options;
+  memset(&options, 0x5a, sizeof options);
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 95|96", riis_surface_options_init(&options, 95));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 104|0.1.0", riis_surface_options_init(&options, 104));
+  assert_int_equal(options.zero_area, 0x5a5a5a5a); /* untouched */
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  options.struct_size = 0; /* never filled */
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 0|init function", riis_surface_create(valve, &options, &surface));
+  options.struct_size = -8;
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is -8", riis_surface_create(valve, &options, &surface));
+  options.struct_size = INT64_MAX;
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 9223372036854775807", riis_surface_create(valve, &options, &surface));
+  riis_closest closest;
+  surface = aortic_surface(NULL);
+  const double origin[3] = {0, 0, 0};
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "closest is 8", riis_closest_point(surface, origin, &closest, 8));
+  riis_surface_arrays arrays = triangle_arrays(4, xyz, 1, ids);
+  arrays.struct_size = 80;
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "arrays is 80", riis_surface_update_from_arrays(surface, &arrays, NULL));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(statuses_have_names),
+      cmocka_unit_test(version_is_the_headers),
+      cmocka_unit_test(null_arguments_are_named),
+      cmocka_unit_test(parameters_are_refused_by_name),
+      cmocka_unit_test(surface_options_are_refused_by_name),
+      cmocka_unit_test(surface_arrays_are_refused_by_name),
+      cmocka_unit_test(points_and_meshes_are_refused_by_name),
+      cmocka_unit_test(marking_options_are_refused_by_name),
+      cmocka_unit_test(struct_sizes_are_checked),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Surfaces from the caller's arrays: layouts, ids, zero-area triangles, winding. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+/* A unit square in z = 0 of two triangles, and a third, 5 above. */
+static const double xyz[21] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
+static const int32_t ids[9] = {0, 1, 2, 0, 2, 3, 4, 5, 6};
+static const int32_t leaflets[3] = {7, 8, 9};
+
+static void every_layout_gives_the_same_surface(void **state) {
+  (void)state;
+  double x[7], y[7], z[7];
+  int32_t ids32[9];
+  int64_t ids64[9];
+  for (int i = 0; i < 7; ++i) x[i] = xyz[3 * i], y[i] = xyz[3 * i + 1], z[i] = xyz[3 * i + 2];
+  for (int layout = 0; layout < 8; ++layout) {
+    const int one_based = layout & 1, wide = layout & 2, separate = layout & 4;
+    riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
+    for (int i = 0; i < 9; ++i) ids32[i] = ids[i] + one_based, ids64[i] = ids[i] + one_based;
+    arrays.index_base = one_based;
+    arrays.vertex_id_bits = wide ? 64 : 32;
+    arrays.vertex_ids = wide ? (const void *)ids64 : ids32;
+    arrays.leaflet_id = leaflets;
+    if (separate) arrays.x = x, arrays.y = y, arrays.z = z, arrays.stride = 1;
+    riis_surface *surface = surface_from(&arrays, NULL);
+    memset(ids32, -1, sizeof ids32); /* nothing stays borrowed */
+    memset(ids64, -1, sizeof ids64);
+    CHECK_NEAR(info_of(surface).area, 1.5, 1e-15);
+    const riis_closest a = closest_to(surface, 0.9, 0.1, 1), b = closest_to(surface, 0.1, 0.9, -1), c = closest_to(surface, 0.1, 0.1, 7);
+    assert_int_equal(a.triangle_id, 0);
+    assert_int_equal(a.leaflet_id, 7);
+    assert_int_equal(a.side, 1);
+    assert_int_equal(b.triangle_id, 1);
+    assert_int_equal(b.leaflet_id, 8);
+    assert_int_equal(b.side, -1);
+    assert_int_equal(c.triangle_id, 2);
+    assert_int_equal(c.leaflet_id, 9);
+    CHECK_NEAR(c.distance, 2, 1e-15);
+    riis_surface_destroy(&surface);
+  }
+}
+
+static void quads_are_cut_along_the_first_diagonal(void **state) {
+  (void)state;
+  static const int32_t quad[4] = {0, 1, 2, 3};
+  riis_surface_arrays arrays = triangle_arrays(7, xyz, 1, quad);
+  arrays.corners_per_face = 4;
+  riis_surface *surface = surface_from(&arrays, NULL);
+  assert_int_equal(info_of(surface).n_triangles, 2);
+  assert_int_equal(closest_to(surface, 0.9, 0.1, 1).triangle_id, 0);
+  assert_int_equal(closest_to(surface, 0.1, 0.9, 1).triangle_id, 1);
+  assert_int_equal(closest_to(surface, 0.1, 0.9, 1).leaflet_id, 0);
+  const double *uv;
+  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
+  assert_null(uv);
+  riis_surface_destroy(&surface);
+}
+
+typedef struct {
+  int warnings;
+  char last[256];
+} heard;
+
+static void listen(void *user_data, int32_t level, const char *message) {
+  heard *to = user_data;
+  if (level == RIIS_LOG_WARNING) ++to->warnings, snprintf(to->last, sizeof to->last, "%s", message);
+}
+
+static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
+  (void)state;
+  /* Triangle 1 repeats a vertex, triangle 2 is collinear, triangle 3 a needle of height 1e-13. */
+  const double points[27] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 0.5, 1e-13, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
+  const int32_t with_bad[15] = {0, 1, 2, 0, 0, 3, 0, 1, 4, 0, 1, 5, 6, 7, 8};
+  riis_surface_arrays arrays = triangle_arrays(9, points, 5, with_bad);
+  riis_surface_options options = surface_options();
+  riis_surface *surface = NULL;
+  heard log = {0, ""};
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "face 1|0, 0, 3|zero area", riis_surface_create_from_arrays(&arrays, &options, &surface));
+  assert_null(surface);
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  riis_set_log(listen, &log);
+  surface = surface_from(&arrays, &options);
+  riis_set_log(NULL, NULL);
+  assert_int_equal(log.warnings, 1);
+  assert_non_null(strstr(log.last, "3 of 5 triangles"));
+  assert_int_equal(info_of(surface).n_triangles, 2);
+  assert_int_equal(info_of(surface).n_zero_area, 3);
+  const int64_t *triangle_id;
+  CHECK_OK(riis_surface_triangles(surface, NULL, NULL, &triangle_id, NULL, NULL));
+  assert_int_equal(triangle_id[0], 0);
+  assert_int_equal(triangle_id[1], 4);
+  assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id, 4); /* the caller's number, not the place in the queue */
+  riis_surface_destroy(&surface);
+
+  arrays.n_faces = 3;
+  arrays.vertex_ids = with_bad + 3; /* only bad ones */
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "none of the 3 faces", riis_surface_create_from_arrays(&arrays, &options, &surface));
+}
+
+static void tiny_and_huge_surfaces_have_area(void **state) {
+  (void)state;
+  for (int power = -50; power <= 50; power += 10) {
+    const double s = pow(10, power), points[9] = {0, 0, 0, s, 0, 0, 0, s, 0};
+    const int32_t one[3] = {0, 1, 2};
+    riis_surface_arrays arrays = triangle_arrays(3, points, 1, one);
+    riis_surface *surface = surface_from(&arrays, NULL);
+    const riis_closest closest = closest_to(surface, 0.25 * s, 0.25 * s, -2 * s);
+    CHECK_NEAR(closest.distance / s, 2, 1e-14);
+    CHECK_NEAR(closest.normal[2], 1, 1e-15);
+    assert_int_equal(closest.side, -1);
+    riis_surface_destroy(&surface);
+  }
+}
+
+static void winding_is_the_callers_unless_flipped(void **state) {
+  (void)state;
+  riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
+  riis_surface_options options = surface_options();
+  options.flip_normals = 1;
+  riis_surface *kept = surface_from(&arrays, NULL), *flipped = surface_from(&arrays, &options);
+  CHECK_NEAR(closest_to(kept, 0.9, 0.1, 1).normal[2], 1, 0);
+  CHECK_NEAR(closest_to(flipped, 0.9, 0.1, 1).normal[2], -1, 0);
+  assert_int_equal(closest_to(kept, 0.9, 0.1, 1).side, 1);
+  assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
+  riis_surface_destroy(&kept);
+  riis_surface_destroy(&flipped);
+}
+
+static void update_replaces_the_content(void **state) {
+  (void)state;
+  riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
+  riis_surface_options options = surface_options();
+  options.half_thickness = 0.25;
+  riis_surface *surface = surface_from(&arrays, &options);
+  arrays.n_faces = 2;
+  CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
+  assert_int_equal(info_of(surface).n_triangles, 2);
+  CHECK_SAME(info_of(surface).half_thickness, 0.25);
+  double moved[21];
+  memcpy(moved, xyz, sizeof xyz);
+  moved[4] = NAN;
+  arrays.x = moved, arrays.y = moved + 1, arrays.z = moved + 2;
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "y of vertex 1 is nan", riis_surface_update_from_arrays(surface, &arrays, NULL));
+  assert_int_equal(info_of(surface).n_triangles, 2);
+  CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
+  riis_surface_destroy(&surface);
+}
+
+/* A closed box of sharp edges: inside is inside, also where the closest point is an edge or a corner; the plain normal of one face would
+ * be wrong there. */
+static void side_at_edges_and_corners_of_a_wedge(void **state) {
+  (void)state;
+  /* A thin tetrahedron: dihedral angles far below and above 90 degrees. */
+  const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};
+  const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+  riis_surface_arrays arrays = triangle_arrays(4, points, 4, faces);
+  riis_surface *surface = surface_from(&arrays, NULL);
+  random_source rng = random_start("side_at_edges_and_corners_of_a_wedge");
+  int n_inside = 0, n_edge = 0;
+  for (int trial = 0; trial < 50000; ++trial) {
+    const double p[3] = {random_between(&rng, -1, 5), random_between(&rng, -0.5, 1), random_between(&rng, -0.5, 0.8)};
+    /* Inside all four planes. */
+    int inside = 1;
+    for (int f = 0; f < 4; ++f) {
+      const double *a = points + 3 * faces[3 * f], *b = points + 3 * faces[3 * f + 1], *c = points + 3 * faces[3 * f + 2];
+      const double n[3] = {(b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]),
+                           (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]),
+                           (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])};
+      if (n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2]) > 0) inside = 0;
+    }
+    const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
+    if (closest.distance < 1e-9) continue;
+    assert_int_equal(closest.side, inside ? -1 : 1);
+    n_inside += inside;
+    n_edge += closest.barycentric[0] == 0 || closest.barycentric[1] == 0 || closest.barycentric[2] == 0;
+  }
+  assert_true(n_inside > 100 && n_edge > 10000);
+  riis_surface_destroy(&surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_layout_gives_the_same_surface),
+      cmocka_unit_test(quads_are_cut_along_the_first_diagonal),
+      cmocka_unit_test(zero_area_is_refused_or_skipped_with_ids_kept),
+      cmocka_unit_test(tiny_and_huge_surfaces_have_area),
+      cmocka_unit_test(winding_is_the_callers_unless_flipped),
+      cmocka_unit_test(update_replaces_the_content),
+      cmocka_unit_test(side_at_edges_and_corners_of_a_wedge),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
