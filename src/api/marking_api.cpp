@@ -72,7 +72,10 @@ void riis_mesh_destroy(riis_mesh **mesh) {
 }
 
 riis_status riis_mark_result_create(riis_mark_result **result) {
-  return guarded([&] { *require(result, "result") = new riis_mark_result{}; });
+  return guarded([&] {
+    require(result, "result");
+    *result = new riis_mark_result{};
+  });
 }
 
 void riis_mark_result_destroy(riis_mark_result **result) {

@@ -2,6 +2,7 @@
 #include "vtk/files.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -79,6 +80,16 @@ std::string tail_of(const std::string &path, std::int64_t n_bytes) {
   if (!file.read(tail.data(), static_cast<std::streamsize>(tail.size()))) tail.clear();
   return tail;
 }
+
+MappedFile::MappedFile(const std::string &path, std::int64_t size) : size_(static_cast<std::size_t>(size)) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  bytes_ = file < 0 ? MAP_FAILED : mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file, 0);
+  const int error = errno;
+  if (file >= 0) close(file);
+  if (bytes_ == MAP_FAILED) fail_file(path, "cannot be read: " + system_text(error));
+}
+
+MappedFile::~MappedFile() { munmap(bytes_, size_); }
 
 ReplacingFile::ReplacingFile(const std::string &path) : path_(path), place_(resolved(path)) {
   struct stat status;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace riis::vtk {
 
@@ -17,6 +18,22 @@ std::int64_t check_readable(const std::string &path);
 
 // The last bytes of a file, at most n_bytes.
 std::string tail_of(const std::string &path, std::int64_t n_bytes);
+
+// A file's bytes, readable for the length of a scope.
+class MappedFile {
+ public:
+  // size is what check_readable returned.
+  MappedFile(const std::string &path, std::int64_t size);
+  ~MappedFile();
+  MappedFile(const MappedFile &) = delete;
+  MappedFile &operator=(const MappedFile &) = delete;
+
+  std::string_view bytes() const { return {static_cast<const char *>(bytes_), size_}; }
+
+ private:
+  std::size_t size_;
+  void *bytes_;
+};
 
 // A file that is complete or not there: written under temporary(), a name in the same folder, and moved by commit().
 // Without a commit the temporary file is removed and whatever stood in the final place is untouched.

@@ -37,7 +37,7 @@ struct View {
 View view_of(int32_t view) {
   if (view == RIIS_VTK_VIEW_SIDE) return {{0, 1, 0}, {0, 0, 1}};
   if (view == RIIS_VTK_VIEW_TOP) return {{0, 0, -1}, {0, 1, 0}};
-  View oblique = {{-0.5, 0.7, -0.6}, {0, 0, 1}};
+  View oblique = {{-0.45, 0.65, -0.85}, {0, 0, 1}};
   vtkMath::Normalize(oblique.direction.data());
   const double along = oblique.direction[2];
   for (std::size_t k = 0; k < 3; ++k) oblique.up[k] -= along * oblique.direction[k];

@@ -58,6 +58,9 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   property->SetFontFamilyToArial();
   property->SetFontSize(size);
   property->SetColor(colour[0], colour[1], colour[2]);
+  // A large mesh runs behind the texts.
+  property->SetBackgroundColor(1, 1, 1);
+  property->SetBackgroundOpacity(0.8);
   renderer->AddViewProp(actor);
 }
 
@@ -114,6 +117,9 @@ void add_coloured(vtkRenderer *renderer, vtkPolyData *faces) {
   const vtkSmartPointer<vtkActor> actor = actor_of(faces);
   actor->GetMapper()->SetScalarModeToUseCellData();
   actor->GetMapper()->SetColorModeToDirectScalars();
+  // Some light of its own, so that what faces away from the lamps keeps its colour.
+  actor->GetProperty()->SetAmbient(0.25);
+  actor->GetProperty()->SetDiffuse(0.85);
   actor->GetProperty()->SetSpecular(0.15);
   actor->GetProperty()->SetSpecularPower(20);
   renderer->AddActor(actor);
@@ -179,6 +185,7 @@ void add_outline(vtkRenderer *renderer, vtkUnstructuredGrid *grid) {
   const vtkSmartPointer<vtkActor> lines = actor_of(edges->GetOutput());
   lines->GetProperty()->SetColor(outline_grey, outline_grey, outline_grey);
   lines->GetProperty()->LightingOff();
+  lines->GetProperty()->SetLineWidth(1.5F);
   renderer->AddActor(lines);
 }
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include <vtkLogger.h>
 #include <vtkObject.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -75,13 +76,16 @@ vtkStandardNewMacro(CaughtOutput::Window);
 CaughtOutput::CaughtOutput()
     : window_(vtkSmartPointer<Window>::New()),
       caller_window_(vtkOutputWindow::GetInstance()),
-      caller_displays_(vtkObject::GetGlobalWarningDisplay()) {
+      caller_displays_(vtkObject::GetGlobalWarningDisplay()),
+      caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
   // With the display off VTK drops errors before they reach any window.
   vtkObject::SetGlobalWarningDisplay(1);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
 CaughtOutput::~CaughtOutput() {
+  vtkLogger::SetStderrVerbosity(static_cast<vtkLogger::Verbosity>(caller_log_level_));
   vtkObject::SetGlobalWarningDisplay(caller_displays_);
   vtkOutputWindow::SetInstance(caller_window_);
 }

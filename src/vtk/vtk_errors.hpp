@@ -32,7 +32,9 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Takes the place of VTK's process-wide output window for the length of a scope.
+// Takes the place of VTK's process-wide output window for the length of a scope, and silences VTK's log on stderr,
+// which repeats every error. VTK does not tell what the log's stderr part was set to, only the highest level of its
+// parts: that is put back.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -51,6 +53,7 @@ class CaughtOutput {
   vtkSmartPointer<Window> window_;
   vtkSmartPointer<vtkOutputWindow> caller_window_;
   int caller_displays_;
+  int caller_log_level_;
 };
 
 // Status and text of the exception that is being handled.

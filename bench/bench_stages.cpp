@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// One benchmark a stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine; what
+// guards the speed are the ratios, both sides measured in the same run.
+#include <benchmark/benchmark.h>
+#include <riis/riis.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "api/handles.hpp"
+#include "distance/point_triangle.hpp"
+
+namespace {
+
+void check(riis_status status) {
+  if (status == RIIS_OK) return;
+  std::fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
+  std::exit(1);
+}
+
+template <class Handle, void (*destroy)(Handle **)>
+struct Destroy {
+  void operator()(Handle *handle) const { destroy(&handle); }
+};
+using Valve = std::unique_ptr<riis_valve, Destroy<riis_valve, riis_valve_destroy>>;
+using Surface = std::unique_ptr<riis_surface, Destroy<riis_surface, riis_surface_destroy>>;
+using Mesh = std::unique_ptr<riis_mesh, Destroy<riis_mesh, riis_mesh_destroy>>;
+using Result = std::unique_ptr<riis_mark_result, Destroy<riis_mark_result, riis_mark_result_destroy>>;
+
+Valve aortic_valve() {
+  riis_valve *valve = nullptr;
+  check(riis_valve_create("aortic", &valve));
+  return Valve(valve);
+}
+
+riis_surface_options with_tolerance(double tolerance) {
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  options.tolerance = tolerance;
+  return options;
+}
+
+Surface aortic_surface(double tolerance) {
+  riis_surface *surface = nullptr;
+  const riis_surface_options options = with_tolerance(tolerance);
+  check(riis_surface_create(aortic_valve().get(), &options, &surface));
+  return Surface(surface);
+}
+
+// Nodes in the box that the demo's cylinder fills; the same every run.
+const std::vector<double> &nodes() {
+  static const std::vector<double> xyz = [] {
+    constexpr std::size_t n_nodes = 100000;
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> across(-1.6, 1.6), along(-1.4, 0.6);
+    std::vector<double> made;
+    for (std::size_t i = 0; i < n_nodes; ++i) {
+      made.push_back(across(random));
+      made.push_back(across(random));
+      made.push_back(along(random));
+    }
+    return made;
+  }();
+  return xyz;
+}
+
+std::int64_t n_nodes() { return static_cast<std::int64_t>(nodes().size() / 3); }
+
+Mesh box_mesh() {
+  riis_mesh *mesh = nullptr;
+  const double *xyz = nodes().data();
+  check(riis_mesh_create(n_nodes(), xyz, xyz + 1, xyz + 2, 3, &mesh));
+  return Mesh(mesh);
+}
+
+double n_triangles_of(const riis_surface *surface) {
+  riis_surface_info info;
+  check(riis_surface_get_info(surface, &info, sizeof info));
+  return static_cast<double>(info.n_triangles);
+}
+
+// Parameters to triangles to scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per cent.
+void surface_update(benchmark::State &state) {
+  const Valve valve = aortic_valve();
+  const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);
+  const Surface surface = aortic_surface(0.05);
+  double seconds_triangles = 0, seconds_scene = 0;
+  for (auto _ : state) {
+    check(riis_surface_update(surface.get(), valve.get(), &options));
+    riis_surface_info info;
+    check(riis_surface_get_info(surface.get(), &info, sizeof info));
+    seconds_triangles += info.seconds_triangles;
+    seconds_scene += info.seconds_scene;
+  }
+  state.counters["triangles"] = n_triangles_of(surface.get());
+  state.counters["triangles_share"] = seconds_triangles / (seconds_triangles + seconds_scene);
+}
+BENCHMARK(surface_update)->Arg(100)->Arg(50)->Arg(20)->Arg(5)->Unit(benchmark::kMillisecond);
+
+void closest_point(benchmark::State &state) {
+  const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
+  std::size_t i = 0;
+  riis_closest closest;
+  check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));  // makes what sides need
+  for (auto _ : state) {
+    check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));
+    benchmark::DoNotOptimize(closest);
+  }
+  state.counters["triangles"] = n_triangles_of(surface.get());
+}
+BENCHMARK(closest_point)->Arg(50)->Arg(5)->Unit(benchmark::kMicrosecond);
+
+// Argument: threads.
+void mark_exhaustive(benchmark::State &state) {
+  const Surface surface = aortic_surface(0.05);
+  const Mesh mesh = box_mesh();
+  riis_mark_result *made = nullptr;
+  check(riis_mark_result_create(&made));
+  const Result result(made);
+  riis_mark_options options;
+  check(riis_mark_options_init(&options, sizeof options));
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  options.n_threads = static_cast<std::int32_t>(state.range(0));
+  for (auto _ : state) check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get()));
+  riis_mark_stats stats;
+  check(riis_mark_result_stats(result.get(), &stats, sizeof stats));
+  state.counters["nodes"] = static_cast<double>(stats.n_nodes);
+  state.counters["marked"] = static_cast<double>(stats.n_marked);
+  state.counters["queries"] = static_cast<double>(stats.n_queries);
+  state.counters["threads"] = stats.n_threads;
+  state.counters["time/query"] = benchmark::Counter(static_cast<double>(stats.n_queries),
+                                                    benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// The loop over all triangles with the library's own kernel, against the marking of the same nodes on one thread: how many times
+// faster the scene is. The sample is every 100th node.
+void brute_force_over_marking(benchmark::State &state) {
+  const Surface surface = aortic_surface(0.05);
+  const riis::TriangleSet &triangles = surface->surface->triangles();
+  const double *xyz = nodes().data();
+  const std::int64_t n_sample = n_nodes() / 100;
+  riis_mesh *sampled = nullptr;
+  check(riis_mesh_create(n_sample, xyz, xyz + 1, xyz + 2, 300, &sampled));
+  const Mesh mesh(sampled);
+  riis_mark_result *made = nullptr;
+  check(riis_mark_result_create(&made));
+  const Result result(made);
+  riis_mark_options options;
+  check(riis_mark_options_init(&options, sizeof options));
+  options.n_threads = 1;
+  double seconds_loop = 0, seconds_marking = 0;
+  std::int64_t n_marked_by_loop = 0;
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    n_marked_by_loop = 0;
+    for (std::int64_t i = 0; i < n_sample; ++i) {
+      const double *p = xyz + 300 * i;
+      n_marked_by_loop += std::sqrt(riis::closest_by_brute_force(triangles, {p[0], p[1], p[2]}).distance_sq) <= 0.1;
+    }
+    const auto middle = std::chrono::steady_clock::now();
+    check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get()));
+    const auto end = std::chrono::steady_clock::now();
+    seconds_loop += std::chrono::duration<double>(middle - start).count();
+    seconds_marking += std::chrono::duration<double>(end - middle).count();
+  }
+  std::int64_t n_marked = 0;
+  check(riis_mark_result_marked(result.get(), &n_marked, nullptr, nullptr, nullptr, nullptr));
+  if (n_marked != n_marked_by_loop) state.SkipWithError("the loop and the marking differ");
+  const double pairs = static_cast<double>(n_sample) * n_triangles_of(surface.get()) * static_cast<double>(state.iterations());
+  state.counters["ratio"] = seconds_loop / seconds_marking;
+  state.counters["loop_ns/pair"] = 1e9 * seconds_loop / pairs;
+}
+BENCHMARK(brute_force_over_marking)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

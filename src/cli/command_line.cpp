@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "cli/numbers.hpp"
+#include "cli/refusal.hpp"
+
+namespace riis::cli {
+namespace {
+
+constexpr const char *description =
+    "Marks the nodes of a mesh that lie near a heart valve: those whose distance to the valve's surface is at most its "
+    "half "
+    "thickness.";
+
+constexpr const char *footer = R"(Examples:
+  riis-mark mesh.vtu --output marked.vtu --picture valve.png
+  riis-mark mesh.vtu --scale 0.01 --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
+  riis-mark mesh.vtu --surface valve.stl --half-thickness 0.05 --output marked.vtu
+  riis-mark --print-params > valve.json
+
+The marked mesh is a copy of the input with its nodes in the input's order and the point arrays riis_marked (UInt8: 0 or 1),
+riis_distance (Float64) and riis_leaflet (Int32: -1 for none). Lengths are in the mesh's unit; the valve's own parameters are
+in centimetres before --scale.
+
+Parameters are those of the valve (right.leaflet_angle) or, without a cusp's name (leaflet_angle), of all its cusps. A JSON
+file sets the latter first, whatever their order in the file; --set comes after the file, from left to right.
+
+On a terminal, what takes longer than a second is announced on stderr, unless --quiet.
+Exit status: 0 fine, 1 bad data (a file, an array, a parameter, no display), 2 wrong usage; one line on stderr says what.)";
+
+const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at the position of their RIIS_VTK_VIEW_*
+const std::vector<std::string> search_names = {"auto", "exhaustive"};    // at the position of their RIIS_SEARCH_*
+
+// What CLI11 collects, as text: numbers are parsed here, whatever the locale.
+struct Texts {
+  std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads;
+  std::string search = search_names[RIIS_SEARCH_AUTO];
+  std::vector<std::string> pictures, views;
+  bool skip_zero_area = false;
+  bool flip_normals = false;
+};
+
+int32_t position_of(const std::string &name, const std::vector<std::string> &names) {
+  return static_cast<int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void declare_surface(CLI::App &app, Options &options, Texts &texts) {
+  const char *group = "Surface";
+  CLI::Option *surface =
+      app.add_option("--surface", options.surface, "Surface from a file (.vtp, .vtu, .stl) instead of a valve")
+          ->type_name("FILE")
+          ->group(group);
+  app.add_option("--valve", options.valve, "Kind of the parametric valve: aortic (the default)")
+      ->type_name("KIND")
+      ->group(group)
+      ->excludes(surface);
+  app.add_option("--params", options.params, "Valve parameters from a JSON file")
+      ->type_name("FILE.json")
+      ->group(group)
+      ->excludes(surface);
+  app.add_option("--set", options.settings, "One valve parameter, a number or X,Y,Z; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->group(group)
+      ->excludes(surface);
+  app.add_flag("--print-params", options.print_params,
+               "Print all valve parameters as JSON for --params, after --params and --set, and exit")
+      ->group(group)
+      ->excludes(surface);
+  app.add_option("--tolerance", texts.tolerance,
+                 "Triangles deviate from the smooth valve by at most F half thicknesses (0.05)")
+      ->type_name("F")
+      ->group(group)
+      ->excludes(surface);
+  app.add_flag("--skip-zero-area", texts.skip_zero_area,
+               "Leave triangles without area out of --surface, not refuse them")
+      ->group(group)
+      ->needs(surface);
+  app.add_flag("--flip-normals", texts.flip_normals, "Turn every triangle over")->group(group);
+}
+
+void declare_placement(CLI::App &app, Texts &texts) {
+  const char *group = "Placement: x -> scale * rotation * x + translation";
+  app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (1)")
+      ->type_name("S")
+      ->group(group);
+  app.add_option("--rotate", texts.rotate, "Axis and angle in degrees")->type_name("X,Y,Z,DEG")->group(group);
+  app.add_option("--translate", texts.translate, "In the mesh's unit")->type_name("X,Y,Z")->group(group);
+}
+
+void declare_marking(CLI::App &app, Texts &texts) {
+  const char *group = "Marking";
+  app.add_option("--half-thickness", texts.half_thickness, "Nodes up to this distance are marked (0.1 times the scale)")
+      ->type_name("L")
+      ->group(group);
+  app.add_option("--distance-limit", texts.distance_limit, "Distances are wanted up to here (the half thickness)")
+      ->type_name("L")
+      ->group(group);
+  app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (1e30)")
+      ->type_name("X")
+      ->group(group);
+  app.add_option("--search", texts.search, "auto (the default) or exhaustive")
+      ->type_name("HOW")
+      ->check(CLI::IsMember(search_names))
+      ->group(group);
+  app.add_option("--threads", texts.threads, "Number of threads (the processors that the program may use)")
+      ->type_name("N")
+      ->group(group);
+}
+
+void declare_output(CLI::App &app, Options &options, Texts &texts) {
+  const char *group = "Output";
+  app.add_option("--output", options.output, "The marked mesh")->type_name("OUT.vtu")->group(group);
+  app.add_option("--surface-output", options.surface_output, "The placed triangles")
+      ->type_name("OUT.vtp")
+      ->group(group);
+  app.add_option("--picture", texts.pictures, "Surface and marked cells side by side; may be repeated")
+      ->type_name("OUT.png")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--view", texts.views, "side, top or oblique (the default): one for each --picture, in their order")
+      ->type_name("VIEW")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(view_names))
+      ->group(group);
+  app.add_option("--stats", options.stats, "Counts and seconds as JSON; - for stdout, which then holds nothing else")
+      ->type_name("FILE.json|-")
+      ->group(group);
+  app.add_flag("--quiet", options.quiet, "No table on stdout, no progress on stderr")->group(group);
+}
+
+// RIIS_AUTO is a negative number: a user's must not pass for it.
+double parse_length(const std::string &text, const std::string &subject) {
+  const double length = parse_number(text, subject);
+  if (!(length > 0)) throw Refusal{exit_wrong_usage, subject + ": " + text + " is not above 0"};
+  return length;
+}
+
+void parse_surface_options(const Texts &texts, riis_surface_options &options) {
+  check(riis_surface_options_init(&options, sizeof options));
+  if (!texts.half_thickness.empty()) options.half_thickness = parse_length(texts.half_thickness, "--half-thickness");
+  if (!texts.tolerance.empty()) options.tolerance = parse_number(texts.tolerance, "--tolerance");
+  if (!texts.scale.empty()) options.scale = parse_number(texts.scale, "--scale");
+  if (!texts.rotate.empty()) {
+    const std::vector<double> turn = parse_list(texts.rotate, "--rotate", 4, "X,Y,Z,DEG");
+    std::copy_n(turn.begin(), 3, options.rotation_axis);
+    options.rotation_angle = turn[3];
+  }
+  if (!texts.translate.empty()) {
+    const std::vector<double> shift = parse_list(texts.translate, "--translate", 3, "X,Y,Z");
+    std::copy_n(shift.begin(), 3, options.translation);
+  }
+  options.zero_area = texts.skip_zero_area ? RIIS_ZERO_AREA_SKIP : RIIS_ZERO_AREA_REFUSE;
+  options.flip_normals = texts.flip_normals;
+}
+
+void parse_mark_options(const Texts &texts, riis_mark_options &options) {
+  check(riis_mark_options_init(&options, sizeof options));
+  if (!texts.distance_limit.empty()) options.distance_limit = parse_length(texts.distance_limit, "--distance-limit");
+  if (!texts.threads.empty()) options.n_threads = parse_integer(texts.threads, "--threads");
+  options.search = position_of(texts.search, search_names);
+}
+
+std::vector<Picture> pair_pictures(const Texts &texts) {
+  if (texts.views.size() > texts.pictures.size()) {
+    throw Refusal{exit_wrong_usage, "--view: more views than pictures"};
+  }
+  std::vector<Picture> pictures;
+  for (const std::string &path : texts.pictures) pictures.push_back({path, RIIS_VTK_VIEW_OBLIQUE});
+  for (std::size_t i = 0; i < texts.views.size(); ++i) pictures[i].view = position_of(texts.views[i], view_names);
+  return pictures;
+}
+
+// Refuses what would have no effect.
+void check_purpose(const Options &options) {
+  if (options.print_params) return;
+  const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
+  if (options.mesh.empty()) {
+    if (!options.output.empty()) refuse("--output needs a MESH");
+    if (!options.stats.empty()) refuse("--stats needs a MESH");
+    if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
+  } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
+             options.stats.empty()) {
+    refuse("nothing to do: --quiet, and no output asked for");
+  }
+}
+
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+std::optional<Options> parse_command_line(int argc, char **argv) {
+  Options options;
+  Texts texts;
+  CLI::App app(description, "riis-mark");
+  app.get_formatter()->column_width(34);
+  app.set_version_flag("--version", std::string("riis-mark ") + riis_version_string(), "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this and exit");
+  app.footer(footer);
+  app.add_option("MESH", options.mesh, "The mesh, an unstructured grid: .vtu (XML) or .vtk (legacy)")
+      ->type_name("FILE");
+  declare_surface(app, options, texts);
+  declare_placement(app, texts);
+  declare_marking(app, texts);
+  declare_output(app, options, texts);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success &request) {
+    app.exit(request);
+    return std::nullopt;
+  } catch (const CLI::ParseError &error) {
+    throw Refusal{exit_wrong_usage, in_one_line(error.what()) + " (riis-mark --help lists the options)"};
+  }
+  if (options.valve.empty()) options.valve = "aortic";
+  if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
+  parse_surface_options(texts, options.surface_options);
+  parse_mark_options(texts, options.mark_options);
+  options.pictures = pair_pictures(texts);
+  check_purpose(options);
+  return options;
+}
+
+}  // namespace riis::cli

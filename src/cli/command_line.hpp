@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: argc and argv. Out: what the user asked for, its form checked; whether the values are good is the library's to
+// say.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace riis::cli {
+
+struct Picture {
+  std::string path;
+  int32_t view;
+};
+
+struct Options {
+  std::string mesh;                   // "": none
+  std::string valve;                  // kind; used without surface
+  std::string surface;                // file; "": the valve
+  std::string params;                 // JSON file; "": none
+  std::vector<std::string> settings;  // NAME=VALUE, in order
+  riis_surface_options surface_options;
+  riis_mark_options mark_options;
+  double far_distance = RIIS_FAR_DISTANCE;
+  std::string output, surface_output, stats;  // "": not wanted
+  std::vector<Picture> pictures;
+  bool print_params = false;
+  bool quiet = false;
+};
+
+// Empty when the command line asked for nothing but the help or the version, which have then been printed.
+// Throws a Refusal for wrong usage.
+std::optional<Options> parse_command_line(int argc, char **argv);
+
+}  // namespace riis::cli

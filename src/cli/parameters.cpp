@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/parameters.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "cli/numbers.hpp"
+#include "cli/refusal.hpp"
+
+namespace riis::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const std::string &path, const std::string &reason) {
+  throw Refusal{exit_bad_data, path + ": " + reason};
+}
+
+std::string text_of(const std::string &path) {
+  errno = 0;
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (!file || file.bad()) {
+    const std::string reason = errno ? "cannot be read: " + std::generic_category().message(errno) : "is empty";
+    refuse(path, reason);
+  }
+  return text.str();
+}
+
+// The parser keeps the last of several equal keys; here they are refused, as the user cannot have meant both.
+class RepeatedKeys {
+ public:
+  explicit RepeatedKeys(const std::string &path) : path_(path) {}
+  void operator()(Json::parse_event_t event, const Json &parsed) {
+    if (event == Json::parse_event_t::object_start) {
+      keys_.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      keys_.pop_back();
+    } else if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second) {
+      refuse(path_, parsed.get<std::string>() + " is given twice");
+    }
+  }
+
+ private:
+  const std::string &path_;
+  std::vector<std::set<std::string>> keys_;
+};
+
+Json parse_file(const std::string &path) {
+  RepeatedKeys repeated(path);
+  const auto observe = [&](int, Json::parse_event_t event, Json &parsed) {
+    repeated(event, parsed);
+    return true;
+  };
+  try {
+    return Json::parse(text_of(path), observe);
+  } catch (const Json::exception &error) {
+    const std::string text = error.what();
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    const std::size_t end = text.find("] ");
+    refuse(path, "is not JSON: " + (end == std::string::npos ? text : text.substr(end + 2)));
+  }
+}
+
+std::vector<double> numbers_of(const std::string &path, const std::string &name, const Json &value) {
+  std::vector<double> numbers;
+  for (const Json &item : value.is_array() ? value : Json::array({value})) {
+    if (!item.is_number()) refuse(path, name + " must be a number or an array of numbers, not " + item.dump());
+    numbers.push_back(item.get<double>());
+  }
+  return numbers;
+}
+
+bool is_cusp(const riis_valve *valve, const std::string &name) {
+  int64_t n = 0;
+  check(riis_valve_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    if (std::string(parameter.name).rfind(name + ".", 0) == 0) return true;
+  }
+  return false;
+}
+
+using Settings = std::map<std::string, std::vector<double>>;
+
+void add(const std::string &path, const std::string &name, const Json &value, Settings &settings) {
+  if (!settings.emplace(name, numbers_of(path, name, value)).second) refuse(path, name + " is given twice");
+}
+
+Settings settings_of(const std::string &path, const riis_valve *valve, const Json &root) {
+  if (!root.is_object()) refuse(path, "must hold a JSON object of parameters");
+  Settings settings;
+  for (const auto &[name, value] : root.items()) {
+    if (!value.is_object()) {
+      add(path, name, value, settings);
+      continue;
+    }
+    if (!is_cusp(valve, name)) refuse(path, name + " is not a part of the valve with parameters of its own");
+    for (const auto &[inner, inner_value] : value.items()) add(path, name + "." + inner, inner_value, settings);
+  }
+  return settings;
+}
+
+void set_parameter(riis_valve *valve, const std::string &name, const std::vector<double> &values,
+                   const std::string &subject) {
+  check(riis_valve_set(valve, name.c_str(), static_cast<int64_t>(values.size()), values.data()), subject);
+}
+
+bool belongs_to_cusp(const std::string &name) { return name.find('.') != std::string::npos; }
+
+}  // namespace
+
+void set_from_json_file(riis_valve *valve, const std::string &path) {
+  const Settings settings = settings_of(path, valve, parse_file(path));
+  for (const bool cusps : {false, true}) {
+    for (const auto &[name, values] : settings) {
+      if (belongs_to_cusp(name) == cusps) set_parameter(valve, name, values, path);
+    }
+  }
+}
+
+void set_from_text(riis_valve *valve, const std::string &setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw Refusal{exit_wrong_usage, "--set: '" + setting + "' is not NAME=VALUE"};
+  }
+  const std::string name = setting.substr(0, equals);
+  set_parameter(valve, name, parse_list(setting.substr(equals + 1), "--set " + name), "--set");
+}
+
+std::string json_template(const riis_valve *valve) {
+  Json root = Json::object();
+  int64_t n = 0;
+  check(riis_valve_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
+    check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+    const std::string name = parameter.name;
+    const std::size_t dot = name.find('.');
+    Json &place = dot == std::string::npos ? root[name] : root[name.substr(0, dot)][name.substr(dot + 1)];
+    place = values.size() == 1 ? Json(values[0]) : Json(values);
+  }
+  return root.dump(2);
+}
+
+}  // namespace riis::cli

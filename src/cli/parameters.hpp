@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a JSON file or NAME=VALUE. Out: parameters of a valve, by the names that riis_valve_set knows. And the way back,
+// as a template for such a file.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <string>
+
+namespace riis::cli {
+
+// {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}: names without a cusp are set
+// first, so that the order in the file does not matter; a name given twice is refused.
+void set_from_json_file(riis_valve *valve, const std::string &path);
+
+// One --set.
+void set_from_text(riis_valve *valve, const std::string &setting);
+
+// All parameters of the valve with their values.
+std::string json_template(const riis_valve *valve);
+
+}  // namespace riis::cli

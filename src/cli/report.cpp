@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/report.hpp"
+
+#include <iomanip>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace riis::cli {
+namespace {
+
+const char *search_name(int32_t search) { return search == RIIS_SEARCH_EXHAUSTIVE ? "exhaustive" : "unknown"; }
+
+std::string grouped(int64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
+  return digits;
+}
+
+std::ostringstream table_stream() {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  return out;
+}
+
+void add_marks(const Report &report, std::ostringstream &out) {
+  const riis_mark_stats &marks = report.marks;
+  out << "mesh      " << report.mesh_name << ": " << grouped(marks.n_nodes) << " nodes, " << grouped(report.n_cells)
+      << " cells\n";
+  out << "marked    " << grouped(marks.n_marked) << " nodes within the half thickness "
+      << report.surface.half_thickness;
+  if (report.distance_limit > report.surface.half_thickness) {
+    out << ", " << grouped(marks.n_within_limit) << " within " << report.distance_limit;
+  }
+  out << "\nsearch    " << search_name(marks.search) << ", " << marks.n_threads
+      << (marks.n_threads == 1 ? " thread" : " threads") << (marks.complete ? "" : ", may be incomplete") << "\n";
+}
+
+void add_seconds(const Seconds &seconds, std::ostringstream &out) {
+  out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
+      << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", search " << seconds.search << ", write "
+      << seconds.write << ", picture " << seconds.picture << "\n";
+}
+
+}  // namespace
+
+std::string json_of(const Report &report) {
+  const riis_mark_stats &marks = report.marks;
+  const Seconds &seconds = report.seconds;
+  const nlohmann::ordered_json json = {{"version", riis_version_string()},
+                                       {"n_nodes", marks.n_nodes},
+                                       {"n_cells", report.n_cells},
+                                       {"n_marked", marks.n_marked},
+                                       {"n_within_limit", marks.n_within_limit},
+                                       {"n_triangles", report.surface.n_triangles},
+                                       {"n_zero_area", report.surface.n_zero_area},
+                                       {"area", report.surface.area},
+                                       {"half_thickness", report.surface.half_thickness},
+                                       {"distance_limit", report.distance_limit},
+                                       {"search", search_name(marks.search)},
+                                       {"threads", marks.n_threads},
+                                       {"complete", marks.complete != 0},
+                                       {"seconds",
+                                        {{"read", seconds.read},
+                                         {"surface", seconds.surface},
+                                         {"scene", seconds.scene},
+                                         {"mesh", seconds.mesh},
+                                         {"search", seconds.search},
+                                         {"write", seconds.write},
+                                         {"picture", seconds.picture}}}};
+  return json.dump(2) + "\n";
+}
+
+std::string table_of(const Report &report) {
+  std::ostringstream out = table_stream();
+  out << "surface   " << report.surface_name << ": " << grouped(report.surface.n_triangles) << " triangles, area "
+      << report.surface.area;
+  if (report.from_file && report.surface.n_zero_area > 0)
+    out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
+  out << "\n";
+  if (!report.mesh_name.empty()) add_marks(report, out);
+  add_seconds(report.seconds, out);
+  for (const std::string &path : report.written) out << "written   " << path << "\n";
+  return out.str();
+}
+
+}  // namespace riis::cli

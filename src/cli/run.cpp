@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run.hpp"
+
+#include "cli/handles.hpp"
+#include "cli/outputs.hpp"
+#include "cli/parameters.hpp"
+#include "cli/progress.hpp"
+#include "cli/refusal.hpp"
+#include "cli/report.hpp"
+
+namespace riis::cli {
+namespace {
+
+Valve make_valve(const Options &options) {
+  riis_valve *handle = nullptr;
+  check(riis_valve_create(options.valve.c_str(), &handle), "--valve");
+  Valve valve(handle);
+  if (!options.params.empty()) set_from_json_file(valve.get(), options.params);
+  for (const std::string &setting : options.settings) set_from_text(valve.get(), setting);
+  return valve;
+}
+
+Surface surface_of_valve(const Options &options, const riis_valve *valve) {
+  const Stage stage("making the surface", options.quiet);
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, &options.surface_options, &surface));
+  return Surface(surface);
+}
+
+Surface surface_of_file(const Options &options, Seconds &seconds) {
+  const Stage stage("reading " + options.surface, options.quiet);
+  riis_vtk_surface *handle = nullptr;
+  check(riis_vtk_surface_read(options.surface.c_str(), &handle));
+  const SurfaceFile file(handle);
+  seconds.read += stage.seconds();
+  riis_surface_arrays arrays;
+  check(riis_surface_arrays_init(&arrays, sizeof arrays));
+  check(riis_vtk_surface_arrays(file.get(), &arrays));
+  riis_surface *surface = nullptr;
+  check(riis_surface_create_from_arrays(&arrays, &options.surface_options, &surface), options.surface);
+  return Surface(surface);
+}
+
+MeshFile read_mesh(const Options &options, Seconds &seconds) {
+  const Stage stage("reading " + options.mesh, options.quiet);
+  riis_vtk_mesh *mesh = nullptr;
+  check(riis_vtk_mesh_read(options.mesh.c_str(), &mesh));
+  seconds.read += stage.seconds();
+  return MeshFile(mesh);
+}
+
+Mesh borrow_nodes(const Options &options, const riis_vtk_mesh *file, Report &report) {
+  const Stage stage("checking the nodes", options.quiet);
+  int64_t n_nodes = 0;
+  const double *xyz = nullptr;
+  check(riis_vtk_mesh_nodes(file, &n_nodes, &report.n_cells, &xyz));
+  riis_mesh *mesh = nullptr;
+  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), options.mesh);
+  report.seconds.mesh = stage.seconds();
+  return Mesh(mesh);
+}
+
+void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
+  const Mesh mesh = borrow_nodes(options, file, report);
+  riis_mark_result *handle = nullptr;
+  check(riis_mark_result_create(&handle));
+  const MarkResult result(handle);
+  const Stage stage("marking", options.quiet);
+  check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
+  report.seconds.search = stage.seconds();
+  check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
+  check(riis_vtk_mesh_set_marks(file, result.get(), options.far_distance));
+  const double limit = options.mark_options.distance_limit;
+  report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
+  report.mesh_name = options.mesh;
+}
+
+void write_files(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
+  const Stage stage("writing", options.quiet);
+  if (!options.surface_output.empty()) {
+    check(riis_vtk_surface_write(surface, options.surface_output.c_str()));
+    report.written.push_back(options.surface_output);
+  }
+  if (!options.output.empty()) {
+    check(riis_vtk_mesh_write(mesh, options.output.c_str()));
+    report.written.push_back(options.output);
+  }
+  report.seconds.write = stage.seconds();
+}
+
+void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
+  for (const Picture &picture : options.pictures) {
+    const Stage stage("drawing " + picture.path, options.quiet);
+    riis_vtk_picture_options how;
+    check(riis_vtk_picture_options_init(&how, sizeof how));
+    how.view = picture.view;
+    check(riis_vtk_draw(surface, mesh, &how, picture.path.c_str()));
+    report.written.push_back(picture.path);
+    report.seconds.picture += stage.seconds();
+  }
+}
+
+void print_report(const Options &options, const Report &report) {
+  if (!options.stats.empty()) write_text(options.stats, json_of(report));
+  if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
+}
+
+}  // namespace
+
+void run(const Options &options) {
+  const Valve valve = options.surface.empty() ? make_valve(options) : nullptr;
+  if (options.print_params) {
+    write_text("-", json_template(valve.get()) + "\n");
+    return;
+  }
+  check_outputs(options);
+  Report report;
+  const Surface surface = valve ? surface_of_valve(options, valve.get()) : surface_of_file(options, report.seconds);
+  check(riis_surface_get_info(surface.get(), &report.surface, sizeof report.surface));
+  report.surface_name = valve ? options.valve + " valve" : options.surface;
+  report.from_file = !valve;
+  report.seconds.surface = report.surface.seconds_triangles;
+  report.seconds.scene = report.surface.seconds_scene;
+  const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
+  if (mesh) mark(options, surface.get(), mesh.get(), report);
+  write_files(options, surface.get(), mesh.get(), report);
+  draw_pictures(options, surface.get(), mesh.get(), report);
+  print_report(options, report);
+}
+
+}  // namespace riis::cli

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vtk/legacy_scan.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <string_view>
+
+#include "vtk/files.hpp"
+#include "vtk/vtk_errors.hpp"
+
+namespace riis::vtk {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char &c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+// Bytes of one value in a binary file; 0 for types of varying size.
+int size_of_type(const std::string &type) {
+  static const std::map<std::string, int> sizes = {{"char", 1},
+                                                   {"signed_char", 1},
+                                                   {"unsigned_char", 1},
+                                                   {"short", 2},
+                                                   {"unsigned_short", 2},
+                                                   {"int", 4},
+                                                   {"unsigned_int", 4},
+                                                   {"long", 8},
+                                                   {"unsigned_long", 8},
+                                                   {"long_long", 8},
+                                                   {"unsigned_long_long", 8},
+                                                   {"vtktypeint64", 8},
+                                                   {"vtktypeuint64", 8},
+                                                   {"vtkidtype", 4},
+                                                   {"float", 4},
+                                                   {"double", 8},
+                                                   {"string", 0},
+                                                   {"utf8_string", 0}};
+  const auto found = sizes.find(type);
+  return found == sizes.end() ? -1 : found->second;
+}
+
+class Scan {
+ public:
+  Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
+
+  void file() {
+    header();
+    for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
+    if (n_types_ != n_cells_)
+      refuse("has " + std::to_string(n_types_) + " types for " + std::to_string(n_cells_) + " cells");
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string &reason) const { fail_file(path_, reason); }
+  [[noreturn]] void refuse_end() const { refuse("is truncated"); }
+
+  std::string_view line() {
+    const std::size_t length = std::min(rest_.find('\n'), rest_.size());
+    const std::string_view text = rest_.substr(0, length);
+    rest_.remove_prefix(std::min(length + 1, rest_.size()));
+    return text;
+  }
+
+  std::string_view raw_word() {
+    const auto begin = std::find_if_not(rest_.begin(), rest_.end(), is_blank);
+    const auto end = std::find_if(begin, rest_.end(), is_blank);
+    const std::string_view text =
+        rest_.substr(static_cast<std::size_t>(begin - rest_.begin()), static_cast<std::size_t>(end - begin));
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.begin()));
+    return text;
+  }
+
+  // In lower case, since the format does not distinguish; empty at the end.
+  std::string word() { return lower_case(raw_word()); }
+
+  // A word that must be there.
+  std::string next() {
+    std::string text = word();
+    if (text.empty()) refuse_end();
+    return text;
+  }
+
+  std::int64_t number_of(std::string_view text) const {
+    std::int64_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc() || end != text.data() + text.size())
+      refuse("has '" + std::string(text) + "' for a number");
+    return n;
+  }
+
+  // A count: what it counts takes some room in the file, so that one beyond the file's size is wrong.
+  std::int64_t count() {
+    const std::int64_t n = number_of(next());
+    if (n < 0) refuse("has the count " + std::to_string(n));
+    if (n > static_cast<std::int64_t>(rest_.size())) refuse_end();
+    return n;
+  }
+
+  void header() {
+    const std::string magic = "# vtk datafile version ";
+    const std::string first = lower_case(line());
+    if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
+    std::string version = first.substr(magic.size());
+    while (!version.empty() && is_blank(version.back())) version.pop_back();
+    // VTK takes a version that it cannot read for an old one.
+    const std::size_t dot = version.find('.');
+    if (dot == std::string::npos) refuse("has the version '" + version.substr(0, 40) + "'");
+    version_ = number_of(version.substr(0, dot));
+    number_of(version.substr(dot + 1));
+    line();
+    const std::string encoding = next();
+    if (encoding != "ascii" && encoding != "binary") refuse("is neither ASCII nor BINARY");
+    binary_ = encoding == "binary";
+    if (next() != "dataset") refuse("holds no data set");
+    const std::string kind = next();
+    if (kind != "unstructured_grid") refuse("holds " + kind + ", not unstructured_grid");
+  }
+
+  void skip_bytes(std::int64_t n) {
+    if (n > static_cast<std::int64_t>(rest_.size())) refuse_end();
+    rest_.remove_prefix(static_cast<std::size_t>(n));
+  }
+
+  void skip_words(std::int64_t n) {
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (raw_word().empty()) refuse_end();
+    }
+  }
+
+  // A string in a binary file: the upper two bits of its first byte tell how many bytes hold its length.
+  void skip_binary_string() {
+    if (rest_.empty()) refuse_end();
+    const auto first = static_cast<unsigned char>(rest_[0]);
+    const int n_length_bytes = 8 >> (first >> 6);
+    std::int64_t length = first & 63;
+    for (int i = 1; i < n_length_bytes; ++i) {
+      if (i >= static_cast<int>(rest_.size())) refuse_end();
+      length = length << 8 | static_cast<unsigned char>(rest_[static_cast<std::size_t>(i)]);
+    }
+    skip_bytes(n_length_bytes);
+    skip_bytes(length);
+  }
+
+  void skip_strings(std::int64_t n) {
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (binary_) {
+        skip_binary_string();
+      } else {
+        if (rest_.empty()) refuse_end();
+        line();
+      }
+    }
+  }
+
+  // n values that begin on the next line.
+  void skip_values(std::int64_t n, const std::string &type) {
+    line();
+    const int size = size_of_type(type);
+    if (type == "bit") {
+      binary_ ? skip_bytes((n + 7) / 8) : skip_words(n);
+    } else if (size < 0) {
+      refuse("has values of the unknown type " + type);
+    } else if (size == 0) {
+      skip_strings(n);
+    } else {
+      binary_ ? skip_bytes(n * size) : skip_words(n);
+    }
+  }
+
+  // n tuples of a width that is written in the file.
+  void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
+    if (width > 0 && n > 8 * static_cast<std::int64_t>(rest_.size()) / width) refuse_end();
+    skip_values(n * width, type);
+  }
+
+  void section(const std::string &keyword) {
+    if (keyword == "field") {
+      field();
+    } else if (keyword == "points") {
+      const std::int64_t n = count();
+      skip_tuples(n, 3, next());
+    } else if (keyword == "cells") {
+      cells();
+    } else if (keyword == "cell_types") {
+      n_types_ = count();
+      skip_values(n_types_, "int");
+    } else if (keyword == "point_data" || keyword == "cell_data") {
+      n_tuples_ = count();
+    } else if (keyword == "metadata") {
+      while (!rest_.empty() && !line().empty()) {
+      }
+    } else if (!attribute(keyword)) {
+      refuse("has the unknown keyword '" + keyword.substr(0, 40) + "'");
+    }
+  }
+
+  void field() {
+    next();
+    const std::int64_t n_arrays = count();
+    for (std::int64_t i = 0; i < n_arrays; ++i) {
+      std::string name = next();
+      if (name == "metadata") {
+        section(name);
+        name = next();
+      }
+      if (name == "null_array") continue;
+      const std::int64_t width = count();
+      const std::int64_t n = count();
+      skip_tuples(n, width, next());
+    }
+  }
+
+  void cells() {
+    const std::int64_t first = count();
+    const std::int64_t second = count();
+    if (version_ >= 5) {
+      // Numbers of offsets and of corners.
+      if (next() != "offsets") refuse("has CELLS without OFFSETS");
+      n_cells_ = std::max<std::int64_t>(first - 1, 0);
+      skip_values(first, next());
+      if (next() != "connectivity") refuse("has cell offsets without CONNECTIVITY");
+      skip_values(second, next());
+    } else {
+      n_cells_ = first;
+      counted_cells(first, second);
+    }
+  }
+
+  // Up to version 4: each cell's number of corners, then its corners; n_values of both.
+  void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
+    line();
+    std::int64_t n_left = n_values;
+    for (std::int64_t i = 0; i < n_cells; ++i) {
+      const std::int64_t n_corners = binary_ ? binary_int() : number_of(next());
+      n_left -= 1 + n_corners;
+      if (n_corners < 0 || n_left < 0)
+        refuse("cell " + std::to_string(i) + " has " + std::to_string(n_corners) + " points, more than CELLS has");
+      binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners);
+    }
+    if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");
+  }
+
+  std::int32_t binary_int() {
+    if (rest_.size() < 4) refuse_end();
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(rest_[i]);
+    rest_.remove_prefix(4);
+    return static_cast<std::int32_t>(value);
+  }
+
+  // An array of POINT_DATA or CELL_DATA; false if the keyword is none.
+  bool attribute(const std::string &keyword) {
+    static const std::map<std::string, int> widths = {{"vectors", 3},   {"normals", 3},    {"tensors", 9},
+                                                      {"tensors6", 6},  {"global_ids", 1}, {"pedigree_ids", 1},
+                                                      {"edge_flags", 1}};
+    const auto found = widths.find(keyword);
+    if (found != widths.end()) {
+      next();
+      skip_tuples(n_tuples_, found->second, next());
+    } else if (keyword == "scalars") {
+      scalars();
+    } else if (keyword == "texture_coordinates") {
+      next();
+      const std::int64_t width = count();
+      skip_tuples(n_tuples_, width, next());
+    } else if (keyword == "color_scalars") {
+      next();
+      skip_tuples(n_tuples_, count(), "unsigned_char");
+    } else if (keyword == "lookup_table") {
+      next();
+      skip_tuples(count(), 4, "unsigned_char");
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void scalars() {
+    next();
+    const std::string type = next();
+    std::string after = next();
+    std::int64_t width = 1;
+    if (after != "lookup_table") {
+      width = number_of(after);
+      if (width < 1 || width > static_cast<std::int64_t>(rest_.size()))
+        refuse("has SCALARS of " + after + " components");
+      after = next();
+    }
+    if (after != "lookup_table") refuse("has SCALARS without LOOKUP_TABLE");
+    next();
+    skip_tuples(n_tuples_, width, type);
+  }
+
+  const std::string &path_;
+  std::string_view rest_;
+  std::int64_t version_ = 0;  // major
+  bool binary_ = false;
+  std::int64_t n_cells_ = 0;
+  std::int64_t n_types_ = 0;
+  std::int64_t n_tuples_ = 0;  // of the arrays of the POINT_DATA or CELL_DATA that the scan is in
+};
+
+}  // namespace
+
+void check_legacy(const std::string &path) {
+  const MappedFile file(path, check_readable(path));
+  Scan(path, file.bytes()).file();
+}
+
+}  // namespace riis::vtk
