@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+# What is installed and how others find it: headers, libraries, program, Fortran module, CMake package,
+# pkg-config files. Everything can be moved afterwards, since nothing installed says where it stands, except where
+# CMAKE_INSTALL_LIBDIR or CMAKE_INSTALL_INCLUDEDIR is an absolute path, which is meant to stay.
+include(CMakePackageConfigHelpers)
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Files
+# ---------------------------------------------------------------------------------------------------------------------
+
+# One export a component, so that a package may ship without some of them.
+set(riis_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/riis)
+function(riis_install_library target)
+  install(TARGETS ${target} EXPORT ${target}-targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(EXPORT ${target}-targets NAMESPACE riis:: DESTINATION ${riis_cmake_dir})
+endfunction()
+
+# What is installed finds its neighbours from where it stands itself. Embree and VTK it finds where they were when it was
+# built, should the system not look there.
+function(riis_set_rpath target from)
+  if(NOT DEFINED CMAKE_INSTALL_RPATH)
+    file(RELATIVE_PATH to_libraries ${from} ${CMAKE_INSTALL_FULL_LIBDIR})
+    string(REGEX REPLACE "/$" "" origin "$ORIGIN/${to_libraries}")
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH ${origin})
+  endif()
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+endfunction()
+
+riis_install_library(riis)
+set_target_properties(riis PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+install(FILES ${PROJECT_SOURCE_DIR}/include/riis/riis.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+
+if(RIIS_WITH_VTK)
+  riis_install_library(riis_vtk)
+  riis_set_rpath(riis_vtk ${CMAKE_INSTALL_FULL_LIBDIR})
+  install(FILES ${PROJECT_SOURCE_DIR}/include/riis/riis_vtk.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+endif()
+
+if(RIIS_WITH_FORTRAN)
+  riis_install_library(riis_fortran)
+  # The source goes beside the module, for those whose Fortran compiler is another one: it is all they have to compile.
+  install(FILES ${PROJECT_SOURCE_DIR}/fortran/riis_c.f90
+    $<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/riis_c.mod DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+endif()
+
+if(RIIS_BUILD_PROGRAM)
+  install(TARGETS riis-mark RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  riis_set_rpath(riis-mark ${CMAKE_INSTALL_FULL_BINDIR})
+endif()
+
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
+
+# ---------------------------------------------------------------------------------------------------------------------
+# What a static library asks of those who link it
+# ---------------------------------------------------------------------------------------------------------------------
+
+# The imported targets that a target links, by the prefix of their names: "VTK::" gives "CommonCore;IOXML".
+function(riis_linked_components target prefix result)
+  get_target_property(linked ${target} LINK_LIBRARIES)
+  list(FILTER linked INCLUDE REGEX "^${prefix}")
+  list(TRANSFORM linked REPLACE "^${prefix}" "")
+  set(${result} ${linked} PARENT_SCOPE)
+endfunction()
+
+riis_linked_components(riis TBB:: riis_tbb_components)
+set(riis_vtk_components "")
+set(riis_x11_components "")
+if(RIIS_WITH_VTK)
+  riis_linked_components(riis_vtk VTK:: riis_vtk_components)
+  riis_linked_components(riis_vtk X11:: riis_x11_components)
+endif()
+
+# -L and -l of a library, from its full path; -L only where the linker does not look by itself.
+function(riis_link_flags path result)
+  cmake_path(GET path PARENT_PATH directory)
+  cmake_path(GET path STEM name)
+  string(REGEX REPLACE "^lib" "-l" flags ${name})
+  if(NOT directory IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
+    string(PREPEND flags "-L${directory} ")
+  endif()
+  set(${result} ${flags} PARENT_SCOPE)
+endfunction()
+
+# ---------------------------------------------------------------------------------------------------------------------
+# CMake package
+# ---------------------------------------------------------------------------------------------------------------------
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/riis-config.cmake.in ${PROJECT_BINARY_DIR}/riis-config.cmake
+  INSTALL_DESTINATION ${riis_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# As the SONAME: fields and functions are only appended while the major version lasts.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/riis-config-version.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/riis-config.cmake ${PROJECT_BINARY_DIR}/riis-config-version.cmake
+  DESTINATION ${riis_cmake_dir})
+
+# ---------------------------------------------------------------------------------------------------------------------
+# pkg-config
+# ---------------------------------------------------------------------------------------------------------------------
+
+# The prefix is found from the .pc file's own place, unless that was given as an absolute path.
+if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
+  set(riis_pc_prefix ${CMAKE_INSTALL_PREFIX})
+else()
+  file(RELATIVE_PATH riis_pc_up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  string(REGEX REPLACE "/$" "" riis_pc_up ${riis_pc_up})
+  set(riis_pc_prefix "\${pcfiledir}/${riis_pc_up}")
+endif()
+# Appending an absolute path replaces the prefix.
+set(riis_pc_libdir "\${prefix}")
+set(riis_pc_includedir "\${prefix}")
+cmake_path(APPEND riis_pc_libdir ${CMAKE_INSTALL_LIBDIR})
+cmake_path(APPEND riis_pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
+
+# A shared library brings what it needs. Where there is only the static one, what it needs stands in Libs and not in
+# Libs.private, so that a link without --static works too.
+set(riis_pc_static_libs "")
+set(riis_pc_requires "")
+if(NOT BUILD_SHARED_LIBS)
+  get_target_property(riis_embree_file embree LOCATION)
+  riis_link_flags(${riis_embree_file} riis_pc_static_libs)
+  foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
+    string(APPEND riis_pc_static_libs " -l${name}")
+  endforeach()
+  # The C++ runtime; the compiler driver of any language adds the C runtime itself.
+  set(riis_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+  list(FILTER riis_runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
+  list(REMOVE_DUPLICATES riis_runtime)
+  foreach(name IN LISTS riis_runtime)
+    string(APPEND riis_pc_static_libs " -l${name}")
+  endforeach()
+  if(riis_tbb_components)
+    set(riis_pc_requires tbb)
+  endif()
+endif()
+
+set(riis_pc_names riis)
+if(RIIS_WITH_FORTRAN)
+  list(APPEND riis_pc_names riis-fortran)
+endif()
+# VTK has no pkg-config files that a static riis_vtk could point to: that one is for CMake only.
+if(RIIS_WITH_VTK AND BUILD_SHARED_LIBS)
+  list(APPEND riis_pc_names riis-vtk)
+endif()
+foreach(name IN LISTS riis_pc_names)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Marks the nodes of a box that lie near the default aortic valve. Lengths are in cm, as in the valve's tables. */
+#include <riis/riis.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { n = 27, n_nodes = n * n * n };
+static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the origin, a node every 1.25 mm */
+
+static void check(riis_status status) {
+  if (status == RIIS_OK) return;
+  fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
+  exit(EXIT_FAILURE);
+}
+
+int main(void) {
+  for (int i = 0; i < n_nodes; ++i) {
+    xyz[3 * i] = -1.625 + 0.125 * (i % n);
+    xyz[3 * i + 1] = -1.625 + 0.125 * (i / n % n);
+    xyz[3 * i + 2] = -1.625 + 0.125 * (i / (n * n));
+  }
+
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  int64_t n_marked = 0;
+  const int64_t *node_id = NULL;
+  const double *distance = NULL;
+
+  check(riis_valve_create("aortic", &valve));
+  check(riis_surface_create(valve, NULL, &surface)); /* half thickness 0.1 cm, tolerance 5 % of it */
+  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  check(riis_mark_result_create(&result));
+  check(riis_mark_nodes(surface, mesh, NULL, result)); /* once a time step */
+  check(riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL));
+
+  printf("%d nodes, marked: %lld, the first of them:\n", n_nodes, (long long)n_marked);
+  int64_t closest = 0;
+  for (int64_t i = 0; i < n_marked; ++i) {
+    if (i < 5) printf("node%6lld at%9.6f cm\n", (long long)node_id[i], distance[i]);
+    if (distance[i] < distance[closest]) closest = i;
+  }
+  if (n_marked > 0) printf("closest: node%6lld at%9.6f cm\n", (long long)node_id[closest], distance[closest]);
+
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return 0;
+}

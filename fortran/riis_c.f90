@@ -1,0 +1,618 @@
+! SPDX-License-Identifier: Apache-2.0
+!
+! riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. What a function does, its
+! ranges and its errors are said once, in riis.h; here is only how each C argument looks from Fortran.
+!
+!   status = riis_valve_create(riis_c_string('aortic'), valve)
+!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
+!   status = riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh)
+!   status = riis_mark_result_create(result)
+!   status = riis_mark_nodes(surface, mesh, result=result)                          ! once a time step
+!   status = riis_mark_result_marked(result, n_marked, node_id, distance)
+!   if (n_marked > 0) call c_f_pointer(node_id, ids, [n_marked])        ! integer(c_int64_t), pointer :: ids(:)
+!
+! Conventions, true for every interface below:
+!
+! - What may be NULL in C is OPTIONAL here, and what is left out is NULL: use keywords for the arguments after it.
+! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them back to it.
+! - Whatever a call writes is intent(inout), not out, because a call that is refused leaves it as it was.
+! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element with a
+!   stride. The coordinates of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc asks for TARGET, and
+!   no compiler can slip in a temporary copy. Keep the array where it is (not a local that ends, not reallocated).
+! - Arrays that the library owns come as type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to
+!   them. They are c_null_ptr when there is nothing in them.
+! - Ids count from 0, also here: node_id + 1 is the column of xyz(3, n).
+! - Structs: have the init function fill them, with c_sizeof(the variable) as struct_size, then set what differs:
+!     status = riis_mark_options_init(options, c_sizeof(options))
+! - Texts go in through riis_c_string and come out through riis_c_text.
+module riis_c
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, &
+    c_ptr, c_size_t, c_associated, c_f_pointer
+  implicit none
+  public
+  private :: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, c_ptr, c_size_t, c_associated, &
+    c_f_pointer, c_strlen
+
+  ! -------------------------------------------------------------------------------------------------------------------
+  ! Constants
+  ! -------------------------------------------------------------------------------------------------------------------
+
+  ! The kind of a status: integer(riis_status) :: status
+  integer, parameter :: riis_status = c_int32_t
+
+  integer(riis_status), parameter :: RIIS_OK = 0
+  integer(riis_status), parameter :: RIIS_INVALID_ARGUMENT = 1
+  integer(riis_status), parameter :: RIIS_INVALID_STRUCT_SIZE = 2
+  integer(riis_status), parameter :: RIIS_INVALID_PARAMETER = 3
+  integer(riis_status), parameter :: RIIS_INVALID_SURFACE = 4
+  integer(riis_status), parameter :: RIIS_INVALID_MESH = 5
+  integer(riis_status), parameter :: RIIS_LIMIT_EXCEEDED = 6
+  integer(riis_status), parameter :: RIIS_OUT_OF_MEMORY = 7
+  integer(riis_status), parameter :: RIIS_FILE_ERROR = 8
+  integer(riis_status), parameter :: RIIS_UNAVAILABLE = 9
+  integer(riis_status), parameter :: RIIS_INTERNAL_ERROR = -1
+
+  integer(c_int32_t), parameter :: RIIS_LOG_INFO = 0
+  integer(c_int32_t), parameter :: RIIS_LOG_WARNING = 1
+
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_RIGHT = 0
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_LEFT = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
+
+  integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
+  integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
+
+  integer(c_int32_t), parameter :: RIIS_SEARCH_AUTO = 0
+  integer(c_int32_t), parameter :: RIIS_SEARCH_EXHAUSTIVE = 1
+
+  real(c_double), parameter :: RIIS_AUTO = -1.0_c_double
+  real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.0e30_c_double
+
+  ! -------------------------------------------------------------------------------------------------------------------
+  ! Structs: the fields of riis.h in their order; pointers are type(c_ptr), set by c_loc
+  ! -------------------------------------------------------------------------------------------------------------------
+
+  type, bind(c) :: riis_parameter
+    type(c_ptr) :: name         ! for riis_c_text, like the next two
+    type(c_ptr) :: unit
+    type(c_ptr) :: description
+    integer(c_int64_t) :: n_values
+    real(c_double) :: default_values(3)
+    real(c_double) :: minimum
+    real(c_double) :: maximum
+  end type riis_parameter
+
+  type, bind(c) :: riis_surface_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: half_thickness
+    real(c_double) :: tolerance
+    real(c_double) :: scale
+    real(c_double) :: rotation_axis(3)
+    real(c_double) :: rotation_angle   ! degrees
+    real(c_double) :: translation(3)
+    integer(c_int32_t) :: zero_area
+    integer(c_int32_t) :: flip_normals
+  end type riis_surface_options
+
+  type, bind(c) :: riis_surface_arrays
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_vertices
+    type(c_ptr) :: x, y, z             ! real(c_double); xyz(3, n_vertices): c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride       ! and 3
+    integer(c_int64_t) :: n_faces
+    type(c_ptr) :: vertex_ids          ! integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
+    integer(c_int32_t) :: vertex_id_bits
+    integer(c_int32_t) :: index_base   ! 1 for ids that count as Fortran does
+    integer(c_int32_t) :: corners_per_face
+    integer(c_int32_t) :: reserved
+    type(c_ptr) :: leaflet_id          ! integer(c_int32_t), (n_faces), or c_null_ptr
+  end type riis_surface_arrays
+
+  type, bind(c) :: riis_surface_info
+    integer(c_int64_t) :: n_vertices
+    integer(c_int64_t) :: n_triangles
+    integer(c_int64_t) :: n_zero_area
+    real(c_double) :: half_thickness
+    real(c_double) :: area
+    real(c_double) :: lower(3), upper(3)
+    real(c_double) :: seconds_triangles
+    real(c_double) :: seconds_scene
+  end type riis_surface_info
+
+  type, bind(c) :: riis_closest
+    real(c_double) :: distance
+    real(c_double) :: point(3)
+    real(c_double) :: barycentric(3)
+    real(c_double) :: normal(3)
+    integer(c_int64_t) :: triangle_id
+    integer(c_int32_t) :: leaflet_id
+    integer(c_int32_t) :: side
+  end type riis_closest
+
+  type, bind(c) :: riis_closest_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: distance_limit
+    real(c_double) :: far_distance
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: reserved
+  end type riis_closest_options
+
+  type, bind(c) :: riis_closest_arrays  ! c_null_ptr for what is not wanted
+    integer(c_int64_t) :: struct_size
+    type(c_ptr) :: distance            ! real(c_double), (n_points)
+    type(c_ptr) :: point               ! real(c_double), (3, n_points), like the next two
+    type(c_ptr) :: barycentric
+    type(c_ptr) :: normal
+    type(c_ptr) :: triangle_id         ! integer(c_int64_t), (n_points)
+    type(c_ptr) :: leaflet_id          ! integer(c_int32_t), (n_points), like the next
+    type(c_ptr) :: side
+  end type riis_closest_arrays
+
+  type, bind(c) :: riis_mark_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: distance_limit
+    type(c_ptr) :: node_mask           ! integer(c_int8_t), (n_nodes), or c_null_ptr
+    integer(c_int32_t) :: search
+    integer(c_int32_t) :: n_threads
+  end type riis_mark_options
+
+  type, bind(c) :: riis_mark_stats
+    integer(c_int64_t) :: n_nodes
+    integer(c_int64_t) :: n_marked
+    integer(c_int64_t) :: n_within_limit
+    integer(c_int64_t) :: n_queries
+    real(c_double) :: seconds
+    integer(c_int32_t) :: search
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: complete
+    integer(c_int32_t) :: reserved
+  end type riis_mark_stats
+
+  ! -------------------------------------------------------------------------------------------------------------------
+  ! What a log function looks like
+  ! -------------------------------------------------------------------------------------------------------------------
+
+  abstract interface
+    subroutine riis_log_function(user_data, level, message) bind(c)
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: user_data           ! what riis_set_log was given
+      integer(c_int32_t), value :: level        ! RIIS_LOG_*
+      type(c_ptr), value :: message             ! for riis_c_text, valid during the call only
+    end subroutine riis_log_function
+  end interface
+
+  interface
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Status, errors, log, version
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    ! The status's own name, for riis_c_text.
+    function riis_status_name(status) result(name) bind(c, name='riis_status_name')
+      import :: c_ptr, riis_status
+      implicit none
+      integer(riis_status), value :: status
+      type(c_ptr) :: name
+    end function riis_status_name
+
+    ! The text of the calling thread's last failed call, for riis_c_text.
+    function riis_last_error() result(text) bind(c, name='riis_last_error')
+      import :: c_ptr
+      implicit none
+      type(c_ptr) :: text
+    end function riis_last_error
+
+    subroutine riis_version(major, minor, patch) bind(c, name='riis_version')
+      import :: c_int32_t
+      implicit none
+      integer(c_int32_t), intent(out), optional :: major, minor, patch
+    end subroutine riis_version
+
+    ! For riis_c_text.
+    function riis_version_string() result(text) bind(c, name='riis_version_string')
+      import :: c_ptr
+      implicit none
+      type(c_ptr) :: text
+    end function riis_version_string
+
+    !   function   c_funloc of a procedure with the interface riis_log_function; c_null_funptr for silence
+    !   user_data  c_loc of a target that outlives the log function, or c_null_ptr
+    subroutine riis_set_log(function, user_data) bind(c, name='riis_set_log')
+      import :: c_funptr, c_ptr
+      implicit none
+      type(c_funptr), value :: function
+      type(c_ptr), value :: user_data
+    end subroutine riis_set_log
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Valve
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !   kind  riis_c_string('aortic')
+    function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
+      import :: c_char, c_ptr, riis_status
+      implicit none
+      character(kind=c_char), intent(in) :: kind(*)
+      type(c_ptr), intent(inout) :: valve
+      integer(riis_status) :: status
+    end function riis_valve_create
+
+    subroutine riis_valve_destroy(valve) bind(c, name='riis_valve_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: valve
+    end subroutine riis_valve_destroy
+
+    !   name    riis_c_string('right.rotation')
+    !   values  (n_values), copied; lengths in the unit of the valve, angles in degrees
+    function riis_valve_set(valve, name, n_values, values) result(status) bind(c, name='riis_valve_set')
+      import :: c_char, c_double, c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), value :: n_values
+      real(c_double), intent(in) :: values(*)
+      integer(riis_status) :: status
+    end function riis_valve_set
+
+    function riis_valve_set_scalar(valve, name, value) result(status) bind(c, name='riis_valve_set_scalar')
+      import :: c_char, c_double, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), value :: value
+      integer(riis_status) :: status
+    end function riis_valve_set_scalar
+
+    !   values  (n_values)
+    function riis_valve_get(valve, name, n_values, values) result(status) bind(c, name='riis_valve_get')
+      import :: c_char, c_double, c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), value :: n_values
+      real(c_double), intent(inout) :: values(*)
+      integer(riis_status) :: status
+    end function riis_valve_get
+
+    function riis_valve_n_parameters(valve, n_parameters) result(status) bind(c, name='riis_valve_n_parameters')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      integer(c_int64_t), intent(inout) :: n_parameters
+      integer(riis_status) :: status
+    end function riis_valve_n_parameters
+
+    !   parameter_id  from 0
+    !   struct_size   c_sizeof(parameter)
+    function riis_valve_parameter(valve, parameter_id, parameter, struct_size) result(status) &
+        bind(c, name='riis_valve_parameter')
+      import :: c_int64_t, c_ptr, riis_parameter, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      integer(c_int64_t), value :: parameter_id
+      type(riis_parameter), intent(inout) :: parameter
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_valve_parameter
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Surface
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !   struct_size  c_sizeof(options)
+    function riis_surface_options_init(options, struct_size) result(status) bind(c, name='riis_surface_options_init')
+      import :: c_int64_t, riis_status, riis_surface_options
+      implicit none
+      type(riis_surface_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_options_init
+
+    !   options  left out: all defaults
+    function riis_surface_create(valve, options, surface) result(status) bind(c, name='riis_surface_create')
+      import :: c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: valve
+      type(riis_surface_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: surface
+      integer(riis_status) :: status
+    end function riis_surface_create
+
+    !   struct_size  c_sizeof(arrays)
+    function riis_surface_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_surface_arrays_init')
+      import :: c_int64_t, riis_status, riis_surface_arrays
+      implicit none
+      type(riis_surface_arrays), intent(inout) :: arrays
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_arrays_init
+
+    !   options  left out: all defaults
+    function riis_surface_create_from_arrays(arrays, options, surface) result(status) &
+        bind(c, name='riis_surface_create_from_arrays')
+      import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
+      implicit none
+      type(riis_surface_arrays), intent(in) :: arrays
+      type(riis_surface_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: surface
+      integer(riis_status) :: status
+    end function riis_surface_create_from_arrays
+
+    !   options  left out: those that the surface has
+    function riis_surface_update(surface, valve, options) result(status) bind(c, name='riis_surface_update')
+      import :: c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: valve
+      type(riis_surface_options), intent(in), optional :: options
+      integer(riis_status) :: status
+    end function riis_surface_update
+
+    !   options  left out: those that the surface has
+    function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
+        bind(c, name='riis_surface_update_from_arrays')
+      import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_surface_arrays), intent(in) :: arrays
+      type(riis_surface_options), intent(in), optional :: options
+      integer(riis_status) :: status
+    end function riis_surface_update_from_arrays
+
+    subroutine riis_surface_destroy(surface) bind(c, name='riis_surface_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: surface
+    end subroutine riis_surface_destroy
+
+    !   struct_size  c_sizeof(info)
+    function riis_surface_get_info(surface, info, struct_size) result(status) bind(c, name='riis_surface_get_info')
+      import :: c_int64_t, c_ptr, riis_status, riis_surface_info
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_surface_info), intent(inout) :: info
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_info
+
+    !   xyz  real(c_double), (3, n_vertices)
+    function riis_surface_vertices(surface, n_vertices, xyz) result(status) bind(c, name='riis_surface_vertices')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: n_vertices
+      type(c_ptr), intent(inout), optional :: xyz
+      integer(riis_status) :: status
+    end function riis_surface_vertices
+
+    !   uv  real(c_double), (2, n_vertices); c_null_ptr for a surface from arrays
+    function riis_surface_vertex_parameters(surface, n_vertices, uv) result(status) &
+        bind(c, name='riis_surface_vertex_parameters')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: n_vertices
+      type(c_ptr), intent(inout), optional :: uv
+      integer(riis_status) :: status
+    end function riis_surface_vertex_parameters
+
+    !   vertex_id             integer(c_int64_t), (3, n_triangles), from 0
+    !   triangle_id           integer(c_int64_t), (n_triangles)
+    !   leaflet_id, patch_id  integer(c_int32_t), (n_triangles)
+    function riis_surface_triangles(surface, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id) result(status) &
+        bind(c, name='riis_surface_triangles')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: n_triangles
+      type(c_ptr), intent(inout), optional :: vertex_id, triangle_id, leaflet_id, patch_id
+      integer(riis_status) :: status
+    end function riis_surface_triangles
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Closest points
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !   struct_size  c_sizeof(closest)
+    function riis_closest_point(surface, point, closest, struct_size) result(status) bind(c, name='riis_closest_point')
+      import :: c_double, c_int64_t, c_ptr, riis_closest, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: point(3)
+      type(riis_closest), intent(inout) :: closest
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_closest_point
+
+    !   struct_size  c_sizeof(options)
+    function riis_closest_options_init(options, struct_size) result(status) bind(c, name='riis_closest_options_init')
+      import :: c_int64_t, riis_closest_options, riis_status
+      implicit none
+      type(riis_closest_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_closest_options_init
+
+    !   struct_size  c_sizeof(arrays)
+    function riis_closest_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_closest_arrays_init')
+      import :: c_int64_t, riis_closest_arrays, riis_status
+      implicit none
+      type(riis_closest_arrays), intent(inout) :: arrays
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_closest_arrays_init
+
+    !   x, y, z  point i is x(i * stride + 1), ...: pass xyz(1, 1), xyz(2, 1), xyz(3, 1) and 3, or x, y, z and 1
+    !   options  left out: all defaults
+    !   arrays   what its pointers point to is written
+    function riis_closest_points(surface, n_points, x, y, z, stride, options, arrays) result(status) &
+        bind(c, name='riis_closest_points')
+      import :: c_double, c_int64_t, c_ptr, riis_closest_arrays, riis_closest_options, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), value :: n_points
+      real(c_double), intent(in) :: x(*), y(*), z(*)
+      integer(c_int64_t), value :: stride
+      type(riis_closest_options), intent(in), optional :: options
+      type(riis_closest_arrays), intent(in) :: arrays
+      integer(riis_status) :: status
+    end function riis_closest_points
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Mesh
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !   x, y, z  c_loc of real(c_double) targets, borrowed until the mesh is destroyed or updated:
+    !            c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)) and stride 3,
+    !            or c_loc(x), c_loc(y), c_loc(z) and stride 1
+    function riis_mesh_create(n_nodes, x, y, z, stride, mesh) result(status) bind(c, name='riis_mesh_create')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      integer(c_int64_t), value :: n_nodes
+      type(c_ptr), value :: x, y, z
+      integer(c_int64_t), value :: stride
+      type(c_ptr), intent(inout) :: mesh
+      integer(riis_status) :: status
+    end function riis_mesh_create
+
+    !   x, y, z  as above
+    function riis_mesh_update(mesh, n_nodes, x, y, z, stride) result(status) bind(c, name='riis_mesh_update')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: n_nodes
+      type(c_ptr), value :: x, y, z
+      integer(c_int64_t), value :: stride
+      integer(riis_status) :: status
+    end function riis_mesh_update
+
+    subroutine riis_mesh_destroy(mesh) bind(c, name='riis_mesh_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: mesh
+    end subroutine riis_mesh_destroy
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Marking
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    function riis_mark_result_create(result) result(status) bind(c, name='riis_mark_result_create')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), intent(inout) :: result
+      integer(riis_status) :: status
+    end function riis_mark_result_create
+
+    subroutine riis_mark_result_destroy(result) bind(c, name='riis_mark_result_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: result
+    end subroutine riis_mark_result_destroy
+
+    !   struct_size  c_sizeof(options)
+    function riis_mark_options_init(options, struct_size) result(status) bind(c, name='riis_mark_options_init')
+      import :: c_int64_t, riis_mark_options, riis_status
+      implicit none
+      type(riis_mark_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_mark_options_init
+
+    !   options  left out: all defaults
+    function riis_mark_nodes(surface, mesh, options, result) result(status) bind(c, name='riis_mark_nodes')
+      import :: c_ptr, riis_mark_options, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      type(c_ptr), value :: result
+      integer(riis_status) :: status
+    end function riis_mark_nodes
+
+    !   node_id      integer(c_int64_t), (n_marked), ascending, from 0
+    !   distance     real(c_double), (n_marked)
+    !   triangle_id  integer(c_int64_t), (n_marked)
+    !   leaflet_id   integer(c_int32_t), (n_marked)
+    function riis_mark_result_marked(result, n_marked, node_id, distance, triangle_id, leaflet_id) result(status) &
+        bind(c, name='riis_mark_result_marked')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      integer(c_int64_t), intent(inout), optional :: n_marked
+      type(c_ptr), intent(inout), optional :: node_id, distance, triangle_id, leaflet_id
+      integer(riis_status) :: status
+    end function riis_mark_result_marked
+
+    !   the same, (n_within)
+    function riis_mark_result_within_limit(result, n_within, node_id, distance, triangle_id, leaflet_id) &
+        result(status) bind(c, name='riis_mark_result_within_limit')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      integer(c_int64_t), intent(inout), optional :: n_within
+      type(c_ptr), intent(inout), optional :: node_id, distance, triangle_id, leaflet_id
+      integer(riis_status) :: status
+    end function riis_mark_result_within_limit
+
+    !   mark, distance, triangle_id, leaflet_id  (n_nodes), contiguous, every entry is written
+    function riis_mark_result_dense(result, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) &
+        result(status) bind(c, name='riis_mark_result_dense')
+      import :: c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      integer(c_int64_t), value :: n_nodes
+      real(c_double), value :: far_distance
+      integer(c_int8_t), intent(inout), optional :: mark(*)
+      real(c_double), intent(inout), optional :: distance(*)
+      integer(c_int64_t), intent(inout), optional :: triangle_id(*)
+      integer(c_int32_t), intent(inout), optional :: leaflet_id(*)
+      integer(riis_status) :: status
+    end function riis_mark_result_dense
+
+    !   struct_size  c_sizeof(stats)
+    function riis_mark_result_stats(result, stats, struct_size) result(status) bind(c, name='riis_mark_result_stats')
+      import :: c_int64_t, c_ptr, riis_mark_stats, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      type(riis_mark_stats), intent(inout) :: stats
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_mark_result_stats
+  end interface
+
+  ! The C library's strlen, for riis_c_text.
+  interface
+    pure function c_strlen(text) result(length) bind(c, name='strlen')
+      import :: c_ptr, c_size_t
+      implicit none
+      type(c_ptr), value, intent(in) :: text
+      integer(c_size_t) :: length
+    end function c_strlen
+  end interface
+
+contains
+
+  ! The text without its trailing blanks, ended as C wants it.
+  pure function riis_c_string(text) result(c_text)
+    character(len=*), intent(in) :: text
+    character(len=len_trim(text) + 1, kind=c_char) :: c_text
+    c_text = trim(text) // c_null_char
+  end function riis_c_string
+
+  ! A copy of a text of the library's; '' for c_null_ptr.
+  function riis_c_text(c_text) result(text)
+    type(c_ptr), intent(in) :: c_text
+    character(len=:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    integer :: i, length
+    length = 0
+    if (c_associated(c_text)) length = int(c_strlen(c_text))
+    allocate (character(len=length) :: text)
+    if (length == 0) return
+    call c_f_pointer(c_text, letters, [length])
+    do i = 1, length
+      text(i:i) = letters(i)
+    end do
+  end function riis_c_text
+end module riis_c

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What a program that was compiled yesterday relies on: the numbers here are literals, written down when the interface
+ * was made. Where one of them has to change, programs break: append instead. Appended fields, functions and values get
+ * new lines; the sizes of structs that grew are the only old lines that may change.
+ */
+#include <riis/riis.h>
+#include <riis/riis_vtk.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define SIZE(type, size) assert_int_equal(sizeof(type), size)
+#define FIELD(type, field, offset, size)                \
+  do {                                                  \
+    assert_int_equal(offsetof(type, field), offset);    \
+    assert_int_equal(sizeof(((type *)0)->field), size); \
+  } while (0)
+/* The type of a function, arguments and all; the callers of other languages, which see no header, count on it. */
+#define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
+
+static void test_structs(void **state) {
+  (void)state;
+  SIZE(riis_parameter, 72);
+  FIELD(riis_parameter, name, 0, 8);
+  FIELD(riis_parameter, unit, 8, 8);
+  FIELD(riis_parameter, description, 16, 8);
+  FIELD(riis_parameter, n_values, 24, 8);
+  FIELD(riis_parameter, default_values, 32, 24);
+  FIELD(riis_parameter, minimum, 56, 8);
+  FIELD(riis_parameter, maximum, 64, 8);
+
+  SIZE(riis_surface_options, 96);
+  FIELD(riis_surface_options, struct_size, 0, 8);
+  FIELD(riis_surface_options, half_thickness, 8, 8);
+  FIELD(riis_surface_options, tolerance, 16, 8);
+  FIELD(riis_surface_options, scale, 24, 8);
+  FIELD(riis_surface_options, rotation_axis, 32, 24);
+  FIELD(riis_surface_options, rotation_angle, 56, 8);
+  FIELD(riis_surface_options, translation, 64, 24);
+  FIELD(riis_surface_options, zero_area, 88, 4);
+  FIELD(riis_surface_options, flip_normals, 92, 4);
+
+  SIZE(riis_surface_arrays, 88);
+  FIELD(riis_surface_arrays, struct_size, 0, 8);
+  FIELD(riis_surface_arrays, n_vertices, 8, 8);
+  FIELD(riis_surface_arrays, x, 16, 8);
+  FIELD(riis_surface_arrays, y, 24, 8);
+  FIELD(riis_surface_arrays, z, 32, 8);
+  FIELD(riis_surface_arrays, stride, 40, 8);
+  FIELD(riis_surface_arrays, n_faces, 48, 8);
+  FIELD(riis_surface_arrays, vertex_ids, 56, 8);
+  FIELD(riis_surface_arrays, vertex_id_bits, 64, 4);
+  FIELD(riis_surface_arrays, index_base, 68, 4);
+  FIELD(riis_surface_arrays, corners_per_face, 72, 4);
+  FIELD(riis_surface_arrays, reserved, 76, 4);
+  FIELD(riis_surface_arrays, leaflet_id, 80, 8);
+
+  SIZE(riis_surface_info, 104);
+  FIELD(riis_surface_info, n_vertices, 0, 8);
+  FIELD(riis_surface_info, n_triangles, 8, 8);
+  FIELD(riis_surface_info, n_zero_area, 16, 8);
+  FIELD(riis_surface_info, half_thickness, 24, 8);
+  FIELD(riis_surface_info, area, 32, 8);
+  FIELD(riis_surface_info, lower, 40, 24);
+  FIELD(riis_surface_info, upper, 64, 24);
+  FIELD(riis_surface_info, seconds_triangles, 88, 8);
+  FIELD(riis_surface_info, seconds_scene, 96, 8);
+
+  SIZE(riis_closest, 96);
+  FIELD(riis_closest, distance, 0, 8);
+  FIELD(riis_closest, point, 8, 24);
+  FIELD(riis_closest, barycentric, 32, 24);
+  FIELD(riis_closest, normal, 56, 24);
+  FIELD(riis_closest, triangle_id, 80, 8);
+  FIELD(riis_closest, leaflet_id, 88, 4);
+  FIELD(riis_closest, side, 92, 4);
+
+  SIZE(riis_closest_options, 32);
+  FIELD(riis_closest_options, struct_size, 0, 8);
+  FIELD(riis_closest_options, distance_limit, 8, 8);
+  FIELD(riis_closest_options, far_distance, 16, 8);
+  FIELD(riis_closest_options, n_threads, 24, 4);
+  FIELD(riis_closest_options, reserved, 28, 4);
+
+  SIZE(riis_closest_arrays, 64);
+  FIELD(riis_closest_arrays, struct_size, 0, 8);
+  FIELD(riis_closest_arrays, distance, 8, 8);
+  FIELD(riis_closest_arrays, point, 16, 8);
+  FIELD(riis_closest_arrays, barycentric, 24, 8);
+  FIELD(riis_closest_arrays, normal, 32, 8);
+  FIELD(riis_closest_arrays, triangle_id, 40, 8);
+  FIELD(riis_closest_arrays, leaflet_id, 48, 8);
+  FIELD(riis_closest_arrays, side, 56, 8);
+
+  SIZE(riis_mark_options, 32);
+  FIELD(riis_mark_options, struct_size, 0, 8);
+  FIELD(riis_mark_options, distance_limit, 8, 8);
+  FIELD(riis_mark_options, node_mask, 16, 8);
+  FIELD(riis_mark_options, search, 24, 4);
+  FIELD(riis_mark_options, n_threads, 28, 4);
+
+  SIZE(riis_mark_stats, 56);
+  FIELD(riis_mark_stats, n_nodes, 0, 8);
+  FIELD(riis_mark_stats, n_marked, 8, 8);
+  FIELD(riis_mark_stats, n_within_limit, 16, 8);
+  FIELD(riis_mark_stats, n_queries, 24, 8);
+  FIELD(riis_mark_stats, seconds, 32, 8);
+  FIELD(riis_mark_stats, search, 40, 4);
+  FIELD(riis_mark_stats, n_threads, 44, 4);
+  FIELD(riis_mark_stats, complete, 48, 4);
+  FIELD(riis_mark_stats, reserved, 52, 4);
+
+  SIZE(riis_vtk_picture_options, 24);
+  FIELD(riis_vtk_picture_options, struct_size, 0, 8);
+  FIELD(riis_vtk_picture_options, view, 8, 4);
+  FIELD(riis_vtk_picture_options, width, 12, 4);
+  FIELD(riis_vtk_picture_options, height, 16, 4);
+  FIELD(riis_vtk_picture_options, reserved, 20, 4);
+}
+
+static void test_constants(void **state) {
+  (void)state;
+  assert_int_equal(RIIS_OK, 0);
+  assert_int_equal(RIIS_INVALID_ARGUMENT, 1);
+  assert_int_equal(RIIS_INVALID_STRUCT_SIZE, 2);
+  assert_int_equal(RIIS_INVALID_PARAMETER, 3);
+  assert_int_equal(RIIS_INVALID_SURFACE, 4);
+  assert_int_equal(RIIS_INVALID_MESH, 5);
+  assert_int_equal(RIIS_LIMIT_EXCEEDED, 6);
+  assert_int_equal(RIIS_OUT_OF_MEMORY, 7);
+  assert_int_equal(RIIS_FILE_ERROR, 8);
+  assert_int_equal(RIIS_UNAVAILABLE, 9);
+  assert_int_equal(RIIS_INTERNAL_ERROR, -1);
+  assert_int_equal(RIIS_LOG_INFO, 0);
+  assert_int_equal(RIIS_LOG_WARNING, 1);
+  assert_int_equal(RIIS_LEAFLET_RIGHT, 0);
+  assert_int_equal(RIIS_LEAFLET_LEFT, 1);
+  assert_int_equal(RIIS_LEAFLET_NON_CORONARY, 2);
+  assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
+  assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
+  assert_int_equal(RIIS_SEARCH_AUTO, 0);
+  assert_int_equal(RIIS_SEARCH_EXHAUSTIVE, 1);
+  assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
+  assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
+  assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
+  assert_true(RIIS_AUTO == -1.0);
+  assert_true(RIIS_FAR_DISTANCE == 1.0e30);
+}
+
+static void test_signatures(void **state) {
+  (void)state;
+  SIZE(riis_status, 4);
+  assert_true((riis_status)-1 < 0);
+  assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *) : 1, default : 0));
+  SIGNATURE(riis_status_name, const char *, (riis_status));
+  SIGNATURE(riis_last_error, const char *, (void));
+  SIGNATURE(riis_version, void, (int32_t *, int32_t *, int32_t *));
+  SIGNATURE(riis_version_string, const char *, (void));
+  SIGNATURE(riis_set_log, void, (riis_log_function, void *));
+  SIGNATURE(riis_valve_create, int32_t, (const char *, riis_valve **));
+  SIGNATURE(riis_valve_destroy, void, (riis_valve **));
+  SIGNATURE(riis_valve_set, int32_t, (riis_valve *, const char *, int64_t, const double *));
+  SIGNATURE(riis_valve_set_scalar, int32_t, (riis_valve *, const char *, double));
+  SIGNATURE(riis_valve_get, int32_t, (const riis_valve *, const char *, int64_t, double *));
+  SIGNATURE(riis_valve_n_parameters, int32_t, (const riis_valve *, int64_t *));
+  SIGNATURE(riis_valve_parameter, int32_t, (const riis_valve *, int64_t, riis_parameter *, int64_t));
+  SIGNATURE(riis_surface_options_init, int32_t, (riis_surface_options *, int64_t));
+  SIGNATURE(riis_surface_create, int32_t, (const riis_valve *, const riis_surface_options *, riis_surface **));
+  SIGNATURE(riis_surface_arrays_init, int32_t, (riis_surface_arrays *, int64_t));
+  SIGNATURE(riis_surface_create_from_arrays, int32_t,
+            (const riis_surface_arrays *, const riis_surface_options *, riis_surface **));
+  SIGNATURE(riis_surface_update, int32_t, (riis_surface *, const riis_valve *, const riis_surface_options *));
+  SIGNATURE(riis_surface_update_from_arrays, int32_t,
+            (riis_surface *, const riis_surface_arrays *, const riis_surface_options *));
+  SIGNATURE(riis_surface_destroy, void, (riis_surface **));
+  SIGNATURE(riis_surface_get_info, int32_t, (const riis_surface *, riis_surface_info *, int64_t));
+  SIGNATURE(riis_surface_vertices, int32_t, (const riis_surface *, int64_t *, const double **));
+  SIGNATURE(riis_surface_vertex_parameters, int32_t, (const riis_surface *, int64_t *, const double **));
+  SIGNATURE(riis_surface_triangles, int32_t,
+            (const riis_surface *, int64_t *, const int64_t **, const int64_t **, const int32_t **, const int32_t **));
+  SIGNATURE(riis_closest_point, int32_t, (const riis_surface *, const double *, riis_closest *, int64_t));
+  SIGNATURE(riis_closest_options_init, int32_t, (riis_closest_options *, int64_t));
+  SIGNATURE(riis_closest_arrays_init, int32_t, (riis_closest_arrays *, int64_t));
+  SIGNATURE(riis_closest_points, int32_t,
+            (const riis_surface *, int64_t, const double *, const double *, const double *, int64_t,
+             const riis_closest_options *, const riis_closest_arrays *));
+  SIGNATURE(riis_mesh_create, int32_t,
+            (int64_t, const double *, const double *, const double *, int64_t, riis_mesh **));
+  SIGNATURE(riis_mesh_update, int32_t, (riis_mesh *, int64_t, const double *, const double *, const double *, int64_t));
+  SIGNATURE(riis_mesh_destroy, void, (riis_mesh **));
+  SIGNATURE(riis_mark_result_create, int32_t, (riis_mark_result **));
+  SIGNATURE(riis_mark_result_destroy, void, (riis_mark_result **));
+  SIGNATURE(riis_mark_options_init, int32_t, (riis_mark_options *, int64_t));
+  SIGNATURE(riis_mark_nodes, int32_t,
+            (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *));
+  SIGNATURE(
+      riis_mark_result_marked, int32_t,
+      (const riis_mark_result *, int64_t *, const int64_t **, const double **, const int64_t **, const int32_t **));
+  SIGNATURE(
+      riis_mark_result_within_limit, int32_t,
+      (const riis_mark_result *, int64_t *, const int64_t **, const double **, const int64_t **, const int32_t **));
+  SIGNATURE(riis_mark_result_dense, int32_t,
+            (const riis_mark_result *, int64_t, double, uint8_t *, double *, int64_t *, int32_t *));
+  SIGNATURE(riis_mark_result_stats, int32_t, (const riis_mark_result *, riis_mark_stats *, int64_t));
+  SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
+  SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
+  SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
+  SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
+  SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
+  SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, riis_vtk_surface **));
+  SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));
+  SIGNATURE(riis_vtk_surface_arrays, int32_t, (const riis_vtk_surface *, riis_surface_arrays *));
+  SIGNATURE(riis_vtk_surface_write, int32_t, (const riis_surface *, const char *));
+  SIGNATURE(riis_vtk_picture_options_init, int32_t, (riis_vtk_picture_options *, int64_t));
+  SIGNATURE(riis_vtk_draw, int32_t,
+            (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, const char *));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_structs),
+      cmocka_unit_test(test_constants),
+      cmocka_unit_test(test_signatures),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The calls of test_calls.f90, made from C, and the layout of the structs as C sees it. */
+#include "c_twin.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static riis_valve *valve;
+static riis_surface *surface, *plate;
+static riis_mesh *mesh;
+static riis_mark_result *result;
+static void *memory[16];
+static int n_memory;
+
+static void *allocate(int64_t n, size_t size) {
+  void *block = malloc((size_t)n * size);
+  if (!block) abort();
+  memory[n_memory++] = block;
+  return block;
+}
+
+#define TRY(call)                              \
+  do {                                         \
+    const riis_status status_of_call = call;   \
+    if (status_of_call) return status_of_call; \
+  } while (0)
+
+static riis_status describe_parameters(twin_numbers *numbers) {
+  TRY(riis_valve_n_parameters(valve, &numbers->n_parameters));
+  riis_parameter *parameters = allocate(numbers->n_parameters, sizeof *parameters);
+  for (int64_t i = 0; i < numbers->n_parameters; ++i)
+    TRY(riis_valve_parameter(valve, i, &parameters[i], sizeof *parameters));
+  numbers->parameters = parameters;
+  return RIIS_OK;
+}
+
+static riis_status make_surface(twin_numbers *numbers) {
+  const double rotation[3] = {0, 0, 120}, translation[3] = {0.1, 0, -1};
+  TRY(riis_valve_create("aortic", &valve));
+  TRY(describe_parameters(numbers));
+  TRY(riis_surface_create(valve, NULL, &surface));
+  TRY(riis_valve_set_scalar(valve, "root_radius", 1.3));
+  TRY(riis_valve_set(valve, "non_coronary.rotation", 3, rotation));
+  TRY(riis_valve_set(valve, "translation", 3, translation));
+  riis_surface_options options;
+  TRY(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = 1.1;
+  options.tolerance = 0.1;
+  options.scale = 10;
+  options.rotation_axis[0] = 1;
+  options.rotation_axis[1] = 2;
+  options.rotation_axis[2] = 3;
+  options.rotation_angle = 25;
+  options.translation[0] = 1;
+  options.translation[1] = -2;
+  options.translation[2] = 3;
+  TRY(riis_surface_update(surface, valve, &options));
+  TRY(riis_surface_get_info(surface, &numbers->info, sizeof numbers->info));
+  TRY(riis_surface_vertices(surface, NULL, &numbers->xyz));
+  TRY(riis_surface_vertex_parameters(surface, NULL, &numbers->uv));
+  return riis_surface_triangles(surface, NULL, &numbers->vertex_id, &numbers->triangle_id, &numbers->leaflet_id,
+                                &numbers->patch_id);
+}
+
+static riis_status make_plate(void) {
+  /* Two quads; then two of their triangles, one in another place, and a third without area. */
+  const double x[6] = {-9, 0, 9, -9, 0, 9}, y[6] = {-9, -9, -9, 9, 9, 9}, z[6] = {0, 0.5, 0, 0, 0.5, 0};
+  const int64_t quads[8] = {1, 2, 5, 4, 2, 3, 6, 5};
+  const int32_t triangles[9] = {0, 1, 4, 1, 1, 2, 2, 5, 4}, leaflet_id[3] = {3, 4, 5};
+  riis_surface_arrays arrays;
+  TRY(riis_surface_arrays_init(&arrays, sizeof arrays));
+  arrays.n_vertices = 6;
+  arrays.x = x;
+  arrays.y = y;
+  arrays.z = z;
+  arrays.n_faces = 2;
+  arrays.vertex_ids = quads;
+  arrays.vertex_id_bits = 64;
+  arrays.index_base = 1;
+  arrays.corners_per_face = 4;
+  TRY(riis_surface_create_from_arrays(&arrays, NULL, &plate));
+
+  riis_surface_options options;
+  TRY(riis_surface_options_init(&options, sizeof options));
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  options.flip_normals = 1;
+  arrays.n_faces = 3;
+  arrays.vertex_ids = triangles;
+  arrays.vertex_id_bits = 32;
+  arrays.index_base = 0;
+  arrays.corners_per_face = 3;
+  arrays.leaflet_id = leaflet_id;
+  return riis_surface_update_from_arrays(plate, &arrays, &options);
+}
+
+static riis_status find_closest(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
+  TRY(riis_closest_point(surface, xyz, &numbers->closest, sizeof numbers->closest));
+  riis_closest_arrays *all = &numbers->all;
+  TRY(riis_closest_arrays_init(all, sizeof *all));
+  all->distance = allocate(n_nodes, sizeof *all->distance);
+  all->point = allocate(3 * n_nodes, sizeof *all->point);
+  all->barycentric = allocate(3 * n_nodes, sizeof *all->barycentric);
+  all->normal = allocate(3 * n_nodes, sizeof *all->normal);
+  all->triangle_id = allocate(n_nodes, sizeof *all->triangle_id);
+  all->leaflet_id = allocate(n_nodes, sizeof *all->leaflet_id);
+  all->side = allocate(n_nodes, sizeof *all->side);
+  riis_closest_options options;
+  TRY(riis_closest_options_init(&options, sizeof options));
+  options.distance_limit = 12;
+  options.far_distance = -1;
+  options.n_threads = 2;
+  return riis_closest_points(plate, n_nodes, xyz, xyz + 1, xyz + 2, 3, &options, all);
+}
+
+static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
+  TRY(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  TRY(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
+  TRY(riis_mark_result_create(&result));
+  TRY(riis_mark_nodes(surface, mesh, NULL, result));
+
+  uint8_t *node_mask = allocate(n_nodes, sizeof *node_mask);
+  for (int64_t i = 0; i < n_nodes; ++i) node_mask[i] = i % 7 != 0;
+  riis_mark_options options;
+  TRY(riis_mark_options_init(&options, sizeof options));
+  options.distance_limit = 2.5;
+  options.node_mask = node_mask;
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  options.n_threads = 2;
+  TRY(riis_mark_nodes(surface, mesh, &options, result));
+
+  twin_list *list = &numbers->marked;
+  TRY(riis_mark_result_marked(result, &list->n, &list->node_id, &list->distance, &list->triangle_id,
+                              &list->leaflet_id));
+  list = &numbers->within_limit;
+  TRY(riis_mark_result_within_limit(result, &list->n, &list->node_id, &list->distance, &list->triangle_id,
+                                    &list->leaflet_id));
+  uint8_t *dense_mark = allocate(n_nodes, sizeof *dense_mark);
+  double *distance = allocate(n_nodes, sizeof *distance);
+  int64_t *triangle_id = allocate(n_nodes, sizeof *triangle_id);
+  int32_t *leaflet_id = allocate(n_nodes, sizeof *leaflet_id);
+  TRY(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, dense_mark, distance, triangle_id, leaflet_id));
+  numbers->dense_mark = dense_mark;
+  numbers->dense_distance = distance;
+  numbers->dense_triangle_id = triangle_id;
+  numbers->dense_leaflet_id = leaflet_id;
+  return riis_mark_result_stats(result, &numbers->stats, sizeof numbers->stats);
+}
+
+riis_status twin_run(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
+  TRY(make_surface(numbers));
+  TRY(make_plate());
+  TRY(find_closest(n_nodes, xyz, numbers));
+  return mark(n_nodes, xyz, numbers);
+}
+
+void twin_end(void) {
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&plate);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  while (n_memory > 0) free(memory[--n_memory]);
+}
+
+#define LAYOUT(type, ...)                                                            \
+  if (strcmp(struct_name, #type) == 0) {                                             \
+    typedef type T;                                                                  \
+    static const size_t layout[] = {sizeof(T), __VA_ARGS__};                         \
+    const int64_t n = (int64_t)(sizeof layout / sizeof *layout);                     \
+    for (int64_t i = 0; i < n && i < capacity; ++i) numbers[i] = (int64_t)layout[i]; \
+    return n;                                                                        \
+  }
+#define AT(field) offsetof(T, field)
+
+int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers) {
+  LAYOUT(riis_parameter, AT(name), AT(unit), AT(description), AT(n_values), AT(default_values), AT(minimum),
+         AT(maximum))
+  LAYOUT(riis_surface_options, AT(struct_size), AT(half_thickness), AT(tolerance), AT(scale), AT(rotation_axis),
+         AT(rotation_angle), AT(translation), AT(zero_area), AT(flip_normals))
+  LAYOUT(riis_surface_arrays, AT(struct_size), AT(n_vertices), AT(x), AT(y), AT(z), AT(stride), AT(n_faces),
+         AT(vertex_ids), AT(vertex_id_bits), AT(index_base), AT(corners_per_face), AT(reserved), AT(leaflet_id))
+  LAYOUT(riis_surface_info, AT(n_vertices), AT(n_triangles), AT(n_zero_area), AT(half_thickness), AT(area), AT(lower),
+         AT(upper), AT(seconds_triangles), AT(seconds_scene))
+  LAYOUT(riis_closest, AT(distance), AT(point), AT(barycentric), AT(normal), AT(triangle_id), AT(leaflet_id), AT(side))
+  LAYOUT(riis_closest_options, AT(struct_size), AT(distance_limit), AT(far_distance), AT(n_threads), AT(reserved))
+  LAYOUT(riis_closest_arrays, AT(struct_size), AT(distance), AT(point), AT(barycentric), AT(normal), AT(triangle_id),
+         AT(leaflet_id), AT(side))
+  LAYOUT(riis_mark_options, AT(struct_size), AT(distance_limit), AT(node_mask), AT(search), AT(n_threads))
+  LAYOUT(riis_mark_stats, AT(n_nodes), AT(n_marked), AT(n_within_limit), AT(n_queries), AT(seconds), AT(search),
+         AT(n_threads), AT(complete), AT(reserved))
+  return 0;
+}
+
+double twin_auto(void) { return RIIS_AUTO; }
+double twin_far_distance(void) { return RIIS_FAR_DISTANCE; }

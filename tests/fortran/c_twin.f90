@@ -1,0 +1,62 @@
+! SPDX-License-Identifier: Apache-2.0
+! c_twin.h for the Fortran tests.
+module c_twin
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_ptr
+  use riis_c
+  implicit none
+  private
+  public :: twin_list, twin_numbers, twin_run, twin_end, twin_layout, twin_auto, twin_far_distance
+
+  type, bind(c) :: twin_list
+    integer(c_int64_t) :: n
+    type(c_ptr) :: node_id, distance, triangle_id, leaflet_id
+  end type twin_list
+
+  type, bind(c) :: twin_numbers
+    integer(c_int64_t) :: n_parameters
+    type(c_ptr) :: parameters
+    type(riis_surface_info) :: info
+    type(c_ptr) :: xyz, uv
+    type(c_ptr) :: vertex_id, triangle_id, leaflet_id, patch_id
+    type(riis_closest) :: closest
+    type(riis_closest_arrays) :: all
+    type(twin_list) :: marked, within_limit
+    type(c_ptr) :: dense_mark, dense_distance, dense_triangle_id, dense_leaflet_id
+    type(riis_mark_stats) :: stats
+  end type twin_numbers
+
+  interface
+    function twin_run(n_nodes, xyz, numbers) result(status) bind(c, name='twin_run')
+      import :: c_int64_t, c_ptr, riis_status, twin_numbers
+      implicit none
+      integer(c_int64_t), value :: n_nodes
+      type(c_ptr), value :: xyz
+      type(twin_numbers), intent(out) :: numbers
+      integer(riis_status) :: status
+    end function twin_run
+
+    subroutine twin_end() bind(c, name='twin_end')
+    end subroutine twin_end
+
+    function twin_layout(struct_name, capacity, numbers) result(n) bind(c, name='twin_layout')
+      import :: c_char, c_int64_t
+      implicit none
+      character(kind=c_char), intent(in) :: struct_name(*)
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: numbers(*)
+      integer(c_int64_t) :: n
+    end function twin_layout
+
+    function twin_auto() result(value) bind(c, name='twin_auto')
+      import :: c_double
+      implicit none
+      real(c_double) :: value
+    end function twin_auto
+
+    function twin_far_distance() result(value) bind(c, name='twin_far_distance')
+      import :: c_double
+      implicit none
+      real(c_double) :: value
+    end function twin_far_distance
+  end interface
+end module c_twin

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * What c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these. */
+#ifndef RIIS_TESTS_FORTRAN_C_TWIN_H
+#define RIIS_TESTS_FORTRAN_C_TWIN_H
+
+#include <riis/riis.h>
+
+/* A marking, listed. */
+typedef struct twin_list {
+  int64_t n;
+  const int64_t *node_id;
+  const double *distance;
+  const int64_t *triangle_id;
+  const int32_t *leaflet_id;
+} twin_list;
+
+/* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
+typedef struct twin_numbers {
+  int64_t n_parameters;
+  const riis_parameter *parameters; /* (n_parameters) */
+  riis_surface_info info;
+  const double *xyz, *uv;
+  const int64_t *vertex_id, *triangle_id;
+  const int32_t *leaflet_id, *patch_id;
+  riis_closest closest;    /* of the first node */
+  riis_closest_arrays all; /* of all nodes, on the surface from arrays */
+  twin_list marked, within_limit;
+  const uint8_t *dense_mark;
+  const double *dense_distance;
+  const int64_t *dense_triangle_id;
+  const int32_t *dense_leaflet_id;
+  riis_mark_stats stats;
+} twin_numbers;
+
+/* Makes the calls that test_calls.f90 makes, from C. Returns the first status that is not RIIS_OK. */
+riis_status twin_run(int64_t n_nodes, const double *xyz, twin_numbers *numbers);
+void twin_end(void);
+
+/* Size and field offsets of a struct by name, in at most capacity numbers; returns how many there are. */
+int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers);
+
+double twin_auto(void);
+double twin_far_distance(void);
+
+#endif

@@ -1,0 +1,62 @@
+! SPDX-License-Identifier: Apache-2.0
+! What the Fortran tests are written with: checks that count, and a comparison of memory.
+module checks
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int8_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use riis_c
+  implicit none
+  private
+  public :: check, check_ok, check_refused, check_same_bytes, finish
+
+  integer :: n_checks = 0, n_failed = 0
+
+contains
+
+  subroutine check(is_true, what)
+    logical, intent(in) :: is_true
+    character(len=*), intent(in) :: what
+    n_checks = n_checks + 1
+    if (is_true) return
+    n_failed = n_failed + 1
+    write (error_unit, '(2a)') 'failed: ', what
+  end subroutine check
+
+  ! Ends the test where the call did not succeed: what follows counts on it.
+  subroutine check_ok(status, what)
+    integer(riis_status), intent(in) :: status
+    character(len=*), intent(in) :: what
+    n_checks = n_checks + 1
+    if (status == RIIS_OK) return
+    write (error_unit, '(6a)') 'failed: ', what, ': ', riis_c_text(riis_status_name(status)), ': ', &
+      riis_c_text(riis_last_error())
+    error stop
+  end subroutine check_ok
+
+  ! The call has to be refused with this status, and the error text has to hold these words.
+  subroutine check_refused(status, expected, words)
+    integer(riis_status), intent(in) :: status, expected
+    character(len=*), intent(in) :: words
+    call check(status == expected, 'refused with ' // riis_c_text(riis_status_name(expected)) // ' for "' // words // &
+      '", not ' // riis_c_text(riis_status_name(status)))
+    call check(index(riis_c_text(riis_last_error()), words) > 0, 'the error text has "' // words // '": ' // &
+      riis_c_text(riis_last_error()))
+  end subroutine check_refused
+
+  ! Bit for bit, whatever it is: comparing reals by value would take -0 for 0 and no NaN for itself.
+  subroutine check_same_bytes(a, b, n_bytes, what)
+    type(c_ptr), intent(in) :: a, b
+    integer(c_int64_t), intent(in) :: n_bytes
+    character(len=*), intent(in) :: what
+    integer(c_int8_t), pointer :: bytes_a(:), bytes_b(:)
+    call check(n_bytes > 0 .and. c_associated(a) .and. c_associated(b), what // ': there is something to compare')
+    if (n_bytes <= 0 .or. .not. (c_associated(a) .and. c_associated(b))) return
+    call c_f_pointer(a, bytes_a, [n_bytes])
+    call c_f_pointer(b, bytes_b, [n_bytes])
+    call check(all(bytes_a == bytes_b), what // ': the same bits from Fortran and from C')
+  end subroutine check_same_bytes
+
+  subroutine finish()
+    print '(i0, a, i0, a)', n_checks, ' checks, ', n_failed, ' failed'
+    if (n_checks == 0 .or. n_failed > 0) error stop
+  end subroutine finish
+end module checks

@@ -1,0 +1,441 @@
+! SPDX-License-Identifier: Apache-2.0
+! Every binding of riis_c is called, and gives the bits that the same calls give from C (c_twin.c). That none is left
+! out is checked by check_bindings.sh.
+module log_capture
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int32_t, c_ptr
+  use riis_c
+  implicit none
+  public
+
+  ! What the user data of the log function points to.
+  type, bind(c) :: captured
+    integer(c_int32_t) :: n_messages
+    integer(c_int32_t) :: n_warnings
+  end type captured
+  character(len=200) :: last_warning = ''
+
+contains
+
+  subroutine capture(user_data, level, message) bind(c)
+    type(c_ptr), value :: user_data
+    integer(c_int32_t), value :: level
+    type(c_ptr), value :: message
+    type(captured), pointer :: log
+    call c_f_pointer(user_data, log)
+    log%n_messages = log%n_messages + 1
+    if (level /= RIIS_LOG_WARNING) return
+    log%n_warnings = log%n_warnings + 1
+    last_warning = riis_c_text(message)
+  end subroutine capture
+end module log_capture
+
+program test_calls
+  use, intrinsic :: iso_c_binding
+  use checks
+  use c_twin
+  use log_capture
+  use riis_c
+  implicit none
+  integer(c_int64_t), parameter :: per_side = 20, n_nodes = per_side**3
+  real(c_double), target :: xyz(3, n_nodes) ! a box around the valve, in mm, a node every 1.8 mm
+  type(twin_numbers), target :: twin
+  type(c_ptr) :: valve = c_null_ptr, surface = c_null_ptr, plate = c_null_ptr, mesh = c_null_ptr, result = c_null_ptr
+  integer(c_int64_t) :: i
+
+  do i = 0, n_nodes - 1
+    xyz(:, i + 1) = -17 + 1.8d0 * [mod(i, per_side), mod(i / per_side, per_side), i / per_side**2]
+  end do
+  call check_ok(twin_run(n_nodes, c_loc(xyz), twin), 'the calls from C')
+
+  call check(riis_c_text(riis_last_error()) == '', 'no error text before the first error')
+  call test_version_and_texts()
+  call test_valve()
+  call test_surface()
+  call test_surface_from_arrays()
+  call test_closest_points()
+  call test_marking()
+  call test_destroy()
+  call twin_end()
+  call finish()
+
+contains
+
+  subroutine test_version_and_texts()
+    integer(c_int32_t) :: major, minor, patch
+    character(len=40) :: text
+    integer :: i
+    integer(riis_status), parameter :: statuses(11) = [RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, &
+      RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, &
+      RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR]
+    character(len=*), parameter :: names(11) = [character(len=24) :: 'RIIS_OK', 'RIIS_INVALID_ARGUMENT', &
+      'RIIS_INVALID_STRUCT_SIZE', 'RIIS_INVALID_PARAMETER', 'RIIS_INVALID_SURFACE', 'RIIS_INVALID_MESH', &
+      'RIIS_LIMIT_EXCEEDED', 'RIIS_OUT_OF_MEMORY', 'RIIS_FILE_ERROR', 'RIIS_UNAVAILABLE', 'RIIS_INTERNAL_ERROR']
+
+    call riis_version(major, minor, patch)
+    write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
+    call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
+    patch = -1
+    call riis_version(patch=patch) ! what is left out is NULL
+    call check(patch >= 0, 'the patch version alone')
+    do i = 1, size(statuses)
+      call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
+    end do
+    call check(riis_c_text(riis_status_name(12345_riis_status)) == 'unknown status', 'the name of no status')
+
+    call check(riis_c_text(c_null_ptr) == '', 'no text')
+    call check(riis_c_string(' a b  ') == ' a b' // c_null_char, 'a string for C')
+    call check(len(riis_c_string('')) == 1, 'an empty string for C')
+  end subroutine test_version_and_texts
+
+  subroutine test_valve()
+    type(c_ptr) :: none = c_null_ptr
+    type(riis_parameter), target :: parameter
+    type(riis_parameter), pointer :: from_c(:)
+    integer(c_int64_t) :: n_parameters, id, n_found
+    real(c_double) :: values(3), scalar(1)
+    character(len=*), parameter :: rotation = 'non_coronary.rotation'
+
+    call check_refused(riis_valve_create(riis_c_string('tricuspid'), none), RIIS_INVALID_PARAMETER, 'tricuspid')
+    call check(.not. c_associated(none), 'no valve is made by a call that is refused')
+    call check_ok(riis_valve_create(riis_c_string('aortic'), valve), 'create a valve')
+    call check(c_associated(valve), 'a valve is made')
+
+    n_parameters = 0
+    call check_ok(riis_valve_n_parameters(valve, n_parameters), 'count parameters')
+    call check(n_parameters == twin%n_parameters .and. n_parameters > 20, 'there are as many parameters as from C')
+    call c_f_pointer(twin%parameters, from_c, [twin%n_parameters])
+    n_found = 0
+    do id = 0, n_parameters - 1
+      call check_ok(riis_valve_parameter(valve, id, parameter, c_sizeof(parameter)), 'describe a parameter')
+      call check_same_bytes(c_loc(parameter), c_loc(from_c(id + 1)), int(c_sizeof(parameter), c_int64_t), 'parameter')
+      if (riis_c_text(parameter%name) /= rotation) cycle
+      n_found = n_found + 1
+      call check(parameter%n_values == 3, 'the length of ' // rotation)
+      call check(riis_c_text(parameter%unit) == 'degree', 'the unit of ' // rotation)
+      call check(len(riis_c_text(parameter%description)) > 0, 'the description of ' // rotation)
+    end do
+    call check(n_found == 1, rotation // ' is there once')
+    call check_refused(riis_valve_parameter(valve, n_parameters, parameter, c_sizeof(parameter)), &
+      RIIS_INVALID_ARGUMENT, 'parameter_id')
+    call check_refused(riis_valve_parameter(valve, 0_c_int64_t, parameter, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, &
+      'struct size')
+
+    ! Surfaces of the default valve, before it is changed.
+    call check_ok(riis_surface_create(valve, surface=surface), 'create a surface with default options')
+    call check_area(6.986d0, 0.01d0)
+
+    call check_ok(riis_valve_set_scalar(valve, riis_c_string('root_radius'), 1.3d0), 'set a scalar')
+    call check_ok(riis_valve_set(valve, riis_c_string(rotation), 3_c_int64_t, [0d0, 0d0, 120d0]), 'set a vector')
+    call check_ok(riis_valve_set(valve, riis_c_string('translation'), 3_c_int64_t, [0.1d0, 0d0, -1d0]), &
+      'set a vector for all cusps')
+    values = 0
+    call check_ok(riis_valve_get(valve, riis_c_string(rotation), 3_c_int64_t, values), 'get a vector')
+    call check(all(nint(values) == [0, 0, 120]), 'the vector that was set')
+    call check_ok(riis_valve_get(valve, riis_c_string('root_radius'), 1_c_int64_t, scalar), 'get a scalar')
+    call check(transfer(scalar(1), 0_c_int64_t) == transfer(1.3d0, 0_c_int64_t), 'the scalar that was set')
+
+    call check_refused(riis_valve_set_scalar(valve, riis_c_string('root_radios'), 1d0), RIIS_INVALID_PARAMETER, &
+      'root_radios')
+    call check_refused(riis_valve_set(valve, riis_c_string(rotation), 2_c_int64_t, values), RIIS_INVALID_PARAMETER, &
+      rotation)
+    call check_refused(riis_valve_get(valve, riis_c_string('translation'), 3_c_int64_t, values), &
+      RIIS_INVALID_PARAMETER, 'translation')
+    call check_refused(riis_valve_n_parameters(c_null_ptr, n_parameters), RIIS_INVALID_ARGUMENT, 'valve')
+  end subroutine test_valve
+
+  subroutine check_area(expected, tolerance)
+    real(c_double), intent(in) :: expected, tolerance
+    type(riis_surface_info) :: info
+    call check_ok(riis_surface_get_info(surface, info, c_sizeof(info)), 'describe a surface')
+    call check(abs(info%area - expected) < tolerance, 'the area of the surface')
+  end subroutine check_area
+
+  subroutine test_surface()
+    type(riis_surface_options) :: options
+    type(riis_surface_info), target :: info
+    type(c_ptr) :: other = c_null_ptr, vertices = c_null_ptr, parameters = c_null_ptr
+    type(c_ptr) :: vertex_id = c_null_ptr, triangle_id = c_null_ptr, leaflet_id = c_null_ptr, patch_id = c_null_ptr
+    integer(c_int64_t) :: n, n_vertices, n_triangles
+    integer(c_int32_t), pointer :: leaflets(:)
+
+    call check_refused(riis_surface_options_init(options, 12_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_surface_options_init(options, c_sizeof(options)), 'default surface options')
+    call check(options%struct_size == c_sizeof(options) .and. nint(options%scale) == 1 .and. &
+      all(nint(options%rotation_axis) == [0, 0, 1]) .and. options%zero_area == RIIS_ZERO_AREA_REFUSE, &
+      'the defaults of the surface options')
+    options%half_thickness = 1.1d0
+    options%tolerance = 0.1d0
+    options%scale = 10
+    options%rotation_axis = [1, 2, 3]
+    options%rotation_angle = 25
+    options%translation = [1, -2, 3]
+    call check_ok(riis_surface_update(surface, valve, options), 'update a surface')
+
+    call check_ok(riis_surface_get_info(surface, info, c_sizeof(info)), 'describe a surface')
+    ! Times differ: up to them.
+    call check_same_bytes(c_loc(info), c_loc(twin%info), 88_c_int64_t, 'the surface')
+    call check(info%seconds_triangles > 0 .and. info%seconds_scene > 0, 'a surface takes time')
+    call check_ok(riis_surface_vertices(surface, n_vertices, vertices), 'vertices')
+    call check(n_vertices == info%n_vertices, 'the number of vertices')
+    call check_same_bytes(vertices, twin%xyz, 24 * n_vertices, 'vertices')
+    call check_ok(riis_surface_vertex_parameters(surface, n, parameters), 'vertex parameters')
+    call check(n == n_vertices, 'the number of vertices')
+    call check_same_bytes(parameters, twin%uv, 16 * n_vertices, 'vertex parameters')
+    call check_ok(riis_surface_triangles(surface, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id), &
+      'triangles')
+    call check(n_triangles == info%n_triangles, 'the number of triangles')
+    call check_same_bytes(vertex_id, twin%vertex_id, 24 * n_triangles, 'vertex ids')
+    call check_same_bytes(triangle_id, twin%triangle_id, 8 * n_triangles, 'triangle ids')
+    call check_same_bytes(leaflet_id, twin%leaflet_id, 4 * n_triangles, 'leaflet ids')
+    call check_same_bytes(patch_id, twin%patch_id, 4 * n_triangles, 'patch ids')
+    call c_f_pointer(leaflet_id, leaflets, [n_triangles])
+    call check(minval(leaflets) == RIIS_LEAFLET_RIGHT .and. maxval(leaflets) == RIIS_LEAFLET_NON_CORONARY .and. &
+      any(leaflets == RIIS_LEAFLET_LEFT), 'three leaflets')
+    n = -1
+    call check_ok(riis_surface_triangles(surface, n_triangles=n), 'the number of triangles alone')
+    call check(n == n_triangles, 'the number of triangles alone')
+
+    options%tolerance = 2
+    call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'tolerance')
+    options%struct_size = 12
+    call check_refused(riis_surface_update(surface, valve, options), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_valve_set_scalar(valve, riis_c_string('bending_height'), 3d0), 'a bad height is found later')
+    call check_refused(riis_surface_create(valve, surface=other), RIIS_INVALID_PARAMETER, 'bending_height')
+    call check(.not. c_associated(other), 'no surface is made by calls that are refused')
+    call check_refused(riis_surface_update(surface, valve), RIIS_INVALID_PARAMETER, 'bending_height')
+    call check_ok(riis_surface_triangles(surface, n), 'triangles')
+    call check(n == n_triangles, 'a surface stays as it was when its update is refused')
+  end subroutine test_surface
+
+  subroutine test_surface_from_arrays()
+    real(c_double), target :: x(6), y(6), z(6)
+    integer(c_int64_t), target :: quads(4, 2)
+    integer(c_int32_t), target :: triangles(3, 3), leaflet_id(3)
+    type(riis_surface_arrays) :: arrays
+    type(riis_surface_options) :: options
+    type(riis_surface_info) :: info
+    type(captured), target :: log
+    type(c_ptr) :: other = c_null_ptr, parameters
+    integer(c_int32_t) :: n_before
+
+    x = [-9, 0, 9, -9, 0, 9]
+    y = [-9, -9, -9, 9, 9, 9]
+    z = [0d0, 0.5d0, 0d0, 0d0, 0.5d0, 0d0]
+    quads = reshape([1, 2, 5, 4, 2, 3, 6, 5], [4, 2])
+    triangles = reshape([0, 1, 4, 1, 1, 2, 2, 5, 4], [3, 3])
+    leaflet_id = [3, 4, 5]
+    call check_refused(riis_surface_arrays_init(arrays, 0_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_surface_arrays_init(arrays, c_sizeof(arrays)), 'default surface arrays')
+    call check(arrays%struct_size == c_sizeof(arrays) .and. arrays%stride == 1 .and. arrays%vertex_id_bits == 32 .and. &
+      arrays%corners_per_face == 3 .and. .not. c_associated(arrays%x), 'the defaults of the surface arrays')
+    arrays%n_vertices = 6
+    arrays%x = c_loc(x)
+    arrays%y = c_loc(y)
+    arrays%z = c_loc(z)
+    arrays%n_faces = 2
+    arrays%vertex_ids = c_loc(quads)
+    arrays%vertex_id_bits = 64
+    arrays%index_base = 1
+    arrays%corners_per_face = 4
+    call check_ok(riis_surface_create_from_arrays(arrays, surface=plate), 'create a surface from quads')
+    call check_ok(riis_surface_get_info(plate, info, c_sizeof(info)), 'describe the plate')
+    call check(info%n_triangles == 4 .and. info%n_zero_area == 0, 'two quads are four triangles')
+    parameters = c_loc(x)
+    call check_ok(riis_surface_vertex_parameters(plate, uv=parameters), 'vertex parameters of a surface from arrays')
+    call check(.not. c_associated(parameters), 'a surface from arrays has no vertex parameters')
+
+    arrays%n_faces = 3
+    arrays%vertex_ids = c_loc(triangles)
+    arrays%vertex_id_bits = 32
+    arrays%index_base = 0
+    arrays%corners_per_face = 3
+    arrays%leaflet_id = c_loc(leaflet_id)
+    call check_ok(riis_surface_options_init(options, c_sizeof(options)), 'default surface options')
+    call check_refused(riis_surface_update_from_arrays(plate, arrays, options), RIIS_INVALID_SURFACE, 'face 1')
+
+    options%zero_area = RIIS_ZERO_AREA_SKIP
+    options%flip_normals = 1
+    log = captured(0, 0)
+    call riis_set_log(c_funloc(capture), c_loc(log))
+    call check_ok(riis_surface_update_from_arrays(plate, arrays, options), 'update a surface from triangles')
+    call riis_set_log(c_null_funptr, c_null_ptr)
+    call check(log%n_warnings == 1 .and. index(last_warning, 'zero area') > 0, 'a warning of the skipped triangle')
+    call check(log%n_messages > log%n_warnings, 'information is logged, too')
+    n_before = log%n_messages
+    call check_ok(riis_surface_update_from_arrays(plate, arrays), 'update with the options that the surface has')
+    call check(log%n_messages == n_before, 'silence after the log function is taken away')
+    call check_ok(riis_surface_get_info(plate, info, c_sizeof(info)), 'describe the plate')
+    call check(info%n_triangles == 2 .and. info%n_zero_area == 1, 'one of three triangles has no area')
+
+    triangles(3, 3) = 6
+    call check_refused(riis_surface_create_from_arrays(arrays, options, other), RIIS_INVALID_SURFACE, 'face 2')
+    arrays%n_faces = 2_c_int64_t**40
+    call check_refused(riis_surface_create_from_arrays(arrays, options, other), RIIS_LIMIT_EXCEEDED, 'n_faces')
+    call check(.not. c_associated(other), 'no surface is made by calls that are refused')
+  end subroutine test_surface_from_arrays
+
+  subroutine test_closest_points()
+    type(riis_closest), target :: closest
+    type(riis_closest_options) :: options
+    type(riis_closest_arrays) :: arrays
+    real(c_double), target, allocatable :: distance(:), point(:, :), barycentric(:, :), normal(:, :)
+    integer(c_int64_t), target, allocatable :: triangle_id(:)
+    integer(c_int32_t), target, allocatable :: leaflet_id(:), side(:)
+
+    call check_ok(riis_closest_point(surface, xyz(:, 1), closest, c_sizeof(closest)), 'one closest point')
+    call check_same_bytes(c_loc(closest), c_loc(twin%closest), int(c_sizeof(closest), c_int64_t), 'one closest point')
+    call check(closest%distance > 0 .and. abs(closest%distance - norm2(closest%point - xyz(:, 1))) < 1d-12, &
+      'a distance is that to the closest point')
+    call check_refused(riis_closest_point(surface, xyz(:, 1), closest, 1_c_int64_t), RIIS_INVALID_STRUCT_SIZE, &
+      'struct size')
+
+    allocate (distance(n_nodes), point(3, n_nodes), barycentric(3, n_nodes), normal(3, n_nodes))
+    allocate (triangle_id(n_nodes), leaflet_id(n_nodes), side(n_nodes))
+    call check_ok(riis_closest_arrays_init(arrays, c_sizeof(arrays)), 'default closest arrays')
+    call check(arrays%struct_size == c_sizeof(arrays) .and. .not. c_associated(arrays%side), &
+      'the defaults of the closest arrays')
+    arrays%distance = c_loc(distance)
+    arrays%point = c_loc(point)
+    arrays%barycentric = c_loc(barycentric)
+    arrays%normal = c_loc(normal)
+    arrays%triangle_id = c_loc(triangle_id)
+    arrays%leaflet_id = c_loc(leaflet_id)
+    arrays%side = c_loc(side)
+    call check_ok(riis_closest_options_init(options, c_sizeof(options)), 'default closest options')
+    call check(options%struct_size == c_sizeof(options) .and. options%far_distance > 9d29 .and. &
+      options%distance_limit < 0, 'the defaults of the closest options')
+    options%distance_limit = 12
+    options%far_distance = -1
+    options%n_threads = 2
+    call check_ok(riis_closest_points(plate, n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 3_c_int64_t, options, arrays), &
+      'closest points')
+    call check_same_bytes(c_loc(distance), twin%all%distance, 8 * n_nodes, 'distances')
+    call check_same_bytes(c_loc(point), twin%all%point, 24 * n_nodes, 'points')
+    call check_same_bytes(c_loc(barycentric), twin%all%barycentric, 24 * n_nodes, 'barycentric coordinates')
+    call check_same_bytes(c_loc(normal), twin%all%normal, 24 * n_nodes, 'normals')
+    call check_same_bytes(c_loc(triangle_id), twin%all%triangle_id, 8 * n_nodes, 'triangle ids')
+    call check_same_bytes(c_loc(leaflet_id), twin%all%leaflet_id, 4 * n_nodes, 'leaflet ids')
+    call check_same_bytes(c_loc(side), twin%all%side, 4 * n_nodes, 'sides')
+    call check(minval(triangle_id) == -1 .and. any(triangle_id == 0) .and. maxval(triangle_id) == 2, &
+      'the triangles of the plate, and none far away')
+    call check(any(side == 1) .and. any(side == -1) .and. any(leaflet_id == 3) .and. any(leaflet_id == 5) .and. &
+      .not. any(leaflet_id == 4), 'both sides and both leaflets of the plate')
+
+    options%far_distance = 3
+    call check_refused(riis_closest_points(plate, n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 3_c_int64_t, options, &
+      arrays), RIIS_INVALID_ARGUMENT, 'far_distance')
+    call check_refused(riis_closest_points(plate, n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 0_c_int64_t, &
+      arrays=arrays), RIIS_INVALID_ARGUMENT, 'stride')
+  end subroutine test_closest_points
+
+  subroutine test_marking()
+    type(riis_mark_options) :: options
+    type(riis_mark_stats), target :: stats
+    integer(c_int8_t), target :: node_mask(n_nodes)
+    integer(c_int8_t), target, allocatable :: mark(:)
+    real(c_double), target, allocatable :: distance(:)
+    integer(c_int64_t), target, allocatable :: triangle_id(:)
+    integer(c_int32_t), target, allocatable :: leaflet_id(:)
+    type(twin_list) :: list
+    type(c_ptr) :: other = c_null_ptr
+    integer(c_int64_t) :: n_default, n
+    integer(c_int64_t), pointer :: ids(:)
+    real(c_double), pointer :: distances(:)
+    real(c_double), target :: bad(3)
+
+    call check_ok(riis_mesh_create(1_c_int64_t, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, &
+      mesh), 'create a mesh')
+    call check_ok(riis_mesh_update(mesh, n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t), &
+      'update a mesh')
+    call check_ok(riis_mark_result_create(result), 'create a result')
+    n_default = -1
+    call check_ok(riis_mark_result_marked(result, n_default), 'the marked nodes of a new result')
+    call check(n_default == 0, 'a new result has no marked nodes')
+    call check_ok(riis_mark_nodes(surface, mesh, result=result), 'mark with default options')
+    call check_ok(riis_mark_result_marked(result, n_default), 'the number of marked nodes alone')
+    call check(n_default > 0 .and. n_default < n_nodes, 'some nodes are marked')
+
+    do n = 1, n_nodes
+      node_mask(n) = merge(0_c_int8_t, 1_c_int8_t, mod(n - 1, 7_c_int64_t) == 0)
+    end do
+    call check_refused(riis_mark_options_init(options, 4_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
+    call check(options%struct_size == c_sizeof(options) .and. options%search == RIIS_SEARCH_AUTO .and. &
+      .not. c_associated(options%node_mask), 'the defaults of the mark options')
+    options%distance_limit = 2.5d0
+    options%node_mask = c_loc(node_mask)
+    options%search = RIIS_SEARCH_EXHAUSTIVE
+    options%n_threads = 2
+    call check_ok(riis_mark_nodes(surface, mesh, options, result), 'mark')
+
+    list = twin_list(-1, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
+    call check_ok(riis_mark_result_marked(result, list%n, list%node_id, list%distance, list%triangle_id, &
+      list%leaflet_id), 'the marked nodes')
+    call check_same_list(list, twin%marked, 'marked')
+    call check(list%n > 0 .and. list%n < n_default, 'the mask leaves marked nodes out')
+    call c_f_pointer(list%node_id, ids, [list%n])
+    call c_f_pointer(list%distance, distances, [list%n])
+    call check(all(ids(2:) > ids(:list%n - 1)) .and. all(mod(ids, 7_c_int64_t) /= 0), 'ascending ids, from 0, unmasked')
+    call check(maxval(distances) <= 1.1d0, 'marked nodes are within the half thickness')
+
+    list = twin_list(-1, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
+    call check_ok(riis_mark_result_within_limit(result, list%n, list%node_id, list%distance, list%triangle_id, &
+      list%leaflet_id), 'the nodes within the limit')
+    call check_same_list(list, twin%within_limit, 'within the limit')
+    call check(list%n > twin%marked%n, 'more nodes are within the limit')
+
+    allocate (mark(n_nodes), distance(n_nodes), triangle_id(n_nodes), leaflet_id(n_nodes))
+    call check_ok(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id), &
+      'dense arrays')
+    call check_same_bytes(c_loc(mark), twin%dense_mark, n_nodes, 'dense marks')
+    call check_same_bytes(c_loc(distance), twin%dense_distance, 8 * n_nodes, 'dense distances')
+    call check_same_bytes(c_loc(triangle_id), twin%dense_triangle_id, 8 * n_nodes, 'dense triangle ids')
+    call check_same_bytes(c_loc(leaflet_id), twin%dense_leaflet_id, 4 * n_nodes, 'dense leaflet ids')
+    call check(sum(int(mark, c_int64_t)) == twin%marked%n, 'as many dense marks as marked nodes')
+    leaflet_id = -2
+    call check_ok(riis_mark_result_dense(result, n_nodes, -1d0, leaflet_id=leaflet_id), 'one dense array alone')
+    call check_same_bytes(c_loc(leaflet_id), twin%dense_leaflet_id, 4 * n_nodes, 'dense leaflet ids alone')
+
+    call check_ok(riis_mark_result_stats(result, stats, c_sizeof(stats)), 'statistics')
+    call check_same_bytes(c_loc(stats), c_loc(twin%stats), 32_c_int64_t, 'statistics')
+    call check(stats%n_nodes == n_nodes .and. stats%n_marked == twin%marked%n .and. &
+      stats%n_within_limit == list%n .and. stats%n_queries >= list%n .and. stats%seconds > 0 .and. &
+      stats%search == RIIS_SEARCH_EXHAUSTIVE .and. stats%complete == 1, 'the statistics of the marking')
+    call check(stats%n_threads == twin%stats%n_threads, 'as many threads as from C')
+
+    call check_refused(riis_mark_result_dense(result, n_nodes - 1, -1d0, mark), RIIS_INVALID_ARGUMENT, 'n_nodes')
+    options%distance_limit = 1
+    call check_refused(riis_mark_nodes(surface, mesh, options, result), RIIS_INVALID_ARGUMENT, 'distance_limit')
+    call check_refused(riis_mark_nodes(surface, c_null_ptr, result=result), RIIS_INVALID_ARGUMENT, 'mesh')
+    call check_refused(riis_mark_result_stats(result, stats, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    bad = [0d0, 1d300, 0d0]
+    call check_refused(riis_mesh_create(1_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t, other), &
+      RIIS_INVALID_MESH, '1e+300')
+    call check(.not. c_associated(other), 'no mesh is made by a call that is refused')
+    call check_refused(riis_mesh_update(mesh, 0_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t), &
+      RIIS_INVALID_MESH, 'n_nodes')
+  end subroutine test_marking
+
+  subroutine check_same_list(a, b, what)
+    type(twin_list), intent(in) :: a, b
+    character(len=*), intent(in) :: what
+    call check(a%n == b%n, what // ': as many nodes as from C')
+    call check_same_bytes(a%node_id, b%node_id, 8 * min(a%n, b%n), what // ': node ids')
+    call check_same_bytes(a%distance, b%distance, 8 * min(a%n, b%n), what // ': distances')
+    call check_same_bytes(a%triangle_id, b%triangle_id, 8 * min(a%n, b%n), what // ': triangle ids')
+    call check_same_bytes(a%leaflet_id, b%leaflet_id, 4 * min(a%n, b%n), what // ': leaflet ids')
+  end subroutine check_same_list
+
+  subroutine test_destroy()
+    integer :: i
+    do i = 1, 2 ! destroying nothing is fine
+      call riis_mark_result_destroy(result)
+      call riis_mesh_destroy(mesh)
+      call riis_surface_destroy(plate)
+      call riis_surface_destroy(surface)
+      call riis_valve_destroy(valve)
+      call check(.not. (c_associated(result) .or. c_associated(mesh) .or. c_associated(plate) .or. &
+        c_associated(surface) .or. c_associated(valve)), 'destroyed handles are null')
+    end do
+  end subroutine test_destroy
+end program test_calls

@@ -1,0 +1,71 @@
+! SPDX-License-Identifier: Apache-2.0
+! The derived types of riis_c lie in memory as the structs of riis.h do, field by field, and the real constants are the
+! same bits. (The integer constants are compared as text, by check_bindings.sh.)
+program test_layout
+  use, intrinsic :: iso_c_binding
+  use checks
+  use c_twin
+  use riis_c
+  implicit none
+  type(riis_parameter), target :: p
+  type(riis_surface_options), target :: so
+  type(riis_surface_arrays), target :: sa
+  type(riis_surface_info), target :: si
+  type(riis_closest), target :: c
+  type(riis_closest_options), target :: co
+  type(riis_closest_arrays), target :: ca
+  type(riis_mark_options), target :: mo
+  type(riis_mark_stats), target :: ms
+
+  call compare('riis_parameter', c_sizeof(p), c_loc(p), [at(c_loc(p%name)), at(c_loc(p%unit)), &
+    at(c_loc(p%description)), at(c_loc(p%n_values)), at(c_loc(p%default_values)), at(c_loc(p%minimum)), &
+    at(c_loc(p%maximum))])
+  call compare('riis_surface_options', c_sizeof(so), c_loc(so), [at(c_loc(so%struct_size)), &
+    at(c_loc(so%half_thickness)), at(c_loc(so%tolerance)), at(c_loc(so%scale)), at(c_loc(so%rotation_axis)), &
+    at(c_loc(so%rotation_angle)), at(c_loc(so%translation)), at(c_loc(so%zero_area)), at(c_loc(so%flip_normals))])
+  call compare('riis_surface_arrays', c_sizeof(sa), c_loc(sa), [at(c_loc(sa%struct_size)), at(c_loc(sa%n_vertices)), &
+    at(c_loc(sa%x)), at(c_loc(sa%y)), at(c_loc(sa%z)), at(c_loc(sa%stride)), at(c_loc(sa%n_faces)), &
+    at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), at(c_loc(sa%corners_per_face)), &
+    at(c_loc(sa%reserved)), at(c_loc(sa%leaflet_id))])
+  call compare('riis_surface_info', c_sizeof(si), c_loc(si), [at(c_loc(si%n_vertices)), at(c_loc(si%n_triangles)), &
+    at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
+    at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene))])
+  call compare('riis_closest', c_sizeof(c), c_loc(c), [at(c_loc(c%distance)), at(c_loc(c%point)), &
+    at(c_loc(c%barycentric)), at(c_loc(c%normal)), at(c_loc(c%triangle_id)), at(c_loc(c%leaflet_id)), &
+    at(c_loc(c%side))])
+  call compare('riis_closest_options', c_sizeof(co), c_loc(co), [at(c_loc(co%struct_size)), &
+    at(c_loc(co%distance_limit)), at(c_loc(co%far_distance)), at(c_loc(co%n_threads)), at(c_loc(co%reserved))])
+  call compare('riis_closest_arrays', c_sizeof(ca), c_loc(ca), [at(c_loc(ca%struct_size)), at(c_loc(ca%distance)), &
+    at(c_loc(ca%point)), at(c_loc(ca%barycentric)), at(c_loc(ca%normal)), at(c_loc(ca%triangle_id)), &
+    at(c_loc(ca%leaflet_id)), at(c_loc(ca%side))])
+  call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), at(c_loc(mo%distance_limit)), &
+    at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads))])
+  call compare('riis_mark_stats', c_sizeof(ms), c_loc(ms), [at(c_loc(ms%n_nodes)), at(c_loc(ms%n_marked)), &
+    at(c_loc(ms%n_within_limit)), at(c_loc(ms%n_queries)), at(c_loc(ms%seconds)), at(c_loc(ms%search)), &
+    at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%reserved))])
+
+  call check(transfer(RIIS_AUTO, 0_c_int64_t) == transfer(twin_auto(), 0_c_int64_t), 'RIIS_AUTO')
+  call check(transfer(RIIS_FAR_DISTANCE, 0_c_int64_t) == transfer(twin_far_distance(), 0_c_int64_t), &
+    'RIIS_FAR_DISTANCE')
+  call finish()
+
+contains
+
+  integer(c_intptr_t) function at(field)
+    type(c_ptr), intent(in) :: field
+    at = transfer(field, 0_c_intptr_t)
+  end function at
+
+  subroutine compare(name, n_bytes, start, fields)
+    character(len=*), intent(in) :: name
+    integer(c_size_t), intent(in) :: n_bytes
+    type(c_ptr), intent(in) :: start
+    integer(c_intptr_t), intent(in) :: fields(:) ! their addresses
+    integer(c_int64_t) :: layout(32), n
+    n = twin_layout(riis_c_string(name), size(layout, kind=c_int64_t), layout)
+    call check(n == size(fields) + 1, name // ' has as many fields in C')
+    if (n /= size(fields) + 1) return
+    call check(layout(1) == n_bytes, name // ' has its size in C')
+    call check(all(layout(2:n) == fields - at(start)), name // ' has its fields where they are in C')
+  end subroutine compare
+end program test_layout

@@ -1,0 +1,23 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_headers.sh WORK_DIR CC CXX INCLUDE_DIR HEADER...
+# Every public header compiles when it is the first and only thing, twice over, as strict C99 and as C++17, and what it
+# declares can be used from both.
+set -euo pipefail
+work=$1 cc=$2 cxx=$3 include=$4
+shift 4
+mkdir -p "$work"
+for header in "$@"; do
+  printf '#include <%s>\n' "$header" "$header" >"$work/alone.c"
+  echo 'int main(void) { return riis_last_error()[0]; }' >>"$work/alone.c"
+  cp "$work/alone.c" "$work/alone.cpp"
+  for optimise in -O0 -O2; do
+    "$cc" -std=c99 -pedantic -Wall -Wextra -Wstrict-prototypes -Wconversion -Werror "$optimise" -I"$include" \
+      -c "$work/alone.c" -o "$work/alone.o"
+    "$cxx" -std=c++17 -pedantic -Wall -Wextra -Wconversion -Werror "$optimise" -I"$include" \
+      -c "$work/alone.cpp" -o "$work/alone.o"
+  done
+  # Mangled names would link to nothing.
+  nm -u "$work/alone.o" | grep -q -w riis_last_error
+  echo "$header: C99 and C++17"
+done

@@ -1,0 +1,187 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_install.sh SOURCE_DIR BUILD_DIR WORK_DIR shared|static [VTK] [Fortran] [program]
+# Installs a build tree to a fresh prefix and uses it as a stranger would: the examples are built outside the tree by
+# CMake and by pkg-config and run, C and Fortran must print the same. All of that again after the prefix was moved. A
+# staged (DESTDIR) install must hold the same files and know nothing of its stage.
+# Environment: CMAKE, PKG_CONFIG, CC, CXX, FC
+set -euo pipefail
+source=$1 build=$2 work=$3 kind=$4
+shift 4
+components=" $* "
+has() { [[ $components == *" $1 "* ]]; }
+
+problem() {
+  echo "problem: $*" >&2
+  exit 1
+}
+
+# Runs a command and shows what it said only if it failed.
+quietly() {
+  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; problem "failed: $*"; }
+}
+
+c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
+fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
+
+configure_consumer() { # source directory, build directory, prefix, more options
+  local arguments=(-DCMAKE_PREFIX_PATH="$3" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX"
+    -DCMAKE_C_FLAGS="${c_flags[*]}")
+  if has Fortran; then
+    arguments+=(-DCMAKE_Fortran_COMPILER="$FC" -DCMAKE_Fortran_FLAGS="${fortran_flags[*]}")
+  fi
+  "$CMAKE" -S "$1" -B "$2" "${arguments[@]}" "${@:4}"
+}
+
+library_dir() { # of a prefix
+  dirname "$(dirname "$(find "$1" -name riis.pc)")"
+}
+
+# The first marking of C and of Fortran; both have to find something, and the same.
+compare_examples() { # C program, Fortran program or nothing
+  "$1" >"$work/c.txt"
+  grep -q '^closest: node' "$work/c.txt" || problem "$1 marked nothing"
+  if has Fortran; then
+    "$2" >"$work/fortran.txt"
+    diff "$work/c.txt" "$work/fortran.txt" || problem "$1 and $2 disagree"
+  fi
+  # Whatever it was built with, every consumer prints what the first one did.
+  [ -e "$work/first.txt" ] || cp "$work/c.txt" "$work/first.txt"
+  diff "$work/first.txt" "$work/c.txt" || problem "$1 does not print what the consumers before it did"
+}
+
+check_by_cmake() { # prefix
+  rm -rf "$work/cmake"
+  quietly configure_consumer "$source/examples" "$work/cmake" "$1"
+  grep -q "^riis_DIR:PATH=$1/" "$work/cmake/CMakeCache.txt" || problem "another riis was found than that in $1"
+  quietly "$CMAKE" --build "$work/cmake"
+  compare_examples "$work/cmake/first_marking" "$work/cmake/first_marking_fortran"
+
+  if has VTK; then
+    rm -rf "$work/cmake_vtk"
+    quietly configure_consumer "$source/tests/install/vtk_consumer" "$work/cmake_vtk" "$1"
+    quietly "$CMAKE" --build "$work/cmake_vtk"
+    quietly "$work/cmake_vtk/vtk_consumer"
+  else
+    quietly refused 'built without its component VTK' -DWANTED='COMPONENTS;VTK' "$1"
+  fi
+  has Fortran || quietly refused 'built without its component Fortran' -DWANTED='COMPONENTS;Fortran' "$1"
+  quietly refused 'has no component "Nonsense"' -DWANTED='COMPONENTS;Nonsense' "$1"
+  quietly refused 'requested version "1000"' -DWANTED=1000 "$1"
+  if [ "$kind" = static ]; then
+    quietly refused 'add CXX to the languages' -DLANGUAGES=C "$1"
+  fi
+}
+
+# find_package must fail and say why.
+refused() { # text, option, prefix
+  rm -rf "$work/refused"
+  local consumer=$source/tests/install/refused_consumer
+  if configure_consumer "$consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
+    echo "find_package was not refused: $2"
+    return 1
+  fi
+  # CMake breaks lines where it likes.
+  tr -s ' \n' ' ' <"$work/refused.txt" | grep -q -F "$1" || { cat "$work/refused.txt"; return 1; }
+}
+
+flags() { # pkg-config arguments
+  PKG_CONFIG_PATH=$pkg_config_path "$PKG_CONFIG" "$@"
+}
+
+check_by_pkg_config() { # prefix, more pkg-config options
+  local pkg_config_path out=$work/pkg_config
+  pkg_config_path=$(library_dir "$1")/pkgconfig
+  rm -rf "$out"
+  mkdir -p "$out"
+  # The flags are words.
+  # shellcheck disable=SC2046
+  quietly "$CC" "${c_flags[@]}" "$source/examples/first_marking.c" -o "$out/first_marking" \
+    $(flags --cflags --libs "${@:2}" riis)
+  if has Fortran; then
+    # shellcheck disable=SC2046
+    quietly "$FC" "${fortran_flags[@]}" "$source/examples/first_marking.f90" -o "$out/first_marking_fortran" \
+      $(flags --cflags --libs "${@:2}" riis-fortran)
+  fi
+  local -x LD_LIBRARY_PATH
+  LD_LIBRARY_PATH=$(library_dir "$1")
+  compare_examples "$out/first_marking" "$out/first_marking_fortran"
+
+  if has Fortran; then
+    # As with a compiler that cannot read the module file: from the installed source.
+    # shellcheck disable=SC2046
+    quietly "$FC" "${fortran_flags[@]}" -J "$out" "$(find "$1" -name riis_c.f90)" "$source/examples/first_marking.f90" \
+      -o "$out/first_marking_source" $(flags --libs "${@:2}" riis)
+    compare_examples "$out/first_marking" "$out/first_marking_source"
+  fi
+  if has VTK && [ "$kind" = shared ]; then
+    # shellcheck disable=SC2046
+    quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
+      $(flags --cflags --libs riis-vtk)
+    quietly "$out/vtk_consumer"
+  fi
+}
+
+binaries() { # prefix
+  find "$1" -type f \( -name '*.so.*' -o -path '*/bin/*' \)
+}
+
+check_prefix() { # prefix
+  local file
+  while read -r file; do
+    # Whatever is installed finds its libraries by itself.
+    if env -u LD_LIBRARY_PATH ldd "$file" | grep 'not found'; then
+      problem "$file does not find the libraries that it needs"
+    fi
+  done < <(binaries "$1")
+  check_by_cmake "$1"
+  check_by_pkg_config "$1"
+  if [ "$kind" = static ]; then
+    check_by_pkg_config "$1" --static
+  fi
+  if has program; then
+    quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis-mark)" --help
+  fi
+}
+
+rm -rf "$work"
+mkdir -p "$work"
+prefix=$work/prefix
+
+quietly "$CMAKE" --install "$build" --prefix "$prefix"
+(cd "$prefix" && find . | sort) >"$work/files.txt"
+if [ "$kind" = shared ]; then
+  grep -q '/libriis\.so$' "$work/files.txt" || problem "no libriis.so is installed"
+else
+  grep -q '/libriis\.a$' "$work/files.txt" || problem "no libriis.a is installed"
+fi
+
+# Nothing says where it was built or installed.
+if grep -r -I -F -e "$build" -e "$source/" -e "$prefix" "$prefix"; then
+  problem "an installed text names a directory of the build or the prefix"
+fi
+while read -r file; do
+  if readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH' | grep -F -e "$build" -e "$prefix"; then
+    problem "$file looks for libraries in a directory of the build or the prefix"
+  fi
+done < <(binaries "$prefix")
+
+check_prefix "$prefix"
+mv "$prefix" "$work/moved"
+check_prefix "$work/moved"
+
+quietly env DESTDIR="$work/stage" "$CMAKE" --install "$build" --prefix /opt/riis
+(cd "$work/stage/opt/riis" && find . | sort) | diff "$work/files.txt" - || problem "a staged install has other files"
+if grep -r -I -F "$work/stage" "$work/stage"; then
+  problem "a staged file names the stage"
+fi
+
+# An absolute library directory stays where it is, but everything must still be found. The build tree of the static test
+# is its own, so it may be configured anew; its fixture puts it back.
+if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
+  quietly "$CMAKE" -DCMAKE_INSTALL_PREFIX="$work/absolute" -DCMAKE_INSTALL_LIBDIR="$work/absolute/lib" "$build"
+  quietly "$CMAKE" --build "$build"
+  quietly "$CMAKE" --install "$build"
+  check_prefix "$work/absolute"
+fi
+cat "$work/first.txt"

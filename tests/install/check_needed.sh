@@ -1,0 +1,16 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_needed.sh LIBRARY
+# The core needs Embree, TBB, OpenMP and the C and C++ runtimes, nothing else: no VTK, no Fortran, no path of its own.
+set -euo pipefail
+library=$1
+needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\].*/\1/p')
+allowed='libembree[34]|libtbb|libgomp|libomp|libstdc\+\+|libc\+\+|libc\+\+abi|libgcc_s|libm|libc|ld-linux[-_a-z0-9]*'
+unexpected=$(grep -v -E "^($allowed)\.so" <<<"$needed" || true)
+if [ -n "$unexpected" ]; then
+  echo "$library needs what it should not:" "$unexpected" >&2
+  exit 1
+fi
+# Were the list empty, the check above would mean nothing.
+grep -q '^libembree' <<<"$needed"
+echo "needed:" "$needed"
