@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <stdexcept>
+#include <string_view>
 
 #include "api/errors.hpp"
 #include "distance/point_triangle.hpp"
 #include "geometry/coons.hpp"
+#include "parallel/parallel_for.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangulate.hpp"
 #include "valve/parameters.hpp"
@@ -169,5 +172,19 @@ int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t 
     n_different += got.triangle != expected.triangle || got.distance_sq != expected.distance_sq;
   }
   return n_different;
+}
+
+riis_status wall_meets(const char *exception) {
+  const std::string_view kind = exception;
+  return guarded([&] {
+    if (kind == "error") fail(RIIS_INVALID_MESH, "error %d", 7);
+    if (kind == "memory") throw std::bad_alloc();
+    if (kind == "standard") throw std::runtime_error("boom");
+    if (kind == "other") throw 42;
+    if (kind == "worker")
+      parallel_for(1000, 4, [](std::int64_t block, int) {
+        if (block % 100 == 99) fail(RIIS_INVALID_MESH, "a worker's error");
+      });
+  });
 }
 }

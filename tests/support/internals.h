@@ -51,6 +51,10 @@ void patch_set_free(patch_set *set);
  * each point; returns for how many points squared distance (bits) or triangle differ. Points beyond the limit must give none. */
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points, double limit);
 
+/* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory", std::bad_alloc; "standard", another
+ * standard exception, "boom"; "other", an int; "worker", an Error thrown by a worker thread of a parallel loop; "nothing", none. */
+riis_status wall_meets(const char *exception);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * What cannot be asked for through the public interface: failures from inside become a status and a text, and memory that runs out leaves
+ * everything as it was. */
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "internals.h"
+#include "test_support.h"
+
+#include "handles.h"
+
+static void every_exception_becomes_a_status(void **state) {
+  (void)state;
+  CHECK_OK(wall_meets("nothing"));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "error 7", wall_meets("error"));
+  CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", wall_meets("memory"));
+  CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: boom", wall_meets("standard"));
+  CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: unknown exception", wall_meets("other"));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "a worker's error", wall_meets("worker"));
+}
+
+/* In a child process with little address space left: an update that needs much more is refused, the surface stays. Returns 0 if so. */
+static int update_without_memory(void) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_info before, after;
+  riis_surface_options options;
+  struct rlimit limit;
+  long pages = 0;
+  FILE *statm = fopen("/proc/self/statm", "r");
+  if (!statm || fscanf(statm, "%ld", &pages) != 1) return 1;
+  fclose(statm);
+  if (riis_valve_create("aortic", &valve) || riis_surface_create(valve, NULL, &surface)) return 2;
+  if (riis_surface_options_init(&options, sizeof options)) return 3;
+  riis_surface_get_info(surface, &before, sizeof before);
+  options.tolerance = 1e-4; /* 3.5 million triangles */
+  getrlimit(RLIMIT_AS, &limit);
+  limit.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)160 << 20);
+  setrlimit(RLIMIT_AS, &limit);
+  if (riis_surface_update(surface, valve, &options) != RIIS_OUT_OF_MEMORY) return 4;
+  if (strcmp(riis_last_error(), "out of memory") != 0) return 5;
+  riis_surface_get_info(surface, &after, sizeof after);
+  if (memcmp(&before, &after, sizeof before) != 0) return 6;
+  const double origin[3] = {0, 0, 0};
+  riis_closest closest;
+  if (riis_closest_point(surface, origin, &closest, sizeof closest)) return 7;
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return 0;
+}
+
+static void memory_that_runs_out_changes_nothing(void **state) {
+  (void)state;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  skip(); /* sanitizers reserve the address space that this test takes away */
+#endif
+  fflush(NULL);
+  const pid_t child = fork();
+  if (child == 0) _exit(update_without_memory());
+  int status = -1;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status));
+  assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_exception_becomes_a_status),
+      cmocka_unit_test(memory_that_runs_out_changes_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Meshes that cannot be read: each is an error with a text that names the file, nothing is printed, nothing is
+ * returned, and no file is taken for a smaller mesh than it was. */
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "expect.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+
+static riis_status read_mesh(const char *name, riis_vtk_mesh **mesh) {
+  *mesh = NULL;
+  return riis_vtk_mesh_read(scratch_path(name), mesh);
+}
+
+static void expect_file_error(const char *name, const char *part_of_text) {
+  riis_vtk_mesh *mesh = NULL;
+  scratch_watch_output();
+  const riis_status status = read_mesh(name, &mesh);
+  const long n_printed = scratch_end_watch();
+  expect_refused(status, RIIS_FILE_ERROR, part_of_text);
+  expect_refused(status, RIIS_FILE_ERROR, name);
+  assert_null(mesh);
+  assert_int_equal(n_printed, 0);
+}
+
+static void test_not_files(void **state) {
+  (void)state;
+  expect_file_error("missing.vtu", "No such file or directory");
+  assert_int_equal(mkdir(scratch_path("folder.vtu"), 0700), 0);
+  expect_file_error("folder.vtu", "is a directory");
+  assert_int_equal(mkfifo(scratch_path("pipe.vtu"), 0600), 0);
+  expect_file_error("pipe.vtu", "is not a regular file");
+  scratch_write_text("empty.vtu", "");
+  expect_file_error("empty.vtu", "is empty");
+  scratch_write_text("empty.vtk", "");
+  expect_file_error("empty.vtk", "is empty");
+  scratch_write_text("mesh.obj", "v 0 0 0\n");
+  expect_file_error("mesh.obj", "a mesh must be a .vtu or .vtk file");
+  scratch_write_text("no_ending", "v 0 0 0\n");
+  expect_file_error("no_ending", "a mesh must be a .vtu or .vtk file");
+}
+
+static void test_unreadable(void **state) {
+  (void)state;
+  if (geteuid() == 0) skip(); /* root reads everything */
+  scratch_write_text("locked.vtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
+  assert_int_equal(chmod(scratch_path("locked.vtu"), 0), 0);
+  expect_file_error("locked.vtu", "Permission denied");
+}
+
+static void test_other_content(void **state) {
+  (void)state;
+  scratch_write_text("garbage.vtu", "\x01\x02 not a mesh at all \xff\xfe");
+  expect_file_error("garbage.vtu", "is not a VTK XML file");
+  scratch_write_text("garbage.vtk", "\x01\x02 not a mesh at all \xff\xfe");
+  expect_file_error("garbage.vtk", "is not a legacy VTK file");
+  scratch_write_text("html.vtu", "<html><body>404</body></html>");
+  expect_file_error("html.vtu", "is not a VTK XML file");
+  scratch_write_text(
+      "image.vtu",
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<ImageData WholeExtent=\"0 1 0 1 0 1\" Origin=\"0 0 0\" Spacing=\"1 1 1\">"
+      "<Piece Extent=\"0 1 0 1 0 1\"/></ImageData></VTKFile>\n");
+  expect_file_error("image.vtu", "holds ImageData, not UnstructuredGrid");
+  scratch_write_text("polydata.vtk",
+                     "# vtk DataFile Version 3.0\npoly\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
+                     "POLYGONS 1 4\n3 0 1 2\n");
+  expect_file_error("polydata.vtk", "holds polydata, not unstructured_grid");
+  scratch_write_text("not_closed.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>\n</VTKFile>\n");
+  expect_file_error("not_closed.vtu", "mismatched tag");
+}
+
+/* A grid of one tetrahedron, in pieces that a test can spoil. */
+static void write_tetrahedron(const char *name, const char *counts, const char *points, const char *corners,
+                              const char *offsets, const char *types, const char *point_data) {
+  char text[2048];
+  snprintf(text, sizeof text,
+           "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+           "<UnstructuredGrid><Piece %s>\n<PointData>%s</PointData>\n"
+           "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">%s</DataArray></Points>\n"
+           "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">%s</DataArray>\n"
+           "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">%s</DataArray>\n"
+           "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">%s</DataArray></Cells>\n"
+           "</Piece></UnstructuredGrid></VTKFile>\n",
+           counts, point_data, points, corners, offsets, types);
+  scratch_write_text(name, text);
+}
+
+static const char *const counts = "NumberOfPoints=\"4\" NumberOfCells=\"1\"";
+static const char *const points = "0 0 0  1 0 0  0 1 0  0 0 1";
+
+static void test_promises(void **state) {
+  (void)state;
+  riis_vtk_mesh *mesh = NULL;
+  write_tetrahedron("good.vtu", counts, points, "0 1 2 3", "4", "10", "");
+  expect_fine(read_mesh("good.vtu", &mesh));
+  riis_vtk_mesh_destroy(&mesh);
+  assert_null(mesh);
+
+  write_tetrahedron("no_points.vtu", "NumberOfPoints=\"0\" NumberOfCells=\"0\"", "", "", "", "", "");
+  expect_file_error("no_points.vtu", "holds no points");
+  write_tetrahedron("few_points.vtu", counts, "0 0 0  1 0 0  0 1 0", "0 1 2 3", "4", "10", "");
+  expect_file_error("few_points.vtu", "few_points.vtu: ");
+  write_tetrahedron("few_corners.vtu", counts, points, "0 1 2", "4", "10", "");
+  expect_file_error("few_corners.vtu", "few_corners.vtu: ");
+  write_tetrahedron("few_types.vtu", counts, points, "0 1 2 3", "4", "", "");
+  expect_file_error("few_types.vtu", "few_types.vtu: ");
+  write_tetrahedron("short_array.vtu", counts, points, "0 1 2 3", "4", "10",
+                    "<DataArray type=\"Float64\" Name=\"p\" format=\"ascii\">1 2 3</DataArray>");
+  expect_file_error("short_array.vtu", "short_array.vtu: ");
+  write_tetrahedron("huge.vtu", "NumberOfPoints=\"999999999999999999\" NumberOfCells=\"1\"", points, "0 1 2 3", "4",
+                    "10", "");
+  riis_status status = read_mesh("huge.vtu", &mesh);
+  assert_true(status == RIIS_FILE_ERROR || status == RIIS_OUT_OF_MEMORY);
+  write_tetrahedron("negative.vtu", "NumberOfPoints=\"-4\" NumberOfCells=\"1\"", points, "0 1 2 3", "4", "10", "");
+  status = read_mesh("negative.vtu", &mesh);
+  assert_true(status == RIIS_FILE_ERROR || status == RIIS_OUT_OF_MEMORY);
+}
+
+static void test_broken_cells(void **state) {
+  (void)state;
+  write_tetrahedron("corner.vtu", counts, points, "0 1 2 4", "4", "10", "");
+  expect_file_error("corner.vtu", "cell 0 names point 4 of 4");
+  write_tetrahedron("negative_corner.vtu", counts, points, "0 1 2 -1", "4", "10", "");
+  expect_file_error("negative_corner.vtu", "cell 0 names point -1 of 4");
+  write_tetrahedron("wrong_size.vtu", counts, points, "0 1 2 3", "4", "12", "");
+  expect_file_error("wrong_size.vtu", "cell 0 is a vtkHexahedron with 4 points");
+  write_tetrahedron("unknown_type.vtu", counts, points, "0 1 2 3", "4", "200", "");
+  expect_file_error("unknown_type.vtu", "cell 0 has the unknown type 200");
+  write_tetrahedron("offset.vtu", counts, points, "0 1 2 3", "-4", "10", "");
+  expect_file_error("offset.vtu", "offset.vtu: ");
+  write_tetrahedron("polyhedron.vtu", counts, points, "0 1 2 3", "4", "42", "");
+  expect_file_error("polyhedron.vtu", "polyhedron.vtu: ");
+  scratch_write_text("cells.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                     "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 9\nCELL_TYPES 1\n10\n");
+  expect_file_error("cells.vtk", "cell 0 names point 9 of 4");
+  scratch_write_text("sizes.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                     "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n9 0 1 2 3\nCELL_TYPES 1\n10\n");
+  expect_file_error("sizes.vtk", "cell 0 has 9 points");
+}
+
+/* Coordinates are the core's to judge. */
+static void test_not_a_number_passes(void **state) {
+  (void)state;
+  write_tetrahedron("nan.vtu", counts, "0 0 0  nan 0 0  0 1 0  0 0 1", "0 1 2 3", "4", "10", "");
+  riis_vtk_mesh *mesh = NULL;
+  expect_fine(read_mesh("nan.vtu", &mesh));
+  int64_t n = 0;
+  const double *xyz = NULL;
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  assert_true(xyz[3] != xyz[3]);
+  riis_mesh *nodes = NULL;
+  expect_refused(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes), RIIS_INVALID_MESH, "node 1");
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+/* Whether a file may pass without its last bytes: blanks, or in a legacy file, which has no end mark, digits of a last
+ * number and whole sections behind the cells. */
+static int may_be_missing(const char *bytes, size_t n, int encoding) {
+  size_t i = 0;
+  if (encoding == SHIM_LEGACY_ASCII) i += strspn(bytes, "0123456789.e+-");
+  i += strspn(bytes + i, " \n");
+  const int legacy = encoding == SHIM_LEGACY_ASCII || encoding == SHIM_LEGACY_BINARY;
+  const int section = legacy && (!strncmp(bytes + i, "CELL_DATA", 9) || !strncmp(bytes + i, "POINT_DATA", 10) ||
+                                 !strncmp(bytes + i, "FIELD", 5));
+  return i == n || section;
+}
+
+/* Cuts a real file behind every one of its bytes: the rest is refused, or is the whole mesh. */
+static void cut_everywhere(const char *whole, const char *cut, int encoding) {
+  assert_int_equal(shim_write_box(scratch_path(whole), encoding, 2, lower, upper, 0), 1);
+  size_t size = 0;
+  char *bytes = scratch_read(scratch_path(whole), &size);
+  int n_refused = 0;
+  scratch_watch_output();
+  for (size_t kept = 0; kept <= size; ++kept) {
+    scratch_write(cut, bytes, kept);
+    riis_vtk_mesh *mesh = NULL;
+    int64_t n_nodes = -1, n_cells = -1;
+    const riis_status status = read_mesh(cut, &mesh);
+    if (mesh) riis_vtk_mesh_nodes(mesh, &n_nodes, &n_cells, NULL);
+    riis_vtk_mesh_destroy(&mesh);
+    const int whole_mesh =
+        status == RIIS_OK && n_nodes == 8 && n_cells == 6 && may_be_missing(bytes + kept, size - kept, encoding);
+    const int refused = status == RIIS_FILE_ERROR && n_nodes == -1 && strstr(riis_last_error(), cut);
+    n_refused += refused;
+    if (!whole_mesh && !refused) {
+      scratch_end_watch();
+      fail_msg("%s cut to %zu of %zu bytes: %s, %d nodes, %d cells, %s", cut, kept, size, riis_status_name(status),
+               (int)n_nodes, (int)n_cells, riis_last_error());
+    }
+  }
+  assert_int_equal(scratch_end_watch(), 0);
+  free(bytes);
+  assert_true(n_refused > (int)(size / 2));
+}
+
+static void test_truncated(void **state) {
+  (void)state;
+  cut_everywhere("ascii.vtu", "cut.vtu", SHIM_ASCII);
+  cut_everywhere("binary.vtu", "cut.vtu", SHIM_BINARY);
+  cut_everywhere("compressed.vtu", "cut.vtu", SHIM_COMPRESSED);
+  cut_everywhere("raw.vtu", "cut.vtu", SHIM_RAW);
+  cut_everywhere("ascii.vtk", "cut.vtk", SHIM_LEGACY_ASCII);
+  cut_everywhere("binary.vtk", "cut.vtk", SHIM_LEGACY_BINARY);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_not_files), cmocka_unit_test(test_unreadable),   cmocka_unit_test(test_other_content),
+      cmocka_unit_test(test_promises),  cmocka_unit_test(test_broken_cells), cmocka_unit_test(test_not_a_number_passes),
+      cmocka_unit_test(test_truncated),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}

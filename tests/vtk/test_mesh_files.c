@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Meshes through files: nodes in the file's order, points as doubles, every array kept, marks as the core gives them.
+ */
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+enum { n_side = 9, n_nodes = n_side * n_side * n_side, n_cells = 6 * (n_side - 1) * (n_side - 1) * (n_side - 1) };
+static const double lower[3] = {-1.7, -1.6, -1.3}, upper[3] = {1.5, 1.6, 0.4};
+
+static riis_vtk_mesh *read_mesh(const char *name) {
+  riis_vtk_mesh *mesh = NULL;
+  expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
+  return mesh;
+}
+
+/* The array of one file equals that of another, in type, shape and every value. */
+static void expect_same_array(const char *before, const char *after, char where, const char *name, int has_numbers) {
+  static double values[2][3 * n_cells];
+  char type[2][32];
+  int64_t n_components[2], n_tuples[2];
+  memset(values, 0, sizeof values);
+  const char *paths[2] = {before, after};
+  for (int i = 0; i < 2; ++i) {
+    if (!shim_read_array(paths[i], where, name, type[i], &n_components[i], &n_tuples[i],
+                         has_numbers ? values[i] : NULL)) {
+      fail_msg("%s has no array %s", paths[i], name);
+    }
+  }
+  assert_string_equal(type[0], type[1]);
+  assert_int_equal(n_components[0], n_components[1]);
+  assert_int_equal(n_tuples[0], n_tuples[1]);
+  assert_memory_equal(values[0], values[1], sizeof values[0]);
+}
+
+static void expect_same_mesh(const char *before, const char *after) {
+  static double xyz[2][3 * n_nodes];
+  static int64_t corners[2][4 * n_cells];
+  int64_t n_points = 0, n_grid_cells = 0;
+  char type[32];
+  assert_int_equal(shim_read_points(before, NULL, NULL, NULL, xyz[0]), 1);
+  assert_int_equal(shim_read_points(after, &n_points, &n_grid_cells, type, xyz[1]), 1);
+  assert_int_equal(n_points, n_nodes);
+  assert_int_equal(n_grid_cells, n_cells);
+  assert_string_equal(type, "double");
+  assert_memory_equal(xyz[0], xyz[1], sizeof xyz[0]);
+  assert_int_equal(shim_read_corners(before, corners[0]), 4 * n_cells);
+  assert_int_equal(shim_read_corners(after, corners[1]), 4 * n_cells);
+  assert_memory_equal(corners[0], corners[1], sizeof corners[0]);
+}
+
+static void round_trip(const char *name, int encoding, int float_points) {
+  assert_int_equal(shim_write_box(scratch_path(name), encoding, n_side, lower, upper, float_points), 1);
+  riis_vtk_mesh *mesh = read_mesh(name);
+  int64_t n = 0, n_read_cells = 0;
+  const double *xyz = NULL;
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, &xyz));
+  assert_int_equal(n, n_nodes);
+  assert_int_equal(n_read_cells, n_cells);
+  static double expected[3 * n_nodes];
+  assert_int_equal(shim_read_points(scratch_path(name), NULL, NULL, NULL, expected), 1);
+  assert_memory_equal(xyz, expected, sizeof expected);
+
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("out.vtu")));
+  riis_vtk_mesh_destroy(&mesh);
+  assert_null(mesh);
+  expect_same_mesh(scratch_path(name), scratch_path("out.vtu"));
+  expect_same_array(scratch_path(name), scratch_path("out.vtu"), 'p', "pressure", 1);
+  expect_same_array(scratch_path(name), scratch_path("out.vtu"), 'p', "velocity", 1);
+  expect_same_array(scratch_path(name), scratch_path("out.vtu"), 'c', "region", 1);
+  expect_same_array(scratch_path(name), scratch_path("out.vtu"), 'f', "time", 1);
+  const int legacy = encoding == SHIM_LEGACY_ASCII || encoding == SHIM_LEGACY_BINARY;
+  if (!legacy) expect_same_array(scratch_path(name), scratch_path("out.vtu"), 'p', "name", 0);
+}
+
+static void test_round_trips(void **state) {
+  (void)state;
+  for (int float_points = 0; float_points < 2; ++float_points) {
+    round_trip("in.vtu", SHIM_ASCII, float_points);
+    round_trip("in.vtu", SHIM_BINARY, float_points);
+    round_trip("in.vtu", SHIM_COMPRESSED, float_points);
+    round_trip("in.VTU", SHIM_RAW, float_points);
+    round_trip("in.vtk", SHIM_LEGACY_ASCII, float_points);
+    round_trip("in.vtk", SHIM_LEGACY_BINARY, float_points);
+  }
+}
+
+/* The nodes are shuffled: order is only kept by keeping it. */
+static void test_nodes_are_shuffled(void **state) {
+  (void)state;
+  static double xyz[3 * n_nodes];
+  assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
+  assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, NULL, xyz), 1);
+  int n_descents = 0;
+  for (int i = 1; i < n_nodes; ++i) n_descents += xyz[3 * i + 2] < xyz[3 * i - 1];
+  assert_true(n_descents > n_nodes / 4);
+}
+
+/* Every keyword of the legacy format that an unstructured grid may have, in the older versions' words. */
+static void test_legacy_keywords(void **state) {
+  (void)state;
+  scratch_write_text(
+      "old.vtk",
+      "# vtk DataFile Version 2.0\nold\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+      "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 2 2 2\nCELLS 2 7\n4 0 1 2 3\n1 4\nCELL_TYPES 2\n10\n1\n"
+      "CELL_DATA 2\nSCALARS rank int 1\nLOOKUP_TABLE default\n7 8\n"
+      "POINT_DATA 5\nSCALARS first double\nLOOKUP_TABLE own\n1 2 3 4 5\nLOOKUP_TABLE own 2\n0 0 0 1 1 1 1 1\n"
+      "SCALARS second float 2\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8 9 10\n"
+      "VECTORS flow double\n1 0 0 2 0 0 3 0 0 4 0 0 5 0 0\n"
+      "NORMALS n float\n1 0 0 1 0 0 1 0 0 1 0 0 1 0 0\n"
+      "TEXTURE_COORDINATES t 2 float\n0 0 0 1 1 0 1 1 0 0\n"
+      "FIELD more 1\nextra 1 5 long\n5 4 3 2 1\n");
+  riis_vtk_mesh *mesh = read_mesh("old.vtk");
+  int64_t n = 0, n_read_cells = 0;
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, NULL));
+  assert_int_equal(n, 5);
+  assert_int_equal(n_read_cells, 2);
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("old.vtu")));
+  riis_vtk_mesh_destroy(&mesh);
+  const char *names[] = {"first", "second", "flow", "n", "t", "extra"};
+  for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+    double values[15] = {0};
+    int64_t n_tuples = 0;
+    if (!shim_read_array(scratch_path("old.vtu"), 'p', names[i], NULL, NULL, &n_tuples, values))
+      fail_msg("no %s", names[i]);
+    assert_int_equal(n_tuples, 5);
+  }
+  double rank[2] = {0};
+  assert_int_equal(shim_read_array(scratch_path("old.vtu"), 'c', "rank", NULL, NULL, NULL, rank), 1);
+  assert_true(rank[0] == 7 && rank[1] == 8);
+}
+
+/* Marks the mesh with the aortic valve. */
+static riis_mark_result *mark(riis_vtk_mesh *mesh, double half_thickness, double distance_limit) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *nodes = NULL;
+  riis_mark_result *result = NULL;
+  riis_surface_options surface_options;
+  riis_mark_options mark_options;
+  int64_t n = 0;
+  const double *xyz = NULL;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_options_init(&surface_options, sizeof surface_options));
+  surface_options.half_thickness = half_thickness;
+  expect_fine(riis_surface_create(valve, &surface_options, &surface));
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes));
+  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_mark_options_init(&mark_options, sizeof mark_options));
+  mark_options.distance_limit = distance_limit;
+  expect_fine(riis_mark_nodes(surface, nodes, &mark_options, result));
+  riis_mesh_destroy(&nodes);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return result;
+}
+
+static void expect_marks(const char *path, const riis_mark_result *result, double far_distance) {
+  static uint8_t marked[n_nodes];
+  static double distance[n_nodes], values[n_nodes];
+  static int32_t leaflet[n_nodes];
+  expect_fine(riis_mark_result_dense(result, n_nodes, far_distance, marked, distance, NULL, leaflet));
+  const char *names[3] = {"riis_marked", "riis_distance", "riis_leaflet"};
+  const char *types[3] = {"unsigned char", "double", "int"};
+  int n_marked = 0, n_far = 0;
+  for (int k = 0; k < 3; ++k) {
+    char type[32];
+    int64_t n_components = 0, n_tuples = 0;
+    assert_int_equal(shim_read_array(path, 'p', names[k], type, &n_components, &n_tuples, values), 1);
+    assert_string_equal(type, types[k]);
+    assert_int_equal(n_components, 1);
+    assert_int_equal(n_tuples, n_nodes);
+    for (int i = 0; i < n_nodes; ++i) {
+      const double expected = k == 0 ? marked[i] : k == 1 ? distance[i] : leaflet[i];
+      assert_memory_equal(&values[i], &expected, sizeof expected);
+      n_marked += k == 0 && marked[i];
+      n_far += k == 1 && distance[i] == far_distance;
+    }
+  }
+  assert_true(n_marked > 10 && n_far > 10 && n_marked + n_far < n_nodes);
+}
+
+static void test_marks(void **state) {
+  (void)state;
+  assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
+  riis_vtk_mesh *mesh = read_mesh("in.vtu");
+  riis_mark_result *result = mark(mesh, 0.15, 0.3);
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE));
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("marked.vtu")));
+  expect_marks(scratch_path("marked.vtu"), result, RIIS_FAR_DISTANCE);
+  expect_same_mesh(scratch_path("in.vtu"), scratch_path("marked.vtu"));
+  expect_same_array(scratch_path("in.vtu"), scratch_path("marked.vtu"), 'p', "pressure", 1);
+
+  /* Again, with other values, into the same mesh, and into one that was read with marks. */
+  riis_mark_result *wider = mark(mesh, 0.25, 0.4);
+  expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7));
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
+  expect_marks(scratch_path("again.vtu"), wider, -7);
+  riis_vtk_mesh_destroy(&mesh);
+  mesh = read_mesh("again.vtu");
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1));
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
+  expect_marks(scratch_path("again.vtu"), result, -1);
+
+  /* Refusals leave the marks as they were. */
+  expect_refused(riis_vtk_mesh_set_marks(mesh, result, 0.1), RIIS_INVALID_ARGUMENT, "far_distance");
+  riis_mark_result *unused = NULL;
+  expect_fine(riis_mark_result_create(&unused));
+  expect_refused(riis_vtk_mesh_set_marks(mesh, unused, -1), RIIS_INVALID_ARGUMENT, "nodes");
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
+  expect_marks(scratch_path("again.vtu"), result, -1);
+  riis_mark_result_destroy(&unused);
+  riis_mark_result_destroy(&wider);
+  riis_mark_result_destroy(&result);
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_round_trips),
+      cmocka_unit_test(test_nodes_are_shuffled),
+      cmocka_unit_test(test_legacy_keywords),
+      cmocka_unit_test(test_marks),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}

@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Surfaces through files: what is written is what is queried; what is read keeps winding, order and leaflets. */
+#include <math.h>
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "expect.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static riis_surface *make_valve(void) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options options;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.scale = 0.01;
+  options.rotation_axis[1] = 1;
+  options.rotation_angle = 20;
+  options.translation[0] = 0.5;
+  options.tolerance = 0.3;
+  expect_fine(riis_surface_create(valve, &options, &surface));
+  riis_valve_destroy(&valve);
+  return surface;
+}
+
+static double *numbers(int64_t n) {
+  double *values = malloc((size_t)n * sizeof *values);
+  assert_non_null(values);
+  return values;
+}
+
+/* A cell array of the file has one value a triangle, of this type, equal to the expected ones. */
+static void expect_cell_array(const char *path, const char *name, const char *expected_type, int64_t n,
+                              const int32_t *narrow, const int64_t *wide) {
+  char type[32];
+  int64_t n_components = 0, n_tuples = 0;
+  double *values = numbers(n);
+  assert_int_equal(shim_read_array(path, 'c', name, type, &n_components, &n_tuples, NULL), 1);
+  assert_string_equal(type, expected_type);
+  assert_int_equal(n_components, 1);
+  assert_int_equal(n_tuples, n);
+  assert_int_equal(shim_read_array(path, 'c', name, NULL, NULL, NULL, values), 1);
+  for (int64_t i = 0; i < n; ++i) assert_true(values[i] == (double)(narrow ? narrow[i] : wide[i]));
+  free(values);
+}
+
+static void expect_written(const riis_surface *surface, const char *path) {
+  int64_t n_vertices = 0, n_triangles = 0, n_points = 0, n_cells = 0;
+  const double *xyz = NULL;
+  const int64_t *vertex_id = NULL, *triangle_id = NULL;
+  const int32_t *leaflet_id = NULL, *patch_id = NULL;
+  expect_fine(riis_surface_vertices(surface, &n_vertices, &xyz));
+  expect_fine(riis_surface_triangles(surface, &n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
+  char type[32];
+  double *points = numbers(3 * n_vertices);
+  int64_t *corners = malloc((size_t)(3 * n_triangles) * sizeof *corners);
+  assert_int_equal(shim_read_points(path, &n_points, &n_cells, type, NULL), 1);
+  assert_int_equal(n_points, n_vertices);
+  assert_int_equal(n_cells, n_triangles);
+  assert_string_equal(type, "double");
+  assert_int_equal(shim_read_points(path, NULL, NULL, NULL, points), 1);
+  assert_memory_equal(points, xyz, (size_t)(3 * n_vertices) * sizeof *points);
+  assert_int_equal(shim_read_corners(path, NULL), 3 * n_triangles);
+  shim_read_corners(path, corners);
+  assert_memory_equal(corners, vertex_id, (size_t)(3 * n_triangles) * sizeof *corners);
+  free(points);
+  free(corners);
+  expect_cell_array(path, "riis_leaflet", "int", n_triangles, leaflet_id, NULL);
+  expect_cell_array(path, "riis_patch", "int", n_triangles, patch_id, NULL);
+  expect_cell_array(path, "riis_triangle", "long long", n_triangles, NULL, triangle_id);
+}
+
+static void test_valve_is_written(void **state) {
+  (void)state;
+  riis_surface *surface = make_valve();
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
+  expect_written(surface, scratch_path("valve.vtp"));
+  int64_t n = 0, n_components = 0, n_tuples = 0;
+  const double *uv = NULL;
+  expect_fine(riis_surface_vertex_parameters(surface, &n, &uv));
+  double *values = numbers(2 * n);
+  char type[32];
+  assert_int_equal(shim_read_array(scratch_path("valve.vtp"), 'p', "riis_uv", type, &n_components, &n_tuples, NULL), 1);
+  assert_string_equal(type, "double");
+  assert_int_equal(n_components, 2);
+  assert_int_equal(n_tuples, n);
+  shim_read_array(scratch_path("valve.vtp"), 'p', "riis_uv", NULL, NULL, NULL, values);
+  assert_memory_equal(values, uv, (size_t)(2 * n) * sizeof *values);
+  free(values);
+  riis_surface_destroy(&surface);
+}
+
+static riis_surface *surface_of_file(const char *name, const riis_surface_options *options,
+                                     riis_surface_arrays *arrays) {
+  riis_vtk_surface *file = NULL;
+  riis_surface *surface = NULL;
+  expect_fine(riis_vtk_surface_read(scratch_path(name), &file));
+  expect_fine(riis_surface_arrays_init(arrays, sizeof *arrays));
+  expect_fine(riis_vtk_surface_arrays(file, arrays));
+  expect_fine(riis_surface_create_from_arrays(arrays, options, &surface));
+  riis_vtk_surface_destroy(&file);
+  assert_null(file);
+  return surface;
+}
+
+/* The valve read back is the same surface: bitwise the same closest points. */
+static void test_round_trip(void **state) {
+  (void)state;
+  riis_surface *valve = make_valve();
+  expect_fine(riis_vtk_surface_write(valve, scratch_path("valve.vtp")));
+  riis_surface_arrays arrays;
+  riis_surface *read_back = surface_of_file("valve.vtp", NULL, &arrays);
+  assert_int_equal(arrays.corners_per_face, 3);
+  for (int i = 0; i < 500; ++i) {
+    const double point[3] = {0.5 + 0.02 * sin(i), 0.02 * sin(1.7 * i), 0.02 * sin(2.9 * i) - 0.005};
+    riis_closest before, after;
+    expect_fine(riis_closest_point(valve, point, &before, sizeof before));
+    expect_fine(riis_closest_point(read_back, point, &after, sizeof after));
+    assert_memory_equal(&before, &after, sizeof before);
+  }
+  riis_surface_destroy(&read_back);
+  riis_surface_destroy(&valve);
+}
+
+/* Six points in a plane z = 0, counter-clockwise round the square and a bit outside. */
+static const char *const plane_points = "0 0 0  1 0 0  1 1 0  0 1 0  2 0 0  2 1 0  0.5 1.5 0";
+
+static void write_polydata(const char *name, const char *verts, const char *polys, const char *strips,
+                           const char *cell_data) {
+  /* Each of verts, polys and strips: N "corners" "offsets" as attributes and text that the caller wrote. */
+  char text[4096];
+  snprintf(text, sizeof text,
+           "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
+           "<Piece NumberOfPoints=\"7\" %s>\n<CellData>%s</CellData>\n"
+           "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">%s</DataArray></Points>\n"
+           "<Polys>%s</Polys>\n<Strips>%s</Strips>\n</Piece></PolyData></VTKFile>\n",
+           verts, cell_data, plane_points, polys, strips);
+  scratch_write_text(name, text);
+}
+
+#define CELLS(corners, offsets)                                               \
+  "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">" corners \
+  "</DataArray>"                                                              \
+  "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">" offsets "</DataArray>"
+#define LEAFLETS(type, values) \
+  "<DataArray type=\"" type "\" Name=\"riis_leaflet\" format=\"ascii\">" values "</DataArray>"
+
+static void test_quads_stay_quads(void **state) {
+  (void)state;
+  write_polydata("quads.vtp", "NumberOfPolys=\"2\"", CELLS("0 1 2 3 1 4 5 2", "4 8"), "", LEAFLETS("UInt8", "5 9"));
+  riis_vtk_surface *file = NULL;
+  riis_surface_arrays arrays;
+  expect_fine(riis_vtk_surface_read(scratch_path("quads.vtp"), &file));
+  expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
+  expect_fine(riis_vtk_surface_arrays(file, &arrays));
+  assert_int_equal(arrays.n_vertices, 7);
+  assert_int_equal(arrays.n_faces, 2);
+  assert_int_equal(arrays.corners_per_face, 4);
+  assert_int_equal(arrays.vertex_id_bits, 64);
+  assert_int_equal(arrays.index_base, 0);
+  const int64_t expected[8] = {0, 1, 2, 3, 1, 4, 5, 2};
+  assert_memory_equal(arrays.vertex_ids, expected, sizeof expected);
+  assert_int_equal(arrays.leaflet_id[0], 5);
+  assert_int_equal(arrays.leaflet_id[1], 9);
+  assert_true(arrays.x[3 * 4] == 2 && arrays.y[3 * 6] == 1.5 && arrays.z[3 * 6] == 0);
+  riis_vtk_surface_destroy(&file);
+}
+
+/* Checks areas and normals by the core: every triangle faces +z, the areas add up, leaflets went along. */
+static void expect_faces(const char *name, int64_t n_triangles, double area, const int32_t *leaflets) {
+  riis_surface_arrays arrays;
+  riis_surface_info info;
+  riis_surface *surface = surface_of_file(name, NULL, &arrays);
+  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+  assert_int_equal(info.n_triangles, n_triangles);
+  assert_true(fabs(info.area - area) < 1e-12);
+  int64_t n = 0;
+  const double *xyz = NULL;
+  const int64_t *corners = NULL;
+  const int32_t *leaflet_id = NULL;
+  expect_fine(riis_surface_vertices(surface, NULL, &xyz));
+  expect_fine(riis_surface_triangles(surface, &n, &corners, NULL, &leaflet_id, NULL));
+  for (int64_t i = 0; i < n; ++i) {
+    const double *a = xyz + 3 * corners[3 * i], *b = xyz + 3 * corners[3 * i + 1], *c = xyz + 3 * corners[3 * i + 2];
+    assert_true((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
+    assert_int_equal(leaflet_id[i], leaflets[i]);
+  }
+  riis_surface_destroy(&surface);
+}
+
+static void test_mixed_polygons(void **state) {
+  (void)state;
+  /* A triangle, a quad, a pentagon, a strip of two triangles: 1 + 2 + 3 + 2 triangles. */
+  write_polydata("mixed.vtp", "NumberOfPolys=\"3\" NumberOfStrips=\"1\"", CELLS("0 1 3 1 4 5 2 0 1 2 6 3", "3 7 12"),
+                 CELLS("0 1 3 2", "4"), LEAFLETS("Float64", "4 1 0 2"));
+  const int32_t leaflets[8] = {4, 1, 1, 0, 0, 0, 2, 2};
+  expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
+}
+
+static void test_without_leaflets(void **state) {
+  (void)state;
+  write_polydata("plain.vtp", "NumberOfPolys=\"1\"", CELLS("0 1 3", "3"), "", "");
+  const int32_t leaflets[1] = {0};
+  expect_faces("plain.vtp", 1, 0.5, leaflets);
+}
+
+static void test_unstructured_grid(void **state) {
+  (void)state;
+  char text[2048];
+  snprintf(text, sizeof text,
+           "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
+           "<Piece NumberOfPoints=\"7\" NumberOfCells=\"2\"><CellData>%s</CellData>\n"
+           "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">%s</DataArray></Points>\n"
+           "<Cells>%s<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 9</DataArray></Cells>\n"
+           "</Piece></UnstructuredGrid></VTKFile>\n",
+           LEAFLETS("Int64", "2 1"), plane_points, CELLS("0 1 3 1 4 5 2", "3 7"));
+  scratch_write_text("grid.vtu", text);
+  const int32_t leaflets[3] = {2, 1, 1};
+  expect_faces("grid.vtu", 3, 1.5, leaflets);
+}
+
+static const float stl_triangles[3][9] = {
+    {0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}}; /* the second has no area */
+
+static void write_binary_stl(const char *name, uint32_t n_promised, int n_written) {
+  unsigned char bytes[84 + 3 * 50] = "binary";
+  memcpy(bytes + 80, &n_promised, 4);
+  for (int i = 0; i < n_written; ++i) memcpy(bytes + 84 + 50 * i + 12, stl_triangles[i], 36);
+  scratch_write(name, bytes, (size_t)(84 + 50 * n_written));
+}
+
+static void write_ascii_stl(const char *name, int n_written, int with_end) {
+  char text[2048] = "solid valve\n";
+  for (int i = 0; i < n_written; ++i) {
+    const float *t = stl_triangles[i];
+    snprintf(text + strlen(text), sizeof text - strlen(text),
+             "facet normal 0 0 1\nouter loop\nvertex %g %g %g\nvertex %g %g %g\nvertex %g %g %g\nendloop\nendfacet\n",
+             t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8]);
+  }
+  if (with_end) strcat(text, "endsolid valve\n");
+  scratch_write_text(name, text);
+}
+
+/* A triangle without area keeps its place, so that the ids of those behind it stay. */
+static void expect_stl(const char *name) {
+  riis_surface_options options;
+  riis_surface_arrays arrays;
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  riis_surface *surface = surface_of_file(name, &options, &arrays);
+  int64_t n = 0;
+  const int64_t *triangle_id = NULL;
+  expect_fine(riis_surface_triangles(surface, &n, NULL, &triangle_id, NULL, NULL));
+  assert_int_equal(n, 2);
+  assert_int_equal(triangle_id[0], 0);
+  assert_int_equal(triangle_id[1], 2);
+  riis_surface_destroy(&surface);
+}
+
+static void test_stl(void **state) {
+  (void)state;
+  write_binary_stl("binary.stl", 3, 3);
+  expect_stl("binary.stl");
+  write_ascii_stl("ascii.stl", 3, 1);
+  expect_stl("ascii.stl");
+}
+
+/* A surface from arrays with skipped triangles is written as it is queried, without uv. */
+static void test_user_surface_is_written(void **state) {
+  (void)state;
+  riis_surface_options options;
+  riis_surface_arrays arrays;
+  write_binary_stl("binary.stl", 3, 3);
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  options.scale = 3;
+  riis_surface *surface = surface_of_file("binary.stl", &options, &arrays);
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("user.vtp")));
+  expect_written(surface, scratch_path("user.vtp"));
+  assert_int_equal(shim_read_array(scratch_path("user.vtp"), 'p', "riis_uv", NULL, NULL, NULL, NULL), 0);
+  riis_surface_destroy(&surface);
+}
+
+static void expect_file_error(const char *name, const char *part_of_text) {
+  riis_vtk_surface *surface = NULL;
+  scratch_watch_output();
+  const riis_status status = riis_vtk_surface_read(scratch_path(name), &surface);
+  const long n_printed = scratch_end_watch();
+  expect_refused(status, RIIS_FILE_ERROR, part_of_text);
+  expect_refused(status, RIIS_FILE_ERROR, name);
+  assert_null(surface);
+  assert_int_equal(n_printed, 0);
+}
+
+static void test_not_surfaces(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  expect_file_error("missing.vtp", "No such file or directory");
+  scratch_write_text("surface.obj", "v 0 0 0\n");
+  expect_file_error("surface.obj", "a surface must be a .vtp, .vtu or .stl file");
+  scratch_write_text("empty.stl", "");
+  expect_file_error("empty.stl", "is empty");
+  scratch_write_text("garbage.vtp", "garbage");
+  expect_file_error("garbage.vtp", "is not a VTK XML file");
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 2, lower, upper, 0), 1);
+  expect_file_error("box.vtu", "cell 0 is a vtkTetra with 4 points");
+  write_polydata("line.vtp", "NumberOfPolys=\"1\"", CELLS("0 1", "2"), "", "");
+  expect_file_error("line.vtp", "cell 0 is a ");
+  write_polydata("none.vtp", "NumberOfPolys=\"0\"", CELLS("", ""), "", "");
+  expect_file_error("none.vtp", "holds no faces");
+  write_polydata("outside.vtp", "NumberOfPolys=\"1\"", CELLS("0 1 7", "3"), "", "");
+  expect_file_error("outside.vtp", "cell 0 names point 7 of 7");
+  write_polydata("flat.vtp", "NumberOfPolys=\"1\"", CELLS("0 0 0 0 0", "5"), "", "");
+  expect_file_error("flat.vtp", "cell 0 is a polygon that cannot be cut");
+}
+
+static void test_broken_leaflets(void **state) {
+  (void)state;
+  const char *const two = CELLS("0 1 3 1 2 3", "3 6");
+  write_polydata("short.vtp", "NumberOfPolys=\"2\"", two, "", LEAFLETS("Int32", "1"));
+  expect_file_error("short.vtp", "short.vtp: ");
+  write_polydata("negative.vtp", "NumberOfPolys=\"2\"", two, "", LEAFLETS("Int32", "0 -1"));
+  expect_file_error("negative.vtp", "riis_leaflet: cell 1 has -1");
+  write_polydata("fraction.vtp", "NumberOfPolys=\"2\"", two, "", LEAFLETS("Float32", "0.5 1"));
+  expect_file_error("fraction.vtp", "riis_leaflet: cell 0 has 0.5");
+  write_polydata("nan.vtp", "NumberOfPolys=\"2\"", two, "", LEAFLETS("Float64", "0 nan"));
+  expect_file_error("nan.vtp", "riis_leaflet: cell 1 has nan");
+  write_polydata("large.vtp", "NumberOfPolys=\"2\"", two, "", LEAFLETS("Int64", "0 2147483648"));
+  expect_file_error("large.vtp", "riis_leaflet: cell 1 has 2147483648");
+  write_polydata(
+      "wide.vtp", "NumberOfPolys=\"2\"", two, "",
+      "<DataArray type=\"Int32\" Name=\"riis_leaflet\" NumberOfComponents=\"2\" format=\"ascii\">0 0 1 1</DataArray>");
+  expect_file_error("wide.vtp", "riis_leaflet must hold one number a cell");
+  write_polydata("words.vtp", "NumberOfPolys=\"2\"", two, "",
+                 "<Array type=\"String\" Name=\"riis_leaflet\" format=\"ascii\">97 0 98 0</Array>");
+  expect_file_error("words.vtp", "riis_leaflet must hold one number a cell");
+}
+
+static void test_truncated_stl(void **state) {
+  (void)state;
+  write_binary_stl("cut.stl", 3, 2);
+  expect_file_error("cut.stl", "is truncated or not an STL file: 184 bytes, 3 triangles");
+  write_binary_stl("more.stl", 2, 3);
+  expect_file_error("more.stl", "is truncated or not an STL file");
+  write_ascii_stl("cut_ascii.stl", 2, 0);
+  expect_file_error("cut_ascii.stl", "endsolid is missing");
+  scratch_write_text("odd.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\nendsolid\n");
+  expect_file_error("odd.stl", "odd.stl: ");
+}
+
+static void test_truncated_polydata(void **state) {
+  (void)state;
+  riis_surface *valve = make_valve();
+  expect_fine(riis_vtk_surface_write(valve, scratch_path("whole.vtp")));
+  riis_surface_destroy(&valve);
+  size_t size = 0;
+  char *bytes = scratch_read(scratch_path("whole.vtp"), &size);
+  for (size_t kept = 1; kept < size - 1; kept += kept < 3000 ? 1 : 997) {
+    scratch_write("cut.vtp", bytes, kept);
+    expect_file_error("cut.vtp", "cut.vtp: ");
+  }
+  free(bytes);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_valve_is_written),
+      cmocka_unit_test(test_round_trip),
+      cmocka_unit_test(test_quads_stay_quads),
+      cmocka_unit_test(test_mixed_polygons),
+      cmocka_unit_test(test_without_leaflets),
+      cmocka_unit_test(test_unstructured_grid),
+      cmocka_unit_test(test_stl),
+      cmocka_unit_test(test_user_surface_is_written),
+      cmocka_unit_test(test_not_surfaces),
+      cmocka_unit_test(test_broken_leaflets),
+      cmocka_unit_test(test_truncated_stl),
+      cmocka_unit_test(test_truncated_polydata),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}

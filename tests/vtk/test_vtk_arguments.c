@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * NULL pointers, structs that no init function filled, options out of range; and what the caller's floating-point
+ * environment keeps. */
+#include <fenv.h>
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+
+#include "expect.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static riis_surface *surface;
+static riis_vtk_mesh *mesh;
+static riis_mark_result *result;
+
+static int make_all(void **state) {
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  riis_valve *valve = NULL;
+  scratch_setup(state);
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  riis_valve_destroy(&valve);
+  assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, 3, lower, upper, 0), 1);
+  expect_fine(riis_vtk_mesh_read(scratch_path("in.vtu"), &mesh));
+  expect_fine(riis_mark_result_create(&result));
+  return 0;
+}
+
+static int destroy_all(void **state) {
+  riis_vtk_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_mark_result_destroy(&result);
+  return scratch_teardown(state);
+}
+
+static void test_null(void **state) {
+  (void)state;
+  riis_vtk_mesh *other = NULL;
+  riis_vtk_surface *file = NULL;
+  riis_surface_arrays arrays;
+  const char *path = scratch_path("out.vtu");
+  expect_refused(riis_vtk_mesh_read(NULL, &other), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_mesh_read(path, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_nodes(NULL, NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_fine(riis_vtk_mesh_nodes(mesh, NULL, NULL, NULL));
+  expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1), RIIS_INVALID_ARGUMENT, "result is NULL");
+  expect_refused(riis_vtk_mesh_write(NULL, path), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_write(mesh, NULL), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_surface_read(NULL, &file), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_surface_read(path, NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_surface_arrays(NULL, &arrays), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_surface_write(NULL, path), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_surface_write(surface, NULL), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_picture_options_init(NULL, sizeof(riis_vtk_picture_options)), RIIS_INVALID_ARGUMENT,
+                 "options is NULL");
+  expect_refused(riis_vtk_draw(NULL, mesh, NULL, path), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_draw(surface, NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "path is NULL");
+  riis_vtk_mesh_destroy(NULL);
+  riis_vtk_mesh_destroy(&other);
+  riis_vtk_surface_destroy(NULL);
+  riis_vtk_surface_destroy(&file);
+}
+
+static void test_struct_sizes(void **state) {
+  (void)state;
+  riis_vtk_surface *file = NULL;
+  riis_surface_arrays arrays = {0};
+  riis_vtk_picture_options options = {0};
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
+  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), &file));
+  expect_refused(riis_vtk_surface_arrays(file, NULL), RIIS_INVALID_ARGUMENT, "arrays is NULL");
+  expect_refused(riis_vtk_surface_arrays(file, &arrays), RIIS_INVALID_STRUCT_SIZE, "struct_size 0");
+  riis_vtk_surface_destroy(&file);
+  expect_refused(riis_vtk_picture_options_init(&options, 4), RIIS_INVALID_STRUCT_SIZE, "struct_size is 4");
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_STRUCT_SIZE,
+                 "struct_size 0");
+}
+
+static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t width, int32_t height,
+                               int32_t reserved) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_true(options.view == RIIS_VTK_VIEW_OBLIQUE && options.width == 1600 && options.height == 800 &&
+              !options.reserved);
+  options.view = view;
+  options.width = width;
+  options.height = height;
+  options.reserved = reserved;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
+  assert_int_equal(scratch_exists("a.png"), 0);
+}
+
+static void test_picture_options(void **state) {
+  (void)state;
+  expect_bad_picture("view is 3", 3, 800, 800, 0);
+  expect_bad_picture("view is -1", -1, 800, 800, 0);
+  expect_bad_picture("width is 63", RIIS_VTK_VIEW_TOP, 63, 800, 0);
+  expect_bad_picture("height is 8193", RIIS_VTK_VIEW_TOP, 800, 8193, 0);
+  expect_bad_picture("reserved is 1", RIIS_VTK_VIEW_TOP, 800, 800, 1);
+  expect_refused(riis_vtk_draw(surface, mesh, NULL, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "mesh has no marks");
+}
+
+/* A name with a line break still gives an error text of one line, and a very long one keeps the reason. */
+static void test_odd_names(void **state) {
+  (void)state;
+  riis_vtk_mesh *other = NULL;
+  expect_refused(riis_vtk_mesh_read(scratch_path("a\nb.vtu"), &other), RIIS_FILE_ERROR,
+                 "a?b.vtu: cannot be read: No such file");
+  static char name[4000];
+  memset(name, 'x', sizeof name - 1);
+  expect_refused(riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR, "xxx: a mesh must be a .vtu or .vtk file");
+}
+
+static void test_floating_point_environment(void **state) {
+  (void)state;
+  riis_vtk_mesh *other = NULL;
+  fesetround(FE_UPWARD);
+  feclearexcept(FE_ALL_EXCEPT);
+  feraiseexcept(FE_OVERFLOW);
+  const riis_status status = riis_vtk_mesh_read(scratch_path("in.vtu"), &other);
+  const int rounding = fegetround();
+  const int flags = fetestexcept(FE_ALL_EXCEPT);
+  fesetenv(FE_DFL_ENV);
+  expect_fine(status);
+  riis_vtk_mesh_destroy(&other);
+  assert_int_equal(rounding, FE_UPWARD);
+  assert_true(flags & FE_OVERFLOW);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_null),
+      cmocka_unit_test(test_struct_sizes),
+      cmocka_unit_test(test_picture_options),
+      cmocka_unit_test(test_odd_names),
+      cmocka_unit_test(test_floating_point_environment),
+  };
+  return cmocka_run_group_tests(tests, make_all, destroy_all);
+}

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef RIIS_TESTS_VIRTUAL_DISPLAY_H
+#define RIIS_TESTS_VIRTUAL_DISPLAY_H
+
+/* Starts the running program again under xvfb-run and ends with its exit code; returns when it already runs there. Ends
+ * with 77, which CTest takes for skipped, where xvfb-run or the xauth that it needs is missing. Not called, DISPLAY is
+ * the caller's. */
+void enter_virtual_display(char **argv);
+
+#endif

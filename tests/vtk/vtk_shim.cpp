@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vtk_shim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellLocator.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkGenericCell.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkImplicitPolyDataDistance.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkShortArray.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+namespace {
+
+bool ends_with(const std::string &text, const std::string &ending) {
+  return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+// Position in the lattice of the node with each number.
+std::vector<int> shuffled(int n) {
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 random(7);
+  for (int i = n - 1; i > 0; --i) {
+    std::swap(order[static_cast<std::size_t>(i)], order[random() % static_cast<unsigned>(i + 1)]);
+  }
+  return order;
+}
+
+void add_tetrahedra(vtkUnstructuredGrid *grid, int n, const std::vector<vtkIdType> &node_at) {
+  // The six paths along the edges of a box from one corner to the opposite one.
+  const int paths[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  for (int k = 0; k + 1 < n; ++k) {
+    for (int j = 0; j + 1 < n; ++j) {
+      for (int i = 0; i + 1 < n; ++i) {
+        for (const auto &path : paths) {
+          int at[3] = {i, j, k};
+          vtkIdType corners[4];
+          for (int step = 0; step < 4; ++step) {
+            corners[step] = node_at[static_cast<std::size_t>(at[0] + n * (at[1] + n * at[2]))];
+            if (step < 3) ++at[path[step]];
+          }
+          grid->InsertNextCell(VTK_TETRA, 4, corners);
+        }
+      }
+    }
+  }
+}
+
+template <class Array>
+vtkSmartPointer<Array> numbered(const char *name, int n_components, vtkIdType n_tuples, double step) {
+  const auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(n_tuples);
+  for (vtkIdType i = 0; i < n_tuples * n_components; ++i) {
+    array->SetValue(i, static_cast<typename Array::ValueType>(step * static_cast<double>(i)));
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> box(int n, const double *lower, const double *upper, bool float_points,
+                                         bool with_strings) {
+  const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  const int n_nodes = n * n * n;
+  const std::vector<int> position = shuffled(n_nodes);
+  std::vector<vtkIdType> node_at(static_cast<std::size_t>(n_nodes));
+  vtkNew<vtkPoints> points;
+  points->SetDataType(float_points ? VTK_FLOAT : VTK_DOUBLE);
+  for (int node = 0; node < n_nodes; ++node) {
+    const int p = position[static_cast<std::size_t>(node)];
+    node_at[static_cast<std::size_t>(p)] = node;
+    const int at[3] = {p % n, p / n % n, p / n / n};
+    double x[3];
+    for (int c = 0; c < 3; ++c) x[c] = lower[c] + (upper[c] - lower[c]) * at[c] / (n - 1);
+    points->InsertNextPoint(x);
+  }
+  grid->SetPoints(points);
+  add_tetrahedra(grid, n, node_at);
+  grid->GetPointData()->AddArray(numbered<vtkDoubleArray>("pressure", 1, n_nodes, 0.1));
+  grid->GetPointData()->AddArray(numbered<vtkFloatArray>("velocity", 3, n_nodes, 0.5));
+  grid->GetCellData()->AddArray(numbered<vtkShortArray>("region", 1, grid->GetNumberOfCells(), 1));
+  grid->GetFieldData()->AddArray(numbered<vtkDoubleArray>("time", 1, 2, 0.25));
+  if (with_strings) {
+    vtkNew<vtkStringArray> names;
+    names->SetName("name");
+    for (int node = 0; node < n_nodes; ++node) names->InsertNextValue("node " + std::to_string(node));
+    grid->GetPointData()->AddArray(names);
+  }
+  return grid;
+}
+
+vtkSmartPointer<vtkPointSet> read(const std::string &path) {
+  vtkSmartPointer<vtkPointSet> data;
+  if (ends_with(path, ".vtp")) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    data = reader->GetOutput();
+  } else if (ends_with(path, ".vtu") || ends_with(path, ".VTU")) {
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    data = reader->GetOutput();
+  } else {
+    vtkNew<vtkUnstructuredGridReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->ReadAllScalarsOn();
+    reader->ReadAllVectorsOn();
+    reader->Update();
+    data = reader->GetOutput();
+  }
+  return data && data->GetPoints() ? data : nullptr;
+}
+
+class CountingWindow : public vtkOutputWindow {
+ public:
+  static CountingWindow *New();
+  vtkTypeMacro(CountingWindow, vtkOutputWindow);
+  void DisplayText(const char *) override { ++n_messages; }
+  int n_messages = 0;
+};
+vtkStandardNewMacro(CountingWindow);
+
+CountingWindow *counting_window() {
+  static const vtkNew<CountingWindow> window;
+  return window.Get();
+}
+
+}  // namespace
+
+extern "C" {
+
+int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
+                   int float_points) {
+  const bool legacy = encoding == SHIM_LEGACY_ASCII || encoding == SHIM_LEGACY_BINARY;
+  const auto grid = box(n, lower, upper, float_points != 0, !legacy);
+  if (legacy) {
+    vtkNew<vtkUnstructuredGridWriter> writer;
+    writer->SetFileName(path);
+    writer->SetInputData(grid);
+    writer->SetFileType(encoding == SHIM_LEGACY_ASCII ? VTK_ASCII : VTK_BINARY);
+    return writer->Write();
+  }
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName(path);
+  writer->SetInputData(grid);
+  if (encoding == SHIM_ASCII) writer->SetDataModeToAscii();
+  if (encoding == SHIM_BINARY) writer->SetDataModeToBinary();
+  if (encoding == SHIM_COMPRESSED || encoding == SHIM_RAW) writer->SetDataModeToAppended();
+  if (encoding != SHIM_COMPRESSED) writer->SetCompressorTypeToNone();
+  if (encoding == SHIM_RAW) writer->EncodeAppendedDataOff();
+  return writer->Write();
+}
+
+int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char point_type[32], double *xyz) {
+  const auto data = read(path);
+  if (!data) return 0;
+  if (n_points) *n_points = data->GetNumberOfPoints();
+  if (n_cells) *n_cells = data->GetNumberOfCells();
+  if (point_type) std::strcpy(point_type, data->GetPoints()->GetData()->GetDataTypeAsString());
+  for (vtkIdType i = 0; xyz && i < data->GetNumberOfPoints(); ++i) data->GetPoint(i, xyz + 3 * i);
+  return 1;
+}
+
+int64_t shim_read_corners(const char *path, int64_t *ids) {
+  const auto data = read(path);
+  if (!data) return -1;
+  int64_t n = 0;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
+    data->GetCellPoints(cell, corners);
+    for (const vtkIdType corner : *corners) {
+      if (ids) ids[n] = corner;
+      ++n;
+    }
+  }
+  return n;
+}
+
+int shim_read_array(const char *path, char where, const char *name, char type[32], int64_t *n_components,
+                    int64_t *n_tuples, double *values) {
+  const auto data = read(path);
+  if (!data) return 0;
+  vtkFieldData *fields = where == 'p'   ? static_cast<vtkFieldData *>(data->GetPointData())
+                         : where == 'c' ? static_cast<vtkFieldData *>(data->GetCellData())
+                                        : data->GetFieldData();
+  vtkAbstractArray *array = fields->GetAbstractArray(name);
+  if (!array) return 0;
+  if (type) std::strcpy(type, array->GetDataTypeAsString());
+  if (n_components) *n_components = array->GetNumberOfComponents();
+  if (n_tuples) *n_tuples = array->GetNumberOfTuples();
+  for (vtkIdType i = 0; values && i < array->GetNumberOfValues(); ++i) values[i] = array->GetVariantValue(i).ToDouble();
+  return 1;
+}
+
+int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_drawn[2]) {
+  vtkNew<vtkPNGReader> reader;
+  if (!reader->CanReadFile(path)) return 0;
+  reader->SetFileName(path);
+  reader->Update();
+  vtkImageData *image = reader->GetOutput();
+  int size[3];
+  image->GetDimensions(size);
+  *width = size[0];
+  *height = size[1];
+  n_drawn[0] = n_drawn[1] = 0;
+  const int n_channels = image->GetNumberOfScalarComponents();
+  std::set<std::vector<unsigned char>> colours;
+  std::vector<unsigned char> background;
+  for (int y = 0; y < size[1]; ++y) {
+    for (int x = 0; x < size[0]; ++x) {
+      const auto *pixel = static_cast<const unsigned char *>(image->GetScalarPointer(x, y, 0));
+      const std::vector<unsigned char> colour(pixel, pixel + n_channels);
+      if (background.empty()) background = colour;
+      n_drawn[x < size[0] / 2 ? 0 : 1] += colour != background;
+      colours.insert(colour);
+    }
+  }
+  *n_colours = static_cast<int>(colours.size());
+  return 1;
+}
+
+void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,
+                    int64_t n_points, const double *points, double *distances) {
+  vtkNew<vtkPoints> vtk_points;
+  vtk_points->SetDataTypeToDouble();
+  for (int64_t i = 0; i < n_vertices; ++i) vtk_points->InsertNextPoint(vertices + 3 * i);
+  vtkNew<vtkCellArray> triangles;
+  for (int64_t i = 0; i < n_triangles; ++i) {
+    const vtkIdType ids[3] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
+    triangles->InsertNextCell(3, ids);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtk_points);
+  data->SetPolys(triangles);
+  if (method == SHIM_IMPLICIT_DISTANCE) {
+    vtkNew<vtkImplicitPolyDataDistance> implicit;
+    implicit->SetInput(data);
+    for (int64_t i = 0; i < n_points; ++i) {
+      double point[3] = {points[3 * i], points[3 * i + 1], points[3 * i + 2]};
+      distances[i] = std::fabs(implicit->EvaluateFunction(point));
+    }
+    return;
+  }
+  vtkSmartPointer<vtkAbstractCellLocator> locator;
+  if (method == SHIM_STATIC_LOCATOR) {
+    locator = vtkSmartPointer<vtkStaticCellLocator>::New();
+  } else {
+    locator = vtkSmartPointer<vtkCellLocator>::New();
+  }
+  locator->SetDataSet(data);
+  locator->BuildLocator();
+  vtkNew<vtkGenericCell> cell;
+  for (int64_t i = 0; i < n_points; ++i) {
+    double closest[3], squared = -1;
+    vtkIdType cell_id = -1;
+    int sub_id = 0;
+    locator->FindClosestPoint(points + 3 * i, closest, cell, cell_id, sub_id, squared);
+    distances[i] = std::sqrt(squared);
+  }
+}
+
+void shim_watch_window(void) {
+  counting_window()->n_messages = 0;
+  vtkOutputWindow::SetInstance(counting_window());
+}
+
+int shim_n_messages(void) { return counting_window()->n_messages; }
+
+void shim_say_error(void) { vtkGenericWarningMacro("said by the test"); }
+}
