@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One benchmark a stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine; what
-// guards the speed are the ratios, both sides measured in the same run.
+// One benchmark a stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the
+// machine; what guards the speed are the ratios, both sides measured in the same run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -83,7 +83,8 @@ double n_triangles_of(const riis_surface *surface) {
   return static_cast<double>(info.n_triangles);
 }
 
-// Parameters to triangles to scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per cent.
+// Parameters to triangles to scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per
+// cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = aortic_valve();
   const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);
@@ -132,13 +133,14 @@ void mark_exhaustive(benchmark::State &state) {
   state.counters["marked"] = static_cast<double>(stats.n_marked);
   state.counters["queries"] = static_cast<double>(stats.n_queries);
   state.counters["threads"] = stats.n_threads;
-  state.counters["time/query"] = benchmark::Counter(static_cast<double>(stats.n_queries),
-                                                    benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time/query"] =
+      benchmark::Counter(static_cast<double>(stats.n_queries),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// The loop over all triangles with the library's own kernel, against the marking of the same nodes on one thread: how many times
-// faster the scene is. The sample is every 100th node.
+// The loop over all triangles with the library's own kernel, against the marking of the same nodes on one thread: how
+// many times faster the scene is. The sample is every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const riis::TriangleSet &triangles = surface->surface->triangles();
@@ -171,7 +173,8 @@ void brute_force_over_marking(benchmark::State &state) {
   std::int64_t n_marked = 0;
   check(riis_mark_result_marked(result.get(), &n_marked, nullptr, nullptr, nullptr, nullptr));
   if (n_marked != n_marked_by_loop) state.SkipWithError("the loop and the marking differ");
-  const double pairs = static_cast<double>(n_sample) * n_triangles_of(surface.get()) * static_cast<double>(state.iterations());
+  const double pairs =
+      static_cast<double>(n_sample) * n_triangles_of(surface.get()) * static_cast<double>(state.iterations());
   state.counters["ratio"] = seconds_loop / seconds_marking;
   state.counters["loop_ns/pair"] = 1e9 * seconds_loop / pairs;
 }

@@ -6,12 +6,27 @@
 static const double degree_in_radians = 3.14159265358979323846 / 180;
 
 /* Positions of the curves of one cusp, in the order in which they are made. */
-enum { root, symmetry_below, symmetry_above, bending, leaflet, sinus_below, sinus_above, bending_m, leaflet_m, sinus_below_m, sinus_above_m, n_of_cusp };
+enum {
+  root,
+  symmetry_below,
+  symmetry_above,
+  bending,
+  leaflet,
+  sinus_below,
+  sinus_above,
+  bending_m,
+  leaflet_m,
+  sinus_below_m,
+  sinus_above_m,
+  n_of_cusp
+};
 
 static patch_set set;
 
 static const double *control(int cusp, int curve) { return set.control + 12 * (n_of_cusp * cusp + curve); }
-static const double *last(int cusp, int curve) { return control(cusp, curve) + 3 * set.degree[n_of_cusp * cusp + curve]; }
+static const double *last(int cusp, int curve) {
+  return control(cusp, curve) + 3 * set.degree[n_of_cusp * cusp + curve];
+}
 
 static void check_point(const double *p, double x, double y, double z) {
   CHECK_NEAR(p[0], x, 1e-14);
@@ -40,7 +55,8 @@ static void right_cusp_meets_the_table(void **state) {
   check_point(q + 6, L[0] - 0.5 * 1.58 * (L[0] - 0.24) / L[1], L[1] - 0.5, 0.02);
 }
 
-/* The two pieces of the symmetry curve are one cubic with the first inner control point where xq and zq say, through b at s. */
+/* The two pieces of the symmetry curve are one cubic with the first inner control point where xq and zq say, through b
+ * at s. */
 static void symmetry_curve_is_one_cubic(void **state) {
   (void)state;
   const double s = 0.71 / 1.02;
@@ -77,7 +93,8 @@ static void corners_meet_to_the_last_bit(void **state) {
   for (int64_t i = 0; i < set.n_patches; ++i) {
     const int64_t *side = set.sides + 4 * i;
     const double *ends[4][2];
-    for (int k = 0; k < 4; ++k) ends[k][0] = set.control + 12 * side[k], ends[k][1] = ends[k][0] + 3 * set.degree[side[k]];
+    for (int k = 0; k < 4; ++k)
+      ends[k][0] = set.control + 12 * side[k], ends[k][1] = ends[k][0] + 3 * set.degree[side[k]];
     /* v0(0) = u0(0), v0(1) = u1(0), v1(0) = u0(1), v1(1) = u1(1) */
     for (int c = 0; c < 3; ++c) {
       CHECK_NEAR(ends[0][0][c], ends[2][0][c], 0);
@@ -114,17 +131,24 @@ static void power_one_is_a_straight_profile(void **state) {
 static void parameters_that_do_not_go_together_are_refused(void **state) {
   (void)state;
   patch_set none;
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 1.02|leaflet_height", aortic_patches("bending_height", 1.02, &none));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 0.71|leaflet_height, which is 0.7", aortic_patches("leaflet_height", 0.7, &none));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "right.leaflet_radius_out is 500|root_radius", aortic_patches("right.leaflet_radius_out", 500, &none));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "leaflet_height is 1.02|root_radius, which is 200", aortic_patches("root_radius", 200, &none));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 1.02|leaflet_height",
+                aortic_patches("bending_height", 1.02, &none));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 0.71|leaflet_height, which is 0.7",
+                aortic_patches("leaflet_height", 0.7, &none));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "right.leaflet_radius_out is 500|root_radius",
+                aortic_patches("right.leaflet_radius_out", 500, &none));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "leaflet_height is 1.02|root_radius, which is 200",
+                aortic_patches("root_radius", 200, &none));
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(right_cusp_meets_the_table),       cmocka_unit_test(symmetry_curve_is_one_cubic),
-      cmocka_unit_test(cusps_are_mirror_images_and_turned), cmocka_unit_test(corners_meet_to_the_last_bit),
-      cmocka_unit_test(twelve_patches_of_three_leaflets), cmocka_unit_test(power_one_is_a_straight_profile),
+      cmocka_unit_test(right_cusp_meets_the_table),
+      cmocka_unit_test(symmetry_curve_is_one_cubic),
+      cmocka_unit_test(cusps_are_mirror_images_and_turned),
+      cmocka_unit_test(corners_meet_to_the_last_bit),
+      cmocka_unit_test(twelve_patches_of_three_leaflets),
+      cmocka_unit_test(power_one_is_a_straight_profile),
       cmocka_unit_test(parameters_that_do_not_go_together_are_refused),
   };
   if (aortic_patches(NULL, 0, &set) != RIIS_OK) return 1;

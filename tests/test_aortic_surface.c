@@ -8,7 +8,8 @@
 
 static void numbers_of_the_model(void **state) {
   (void)state;
-  /* Area and bounds that the model must have; triangles lie on chords, so both come from below as the tolerance falls. */
+  /* Area and bounds that the model must have; triangles lie on chords, so both come from below as the tolerance falls.
+   */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {7e-3, 1e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -94,8 +95,8 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Downstream is from the ventricle to the sinus: a point in each sinus, between cusp and wall, is on the side +1, a point below the
- * closed middle on the side -1; flipped, the other way round. */
+/* Downstream is from the ventricle to the sinus: a point in each sinus, between cusp and wall, is on the side +1, a
+ * point below the closed middle on the side -1; flipped, the other way round. */
 static void normals_point_downstream(void **state) {
   (void)state;
   const double angle[3] = {0, 119.5, -121.5};
@@ -229,21 +230,44 @@ static void every_parameter_by_name(void **state) {
   static const struct {
     const char *name;
     double value;
-  } table[] = {{"root_height", 1}, {"root_radius", 1.29}, {"leaflet_height", 1.02}, {"bending_height", 0.71},
-               {"xq", -0.2}, {"zq", -0.2},
-               {"right.leaflet_radius_in", 0.24}, {"right.leaflet_radius_out", 1.365}, {"right.leaflet_angle", 61}, {"right.leaflet_power", 1.58},
-               {"right.bending_radius_in", 0.4}, {"right.bending_radius_out", 1.39}, {"right.bending_angle", 47.3}, {"right.bending_power", 1.82},
-               {"left.leaflet_radius_in", 0.49}, {"left.leaflet_radius_out", 1.495}, {"left.leaflet_angle", 58.5}, {"left.leaflet_power", 2.77},
-               {"left.bending_radius_in", 0.74}, {"left.bending_radius_out", 1.355}, {"left.bending_angle", 43}, {"left.bending_power", 4.12},
-               {"non_coronary.leaflet_radius_in", 0.2}, {"non_coronary.leaflet_radius_out", 1.38}, {"non_coronary.leaflet_angle", 60.5},
-               {"non_coronary.leaflet_power", 1.19}, {"non_coronary.bending_radius_in", 0.67}, {"non_coronary.bending_radius_out", 1.435},
-               {"non_coronary.bending_angle", 42.75}, {"non_coronary.bending_power", 2.54}};
+  } table[] = {{"root_height", 1},
+               {"root_radius", 1.29},
+               {"leaflet_height", 1.02},
+               {"bending_height", 0.71},
+               {"xq", -0.2},
+               {"zq", -0.2},
+               {"right.leaflet_radius_in", 0.24},
+               {"right.leaflet_radius_out", 1.365},
+               {"right.leaflet_angle", 61},
+               {"right.leaflet_power", 1.58},
+               {"right.bending_radius_in", 0.4},
+               {"right.bending_radius_out", 1.39},
+               {"right.bending_angle", 47.3},
+               {"right.bending_power", 1.82},
+               {"left.leaflet_radius_in", 0.49},
+               {"left.leaflet_radius_out", 1.495},
+               {"left.leaflet_angle", 58.5},
+               {"left.leaflet_power", 2.77},
+               {"left.bending_radius_in", 0.74},
+               {"left.bending_radius_out", 1.355},
+               {"left.bending_angle", 43},
+               {"left.bending_power", 4.12},
+               {"non_coronary.leaflet_radius_in", 0.2},
+               {"non_coronary.leaflet_radius_out", 1.38},
+               {"non_coronary.leaflet_angle", 60.5},
+               {"non_coronary.leaflet_power", 1.19},
+               {"non_coronary.bending_radius_in", 0.67},
+               {"non_coronary.bending_radius_out", 1.435},
+               {"non_coronary.bending_angle", 42.75},
+               {"non_coronary.bending_power", 2.54}};
   static const struct {
     const char *name;
     double values[3];
-  } vectors[] = {{"t3_leaflet", {0.5, 0.5, 0.65}}, {"t3_bending", {0.55, 0.23, 0.4}}, {"t0_leaflet", {0.025, 0.1, 0.1}}, {"t0_bending", {0.1, 0.1, 0.1}},
-                 {"right.rotation", {0, 0, 0}}, {"left.rotation", {0, 0, 119.5}}, {"non_coronary.rotation", {0, 0, -121.5}},
-                 {"right.translation", {0, 0, -1}}, {"left.translation", {0, 0, -1}}, {"non_coronary.translation", {0, 0, -1}}};
+  } vectors[] = {
+      {"t3_leaflet", {0.5, 0.5, 0.65}},          {"t3_bending", {0.55, 0.23, 0.4}}, {"t0_leaflet", {0.025, 0.1, 0.1}},
+      {"t0_bending", {0.1, 0.1, 0.1}},           {"right.rotation", {0, 0, 0}},     {"left.rotation", {0, 0, 119.5}},
+      {"non_coronary.rotation", {0, 0, -121.5}}, {"right.translation", {0, 0, -1}}, {"left.translation", {0, 0, -1}},
+      {"non_coronary.translation", {0, 0, -1}}};
   const int n_scalars = sizeof table / sizeof *table, n_vectors = sizeof vectors / sizeof *vectors;
   riis_valve *valve = NULL;
   int64_t n = 0;
@@ -263,11 +287,13 @@ static void every_parameter_by_name(void **state) {
     for (int k = 0; k < n_values; ++k) values[k] += 0.01;
     CHECK_OK(riis_valve_set(valve, name, n_values, values));
     CHECK_OK(riis_surface_create(valve, NULL, &after));
-    const int changed = info_of(before).area != info_of(after).area || info_of(before).upper[2] != info_of(after).upper[2] ||
+    const int changed = info_of(before).area != info_of(after).area ||
+                        info_of(before).upper[2] != info_of(after).upper[2] ||
                         info_of(before).upper[0] != info_of(after).upper[0];
     riis_surface_destroy(&before);
     riis_surface_destroy(&after);
-    if (changed != (strcmp(name, "root_height") != 0)) fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");
+    if (changed != (strcmp(name, "root_height") != 0))
+      fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");
     CHECK_OK(riis_valve_set(valve, name, n_values, expected));
   }
   for (int64_t i = 0; i < n; ++i) {

@@ -13,7 +13,8 @@ static void bernstein(int degree, const double *control, double t, double *point
   static const double binomial[4][4] = {{0}, {0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
   for (int c = 0; c < 3; ++c) {
     point[c] = 0;
-    for (int i = 0; i <= degree; ++i) point[c] += binomial[degree][i] * pow(1 - t, degree - i) * pow(t, i) * control[3 * i + c];
+    for (int i = 0; i <= degree; ++i)
+      point[c] += binomial[degree][i] * pow(1 - t, degree - i) * pow(t, i) * control[3 * i + c];
   }
 }
 
@@ -84,7 +85,8 @@ static void arc_length_is_the_limit_of_chords(void **state) {
     /* Chords err by h^2: extrapolated. */
     const double expected = sum[1] + (sum[1] - sum[0]) / 3;
     CHECK_NEAR(bezier_arc_length(3, control, 0, 1), expected, 1e-9 * expected);
-    CHECK_NEAR(bezier_arc_length(3, control, 0, 0.3) + bezier_arc_length(3, control, 0.3, 1), expected, 1e-9 * expected);
+    CHECK_NEAR(bezier_arc_length(3, control, 0, 0.3) + bezier_arc_length(3, control, 0.3, 1), expected,
+               1e-9 * expected);
   }
 }
 
@@ -150,7 +152,8 @@ static void flattening_stays_within_its_bound(void **state) {
       bernstein(degree, control, i / 1000.0, point);
       largest = fmax(largest, to_chords(point, n, points));
     }
-    for (int64_t i = 1; i < n; ++i) assert_true(distance(points + 3 * i, points + 3 * i - 3) > 0); /* shared middles once */
+    for (int64_t i = 1; i < n; ++i)
+      assert_true(distance(points + 3 * i, points + 3 * i - 3) > 0); /* shared middles once */
     free(points);
     CHECK_AT_MOST(largest, bound);
   }
@@ -158,7 +161,8 @@ static void flattening_stays_within_its_bound(void **state) {
 
 static void flattening_takes_few_points(void **state) {
   (void)state;
-  /* A parabola's flatness is 1/4 of its control triangle's height, falling by 4 a halving: height 1, phi 1/60 -> 3 halvings. */
+  /* A parabola's flatness is 1/4 of its control triangle's height, falling by 4 a halving: height 1, phi 1/60 -> 3
+   * halvings. */
   const double parabola[9] = {0, 0, 0, 1, 1, 0, 2, 0, 0};
   double *points;
   int64_t n;
@@ -173,8 +177,8 @@ static void flattening_takes_few_points(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(evaluates_the_bernstein_sum),     cmocka_unit_test(derivative_is_the_limit_of_differences),
-      cmocka_unit_test(arc_length_of_known_curves),      cmocka_unit_test(arc_length_is_the_limit_of_chords),
+      cmocka_unit_test(evaluates_the_bernstein_sum),       cmocka_unit_test(derivative_is_the_limit_of_differences),
+      cmocka_unit_test(arc_length_of_known_curves),        cmocka_unit_test(arc_length_is_the_limit_of_chords),
       cmocka_unit_test(split_gives_the_same_curve_in_two), cmocka_unit_test(flatness_is_measured_to_the_segment),
       cmocka_unit_test(flattening_stays_within_its_bound), cmocka_unit_test(flattening_takes_few_points),
   };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Closest points through the Embree scene against the independent oracle and against plain loops: every triangle, every place, every limit. */
+ * Closest points through the Embree scene against the independent oracle and against plain loops: every triangle, every
+ * place, every limit. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -82,7 +83,8 @@ static void far_points_equal_the_oracle(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Equal distances: a grid of coplanar, repeated and mirrored triangles has ties everywhere; the lowest id wins, whatever the order. */
+/* Equal distances: a grid of coplanar, repeated and mirrored triangles has ties everywhere; the lowest id wins,
+ * whatever the order. */
 static void ties_go_to_the_lowest_id(void **state) {
   (void)state;
   enum { copies = 50 };
@@ -90,7 +92,8 @@ static void ties_go_to_the_lowest_id(void **state) {
   int32_t ids[3 * copies];
   const double triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   for (int i = 0; i < copies; ++i) {
-    for (int k = 0; k < 9; ++k) xyz[9 * i + k] = triangle[k] + (k % 3 == 2 ? (i % 2 ? 1.0 : -1.0) : 0); /* planes z = -1 and z = 1 */
+    for (int k = 0; k < 9; ++k)
+      xyz[9 * i + k] = triangle[k] + (k % 3 == 2 ? (i % 2 ? 1.0 : -1.0) : 0); /* planes z = -1 and z = 1 */
     for (int k = 0; k < 3; ++k) ids[3 * i + k] = 3 * i + k;
   }
   riis_surface_arrays arrays = triangle_arrays(3 * copies, xyz, copies, ids);
@@ -103,11 +106,13 @@ static void ties_go_to_the_lowest_id(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Batches: every output equal to the single query's, bit by bit, for any number of threads, layout and choice of arrays. */
+/* Batches: every output equal to the single query's, bit by bit, for any number of threads, layout and choice of
+ * arrays. */
 static void batches_equal_single_queries(void **state) {
   (void)state;
   enum { n = 3000 };
-  static double xyz[3 * n], x[n], y[n], z[n], distance[n], point[3 * n], barycentric[3 * n], normal[3 * n], only_distance[n];
+  static double xyz[3 * n], x[n], y[n], z[n], distance[n], point[3 * n], barycentric[3 * n], normal[3 * n],
+      only_distance[n];
   static int64_t triangle_id[n];
   static int32_t leaflet_id[n], side[n];
   riis_surface *surface = aortic_surface(NULL);
@@ -157,7 +162,8 @@ static void batches_equal_single_queries(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* What single queries report fits together: the point on the triangle, at the distance, the normal its own, the side the sign of the height. */
+/* What single queries report fits together: the point on the triangle, at the distance, the normal its own, the side
+ * the sign of the height. */
 static void closest_is_consistent(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -168,7 +174,8 @@ static void closest_is_consistent(void **state) {
   CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
   CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, &leaflet_id, NULL));
   for (int trial = 0; trial < 3000; ++trial) {
-    const double p[3] = {random_between(&rng, -1.6, 1.6), random_between(&rng, -1.6, 1.6), random_between(&rng, -1.1, 0.2)};
+    const double p[3] = {random_between(&rng, -1.6, 1.6), random_between(&rng, -1.6, 1.6),
+                         random_between(&rng, -1.1, 0.2)};
     const riis_closest c = closest_to(surface, p[0], p[1], p[2]);
     assert_true(c.triangle_id >= 0 && c.triangle_id < n);
     assert_int_equal(c.leaflet_id, leaflet_id[c.triangle_id]);

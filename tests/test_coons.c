@@ -2,7 +2,8 @@
 #include "internals.h"
 #include "test_support.h"
 
-/* Sides of a curved square, in the order v0, v1, u0, u1, meeting at their ends; u parameters 0 0.3 0.6 1 and 0 0.5 0.6 1 as in the paper. */
+/* Sides of a curved square, in the order v0, v1, u0, u1, meeting at their ends; u parameters 0 0.3 0.6 1 and 0 0.5 0.6
+ * 1 as in the paper. */
 static const double side_v0[12] = {0, 0, 0, 3, 0, 0, 6, 0, 0, 10, 0, 0};
 static const double side_v1[12] = {0, 8, 2, 5, 8, 2, 6, 8, 2, 10, 8, 2};
 static const double side_u0[9] = {0, 0, 0, 0, 4, 3, 0, 8, 2};
@@ -44,7 +45,8 @@ static void boundary_is_the_polylines_to_the_last_bit(void **state) {
   assert_int_equal(different, 0);
 }
 
-/* The Coons formula from the polylines themselves, at any (u,v): the grid is bilinear between its lines and loses nothing. */
+/* The Coons formula from the polylines themselves, at any (u,v): the grid is bilinear between its lines and loses
+ * nothing. */
 static void surface_equals_the_coons_formula_everywhere(void **state) {
   (void)state;
   random_source rng = random_start("test_coons");
@@ -103,7 +105,8 @@ static void a_collapsed_side_gives_no_parameters(void **state) {
 
 static void kappa_of_known_quads(void **state) {
   (void)state;
-  const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {1, 1, 0}, d[3] = {0, 1, 0}, lifted[3] = {1, 1, 1}, wide[3] = {3, 1, 0};
+  const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {1, 1, 0}, d[3] = {0, 1, 0}, lifted[3] = {1, 1, 1},
+               wide[3] = {3, 1, 0};
   CHECK_NEAR(quad_kappa(a, b, c, d), 0, 0);
   CHECK_NEAR(quad_kappa(a, b, lifted, d), 0.25, 1e-16);
   CHECK_NEAR(quad_kappa(a, b, wide, d), 0.5, 1e-16); /* a planar trapezoid */
@@ -111,9 +114,12 @@ static void kappa_of_known_quads(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parameters_are_merged_as_in_the_paper),       cmocka_unit_test(boundary_is_the_polylines_to_the_last_bit),
-      cmocka_unit_test(surface_equals_the_coons_formula_everywhere), cmocka_unit_test(nearly_equal_parameters_share_a_line),
-      cmocka_unit_test(a_collapsed_side_gives_no_parameters),        cmocka_unit_test(kappa_of_known_quads),
+      cmocka_unit_test(parameters_are_merged_as_in_the_paper),
+      cmocka_unit_test(boundary_is_the_polylines_to_the_last_bit),
+      cmocka_unit_test(surface_equals_the_coons_formula_everywhere),
+      cmocka_unit_test(nearly_equal_parameters_share_a_line),
+      cmocka_unit_test(a_collapsed_side_gives_no_parameters),
+      cmocka_unit_test(kappa_of_known_quads),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero; OpenMP settings and
- * parallel regions; errors and logs of several threads; standard output and error. */
+ * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero;
+ * OpenMP settings and parallel regions; errors and logs of several threads; standard output and error. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* feenableexcept */
 #endif
 #include <fenv.h>
 #include <omp.h>
-#include <unistd.h>
 #include <riis/riis.h>
+#include <unistd.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif

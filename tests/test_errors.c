@@ -11,9 +11,12 @@ static const int32_t ids[3] = {0, 1, 2};
 
 static void statuses_have_names(void **state) {
   (void)state;
-  static const char *const names[] = {"RIIS_INTERNAL_ERROR", "RIIS_OK", "RIIS_INVALID_ARGUMENT", "RIIS_INVALID_STRUCT_SIZE",
-                                      "RIIS_INVALID_PARAMETER", "RIIS_INVALID_SURFACE", "RIIS_INVALID_MESH", "RIIS_LIMIT_EXCEEDED",
-                                      "RIIS_OUT_OF_MEMORY", "RIIS_FILE_ERROR", "RIIS_UNAVAILABLE"};
+  static const char *const names[] = {"RIIS_INTERNAL_ERROR",    "RIIS_OK",
+                                      "RIIS_INVALID_ARGUMENT",  "RIIS_INVALID_STRUCT_SIZE",
+                                      "RIIS_INVALID_PARAMETER", "RIIS_INVALID_SURFACE",
+                                      "RIIS_INVALID_MESH",      "RIIS_LIMIT_EXCEEDED",
+                                      "RIIS_OUT_OF_MEMORY",     "RIIS_FILE_ERROR",
+                                      "RIIS_UNAVAILABLE"};
   for (int status = -1; status <= 9; ++status) assert_string_equal(riis_status_name(status), names[status + 1]);
   assert_string_equal(riis_status_name(10), "unknown status");
   assert_string_equal(riis_status_name(-2), "unknown status");
@@ -130,13 +133,17 @@ static void parameters_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is inf", riis_valve_set_scalar(valve, "root_radius", INFINITY));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is 0", riis_valve_set_scalar(valve, "root_radius", 0));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is -1.29", riis_valve_set_scalar(valve, "root_radius", -1.29));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'left.leaflet_angle' is 180|1 to 179", riis_valve_set_scalar(valve, "left.leaflet_angle", 180));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_power' is 0.5|from 1", riis_valve_set_scalar(valve, "leaflet_power", 0.5));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.translation'|3 values, not 1", riis_valve_set_scalar(valve, "right.translation", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'left.leaflet_angle' is 180|1 to 179",
+                riis_valve_set_scalar(valve, "left.leaflet_angle", 180));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_power' is 0.5|from 1",
+                riis_valve_set_scalar(valve, "leaflet_power", 0.5));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.translation'|3 values, not 1",
+                riis_valve_set_scalar(valve, "right.translation", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|1 value, not 3", riis_valve_set(valve, "xq", 3, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'translation' is nan", riis_valve_set(valve, "translation", 3, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not -1", riis_valve_set(valve, "xq", -1, values));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'translation'|'right.translation'", riis_valve_get(valve, "translation", 3, values));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'translation'|'right.translation'",
+                riis_valve_get(valve, "translation", 3, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not 2", riis_valve_get(valve, "xq", 2, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 39", riis_valve_parameter(valve, -1, NULL, 72));
@@ -160,12 +167,12 @@ static void surface_options_are_refused_by_name(void **state) {
   riis_surface *surface = NULL;
   riis_surface_options options;
   CHECK_OK(riis_valve_create("aortic", &valve));
-#define OPTION_IS_REFUSED(field, value, text)                                                  \
-  do {                                                                                         \
-    options = surface_options();                                                               \
-    options.field = value;                                                                     \
+#define OPTION_IS_REFUSED(field, value, text)                                                   \
+  do {                                                                                          \
+    options = surface_options();                                                                \
+    options.field = value;                                                                      \
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_surface_create(valve, &options, &surface)); \
-    assert_null(surface);                                                                      \
+    assert_null(surface);                                                                       \
   } while (0)
   OPTION_IS_REFUSED(half_thickness, 0, "half_thickness is 0");
   OPTION_IS_REFUSED(half_thickness, -0.1, "half_thickness is -0.1");
@@ -197,12 +204,12 @@ static void surface_arrays_are_refused_by_name(void **state) {
   riis_surface_arrays arrays;
   double bad[12];
   int32_t bad_ids[3] = {0, 1, 4}, negative[1] = {-3};
-#define ARRAYS_ARE_REFUSED(status, change, text)                                                 \
-  do {                                                                                           \
-    arrays = triangle_arrays(4, xyz, 1, ids);                                                    \
-    change;                                                                                      \
-    CHECK_REFUSED(status, text, riis_surface_create_from_arrays(&arrays, NULL, &surface));       \
-    assert_null(surface);                                                                        \
+#define ARRAYS_ARE_REFUSED(status, change, text)                                           \
+  do {                                                                                     \
+    arrays = triangle_arrays(4, xyz, 1, ids);                                              \
+    change;                                                                                \
+    CHECK_REFUSED(status, text, riis_surface_create_from_arrays(&arrays, NULL, &surface)); \
+    assert_null(surface);                                                                  \
   } while (0)
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.x = NULL, "arrays.x is NULL");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.y = NULL, "arrays.y is NULL");
@@ -223,15 +230,18 @@ static void surface_arrays_are_refused_by_name(void **state) {
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.leaflet_id = negative, "leaflet_id of face 0 is -3");
   memcpy(bad, xyz, sizeof bad);
   bad[11] = INFINITY; /* not even used by a face */
-  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2), "z of vertex 3 is inf");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
+                     "z of vertex 3 is inf");
   bad[11] = 1e61;
-  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2), "z of vertex 3 is 1e+61");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
+                     "z of vertex 3 is 1e+61");
   /* In range before its placement, beyond after it. */
   bad[11] = 1e59;
   riis_surface_options options = surface_options();
   options.scale = 100;
   arrays = triangle_arrays(4, bad, 1, ids);
-  CHECK_REFUSED(RIIS_INVALID_SURFACE, "vertex 3, placed,|1e+61", riis_surface_create_from_arrays(&arrays, &options, &surface));
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "vertex 3, placed,|1e+61",
+                riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
 
 static void points_and_meshes_are_refused_by_name(void **state) {
@@ -258,21 +268,28 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   nodes[7] = -2e60;
   CHECK_REFUSED(RIIS_INVALID_MESH, "y of node 2 is -2e+60", riis_mesh_create(4, nodes, nodes + 1, nodes + 2, 3, &mesh));
   assert_null(mesh);
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "y of point 2 is -2e+60", riis_closest_points(surface, 4, nodes, nodes + 1, nodes + 2, 3, NULL, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "y of point 2 is -2e+60",
+                riis_closest_points(surface, 4, nodes, nodes + 1, nodes + 2, 3, NULL, &out));
   for (int i = 0; i < 4; ++i) CHECK_SAME(distance[i], -9);
   const double not_a_point[3] = {0, 0, NAN};
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "z of point 0 is nan", riis_closest_point(surface, not_a_point, &closest, sizeof closest));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_points is -1", riis_closest_points(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "z of point 0 is nan",
+                riis_closest_point(surface, not_a_point, &closest, sizeof closest));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_points is -1",
+                riis_closest_points(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
   options.n_threads = 1025;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025",
+                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.n_threads = 0;
   options.distance_limit = -2;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is -2", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is -2",
+                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.distance_limit = NAN;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is nan", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is nan",
+                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.distance_limit = 5;
   options.far_distance = 5;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 5", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 5",
+                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   riis_surface_destroy(&surface);
 }
 
@@ -283,11 +300,11 @@ static void marking_options_are_refused_by_name(void **state) {
   riis_mark_result *result = NULL;
   CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
   CHECK_OK(riis_mark_result_create(&result));
-#define MARK_OPTION_IS_REFUSED(field, value, text)                                                  \
-  do {                                                                                              \
-    riis_mark_options options = mark_options();                                                     \
-    options.field = value;                                                                          \
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result));    \
+#define MARK_OPTION_IS_REFUSED(field, value, text)                                                \
+  do {                                                                                            \
+    riis_mark_options options = mark_options();                                                   \
+    options.field = value;                                                                        \
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result)); \
   } while (0)
   MARK_OPTION_IS_REFUSED(distance_limit, 0.05, "distance_limit is 0.05|half thickness, 0.1");
   MARK_OPTION_IS_REFUSED(distance_limit, NAN, "distance_limit is nan");
@@ -317,7 +334,8 @@ static void struct_sizes_are_checked(void **state) {
   options.struct_size = -8;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is -8", riis_surface_create(valve, &options, &surface));
   options.struct_size = INT64_MAX;
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 9223372036854775807", riis_surface_create(valve, &options, &surface));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 9223372036854775807",
+                riis_surface_create(valve, &options, &surface));
   riis_closest closest;
   surface = aortic_surface(NULL);
   const double origin[3] = {0, 0, 0};

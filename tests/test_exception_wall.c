@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What cannot be asked for through the public interface: failures from inside become a status and a text, and memory that runs out leaves
- * everything as it was. */
+ * What cannot be asked for through the public interface: failures from inside become a status and a text, and memory
+ * that runs out leaves everything as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,7 +20,8 @@ static void every_exception_becomes_a_status(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "a worker's error", wall_meets("worker"));
 }
 
-/* In a child process with little address space left: an update that needs much more is refused, the surface stays. Returns 0 if so. */
+/* In a child process with little address space left: an update that needs much more is refused, the surface stays.
+ * Returns 0 if so. */
 static int update_without_memory(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -36,10 +37,13 @@ static int update_without_memory(void) {
   riis_surface_get_info(surface, &before, sizeof before);
   options.tolerance = 1e-4; /* 3.5 million triangles */
   getrlimit(RLIMIT_AS, &limit);
+  const rlim_t unlimited = limit.rlim_cur;
   limit.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)160 << 20);
   setrlimit(RLIMIT_AS, &limit);
   if (riis_surface_update(surface, valve, &options) != RIIS_OUT_OF_MEMORY) return 4;
   if (strcmp(riis_last_error(), "out of memory") != 0) return 5;
+  limit.rlim_cur = unlimited; /* what comes now may need memory, and other threads may have taken what was left */
+  setrlimit(RLIMIT_AS, &limit);
   riis_surface_get_info(surface, &after, sizeof after);
   if (memcmp(&before, &after, sizeof before) != 0) return 6;
   const double origin[3] = {0, 0, 0};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marked nodes against the independent oracle and analytic shapes; lists, dense arrays, limits, masks, threads, reuse. */
+ * Marked nodes against the independent oracle and analytic shapes; lists, dense arrays, limits, masks, threads, reuse.
+ */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -83,7 +84,8 @@ static void aortic_marks_equal_the_oracle(void **state) {
     assert_int_equal(marked.leaflet_id[at], leaflet_id[marked.triangle_id[at]]);
     /* The triangle named attains the distance. */
     double abc[9];
-    for (int k = 0; k < 3; ++k) memcpy(abc + 3 * k, vertices + 3 * vertex_id[3 * marked.triangle_id[at] + k], 3 * sizeof *abc);
+    for (int k = 0; k < 3; ++k)
+      memcpy(abc + 3 * k, vertices + 3 * vertex_id[3 * marked.triangle_id[at] + k], 3 * sizeof *abc);
     CHECK_NEAR((double)oracle_point_triangle(xyz + 3 * i, abc), expected, 1e-13);
     ++at;
   }
@@ -103,7 +105,8 @@ static void aortic_marks_equal_the_oracle(void **state) {
   free(xyz);
 }
 
-/* A rectangle [0,4] x [0,2] in z = 0 on a lattice: the count of nodes within 1/2 is arithmetic, nodes exactly at 1/2 included. */
+/* A rectangle [0,4] x [0,2] in z = 0 on a lattice: the count of nodes within 1/2 is arithmetic, nodes exactly at 1/2
+ * included. */
 static void lattice_around_a_rectangle_is_counted(void **state) {
   (void)state;
   const double corners[12] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
@@ -180,8 +183,10 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   CHECK_OK(riis_mark_result_dense(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_of(wide).node_id[0] == 0);
   CHECK_OK(riis_mark_result_dense(wide, n, -1, mark, NULL, NULL, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 0.25|limit 0.25", riis_mark_result_dense(wide, n, 0.25, mark, NULL, NULL, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000", riis_mark_result_dense(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 0.25|limit 0.25",
+                riis_mark_result_dense(wide, n, 0.25, mark, NULL, NULL, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000",
+                riis_mark_result_dense(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
   riis_mark_result_destroy(&narrow);
   riis_mark_result_destroy(&wide);
   riis_mesh_destroy(&mesh);

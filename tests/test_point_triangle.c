@@ -22,7 +22,8 @@ static sample random_sample(double size, double thinness, double offset) {
   }
   const double shares[6] = {0, 0, 1, 0, random_between(&rng, 0, 1), thinness};
   for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < 3; ++c) s.abc[3 * k + c] = centre[c] + size * (shares[2 * k] * along[c] + shares[2 * k + 1] * across[c]);
+    for (int c = 0; c < 3; ++c)
+      s.abc[3 * k + c] = centre[c] + size * (shares[2 * k] * along[c] + shares[2 * k + 1] * across[c]);
   const double reach = size * pow(10, random_between(&rng, -3, 1));
   const int start = (int)(random_bits(&rng) % 3);
   for (int c = 0; c < 3; ++c) s.p[c] = s.abc[3 * start + c] + random_between(&rng, -reach, reach);
@@ -93,9 +94,14 @@ static void knows_its_regions(void **state) {
   const struct {
     double p[3], distance, w[3];
   } cases[] = {
-      {{0.5, 0.5, 3}, 3, {0.5, 0.25, 0.25}},          {{-3, -4, 0}, 5, {1, 0, 0}},      {{5, -4, 0}, 5, {0, 1, 0}},
-      {{0, 2, -7}, 7, {0, 0, 1}},                     {{1, -3, 4}, 5, {0.5, 0.5, 0}},   {{-2, 1, 0}, 2, {0.5, 0, 0.5}},
-      {{2, 2, 0}, 1.4142135623730951, {0, 0.5, 0.5}}, {{0.5, 0.25, 0}, 0, {0.625, 0.25, 0.125}},
+      {{0.5, 0.5, 3}, 3, {0.5, 0.25, 0.25}},
+      {{-3, -4, 0}, 5, {1, 0, 0}},
+      {{5, -4, 0}, 5, {0, 1, 0}},
+      {{0, 2, -7}, 7, {0, 0, 1}},
+      {{1, -3, 4}, 5, {0.5, 0.5, 0}},
+      {{-2, 1, 0}, 2, {0.5, 0, 0.5}},
+      {{2, 2, 0}, 1.4142135623730951, {0, 0.5, 0.5}},
+      {{0.5, 0.25, 0}, 0, {0.625, 0.25, 0.125}},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     double point[3], w[3];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What must not matter: where the whole stands, how it is turned, in which unit it is measured, in which order nodes and triangles come. */
+ * What must not matter: where the whole stands, how it is turned, in which unit it is measured, in which order nodes
+ * and triangles come. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -12,7 +13,8 @@ enum { n = 8000 };
 static double nodes[3 * n];
 
 /* Distances of all nodes to the surface, up to a limit; far nodes get 1e30. */
-static void distances(const riis_surface *surface, const double *xyz, double limit, double *distance, int32_t *leaflet_id) {
+static void distances(const riis_surface *surface, const double *xyz, double limit, double *distance,
+                      int32_t *leaflet_id) {
   riis_mesh *mesh = NULL;
   riis_mark_result *result = NULL;
   riis_mark_options options = mark_options();
@@ -72,7 +74,8 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
       for (int c = 0; c < 3; ++c) {
         const int d = (c + 1) % 3, e = (c + 2) % 3;
         moved_nodes[3 * i + c] =
-            options.scale * (v[c] * k + (axis[d] * v[e] - axis[e] * v[d]) * s + axis[c] * along * (1 - k)) + options.translation[c];
+            options.scale * (v[c] * k + (axis[d] * v[e] - axis[e] * v[d]) * s + axis[c] * along * (1 - k)) +
+            options.translation[c];
       }
     }
     surface = aortic_surface(&options);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * tolerance * half thickness bounds the distance between the triangles and the smooth surface, measured on an independent dense
- * evaluation of the smooth one: Coons patches of the Bézier curves by exact arc length. */
+ * tolerance * half thickness bounds the distance between the triangles and the smooth surface, measured on an
+ * independent dense evaluation of the smooth one: Coons patches of the Bézier curves by exact arc length. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -15,8 +15,9 @@ static double (*tables)[table_size + 1];
 static void bernstein(const double *q, int degree, double t, double *point) {
   const double a = 1 - t;
   for (int c = 0; c < 3; ++c)
-    point[c] = degree == 2 ? a * a * q[c] + 2 * a * t * q[3 + c] + t * t * q[6 + c]
-                           : a * a * a * q[c] + 3 * a * a * t * q[3 + c] + 3 * a * t * t * q[6 + c] + t * t * t * q[9 + c];
+    point[c] = degree == 2
+                   ? a * a * q[c] + 2 * a * t * q[3 + c] + t * t * q[6 + c]
+                   : a * a * a * q[c] + 3 * a * a * t * q[3 + c] + 3 * a * t * t * q[6 + c] + t * t * t * q[9 + c];
 }
 
 static void tabulate(void) {
@@ -36,10 +37,14 @@ static void at_share(int64_t i, double share, double *point) {
   int low = 0, high = table_size;
   while (high - low > 1) {
     const int middle = (low + high) / 2;
-    if (table[middle] <= target) low = middle; else high = middle;
+    if (table[middle] <= target)
+      low = middle;
+    else
+      high = middle;
   }
   const double step = table[high] - table[low];
-  bernstein(set.control + 12 * i, set.degree[i], (low + (step > 0 ? (target - table[low]) / step : 0)) / table_size, point);
+  bernstein(set.control + 12 * i, set.degree[i], (low + (step > 0 ? (target - table[low]) / step : 0)) / table_size,
+            point);
 }
 
 static void smooth_point(int64_t patch, double u, double v, double *point) {
@@ -52,8 +57,8 @@ static void smooth_point(int64_t patch, double u, double v, double *point) {
   const double *p00 = set.control + 12 * side[0], *p10 = p00 + 3 * set.degree[side[0]];
   const double *p01 = set.control + 12 * side[1], *p11 = p01 + 3 * set.degree[side[1]];
   for (int c = 0; c < 3; ++c)
-    point[c] = (1 - v) * c0[c] + v * c1[c] + (1 - u) * d0[c] + u * d1[c] - (1 - u) * (1 - v) * p00[c] - u * (1 - v) * p10[c] -
-               (1 - u) * v * p01[c] - u * v * p11[c];
+    point[c] = (1 - v) * c0[c] + v * c1[c] + (1 - u) * d0[c] + u * d1[c] - (1 - u) * (1 - v) * p00[c] -
+               u * (1 - v) * p10[c] - (1 - u) * v * p01[c] - u * v * p11[c];
 }
 
 static void deviation_stays_within_the_bound(void **state) {
@@ -73,7 +78,8 @@ static void deviation_stays_within_the_bound(void **state) {
         smooth_point(patch, random_between(&rng, 0, 1), random_between(&rng, 0, 1), p);
         to_triangles = fmax(to_triangles, closest_to(surface, p[0], p[1], p[2]).distance);
       }
-    /* ... and every triangle's middle is near the smooth surface: at most as far as the smooth point of its own (u,v). */
+    /* ... and every triangle's middle is near the smooth surface: at most as far as the smooth point of its own (u,v).
+     */
     int64_t n;
     const double *xyz, *uv;
     const int64_t *id;
@@ -90,8 +96,8 @@ static void deviation_stays_within_the_bound(void **state) {
       smooth_point(patch_id[t], at[0], at[1], p);
       to_smooth = fmax(to_smooth, hypot(hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]));
     }
-    printf("tolerance %5.3f: %6lld triangles; smooth to triangles %.2f, triangles to smooth %.2f of the bound\n", tolerances[i],
-           (long long)n, to_triangles / bound, to_smooth / bound);
+    printf("tolerance %5.3f: %6lld triangles; smooth to triangles %.2f, triangles to smooth %.2f of the bound\n",
+           tolerances[i], (long long)n, to_triangles / bound, to_smooth / bound);
     riis_surface_destroy(&surface);
     CHECK_AT_MOST(to_triangles, bound);
     CHECK_AT_MOST(to_smooth, bound);

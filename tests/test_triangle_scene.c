@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The Embree scene only culls: its answers are those of the loop over all triangles with the same kernel, bit for bit, wherever the
- * surface stands, whatever its shape, near and at the limit. */
+ * The Embree scene only culls: its answers are those of the loop over all triangles with the same kernel, bit for bit,
+ * wherever the surface stands, whatever its shape, near and at the limit. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -12,7 +12,8 @@ static void equals_the_loop_bit_for_bit(void **state) {
     enum { max_triangles = 400, n_points = 400 };
     static double xyz[9 * max_triangles], points[3 * n_points];
     const int64_t n = 1 + (int64_t)(random_bits(&rng) % max_triangles);
-    const double scale = pow(10, random_between(&rng, -40, 40)), offset = pow(10, random_between(&rng, -2, trial % 3 ? 3 : 9));
+    const double scale = pow(10, random_between(&rng, -40, 40)),
+                 offset = pow(10, random_between(&rng, -2, trial % 3 ? 3 : 9));
     const double size = pow(10, random_between(&rng, -4, 0)), flat = trial % 4 ? 1 : 0; /* also surfaces in a plane */
     double centre[3];
     for (int c = 0; c < 3; ++c) centre[c] = offset * random_between(&rng, -1, 1);
@@ -20,9 +21,11 @@ static void equals_the_loop_bit_for_bit(void **state) {
       for (int c = 0; c < 3; ++c) {
         const double at = random_between(&rng, -1, 1);
         for (int k = 0; k < 3; ++k)
-          xyz[9 * i + 3 * k + c] = scale * (centre[c] + (c == 2 ? flat : 1) * (at + size * random_between(&rng, -1, 1)));
+          xyz[9 * i + 3 * k + c] =
+              scale * (centre[c] + (c == 2 ? flat : 1) * (at + size * random_between(&rng, -1, 1)));
       }
-    const double reach = pow(10, random_between(&rng, -1, trial % 10 ? 1 : 8)), limit = scale * pow(10, random_between(&rng, -4, 1));
+    const double reach = pow(10, random_between(&rng, -1, trial % 10 ? 1 : 8)),
+                 limit = scale * pow(10, random_between(&rng, -4, 1));
     for (int64_t i = 0; i < n_points; ++i) {
       const double *corner = xyz + 9 * (random_bits(&rng) % (uint64_t)n);
       for (int c = 0; c < 3; ++c) /* some on corners and edges, where distances tie */

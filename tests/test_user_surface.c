@@ -30,7 +30,8 @@ static void every_layout_gives_the_same_surface(void **state) {
     memset(ids32, -1, sizeof ids32); /* nothing stays borrowed */
     memset(ids64, -1, sizeof ids64);
     CHECK_NEAR(info_of(surface).area, 1.5, 1e-15);
-    const riis_closest a = closest_to(surface, 0.9, 0.1, 1), b = closest_to(surface, 0.1, 0.9, -1), c = closest_to(surface, 0.1, 0.1, 7);
+    const riis_closest a = closest_to(surface, 0.9, 0.1, 1), b = closest_to(surface, 0.1, 0.9, -1),
+                       c = closest_to(surface, 0.1, 0.1, 7);
     assert_int_equal(a.triangle_id, 0);
     assert_int_equal(a.leaflet_id, 7);
     assert_int_equal(a.side, 1);
@@ -79,7 +80,8 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   riis_surface_options options = surface_options();
   riis_surface *surface = NULL;
   heard log = {0, ""};
-  CHECK_REFUSED(RIIS_INVALID_SURFACE, "face 1|0, 0, 3|zero area", riis_surface_create_from_arrays(&arrays, &options, &surface));
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "face 1|0, 0, 3|zero area",
+                riis_surface_create_from_arrays(&arrays, &options, &surface));
   assert_null(surface);
   options.zero_area = RIIS_ZERO_AREA_SKIP;
   riis_set_log(listen, &log);
@@ -93,12 +95,14 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   CHECK_OK(riis_surface_triangles(surface, NULL, NULL, &triangle_id, NULL, NULL));
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 4);
-  assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id, 4); /* the caller's number, not the place in the queue */
+  assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id,
+                   4); /* the caller's number, not the place in the queue */
   riis_surface_destroy(&surface);
 
   arrays.n_faces = 3;
   arrays.vertex_ids = with_bad + 3; /* only bad ones */
-  CHECK_REFUSED(RIIS_INVALID_SURFACE, "none of the 3 faces", riis_surface_create_from_arrays(&arrays, &options, &surface));
+  CHECK_REFUSED(RIIS_INVALID_SURFACE, "none of the 3 faces",
+                riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
 
 static void tiny_and_huge_surfaces_have_area(void **state) {
@@ -150,8 +154,8 @@ static void update_replaces_the_content(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* A closed box of sharp edges: inside is inside, also where the closest point is an edge or a corner; the plain normal of one face would
- * be wrong there. */
+/* A closed box of sharp edges: inside is inside, also where the closest point is an edge or a corner; the plain normal
+ * of one face would be wrong there. */
 static void side_at_edges_and_corners_of_a_wedge(void **state) {
   (void)state;
   /* A thin tetrahedron: dihedral angles far below and above 90 degrees. */
@@ -166,7 +170,8 @@ static void side_at_edges_and_corners_of_a_wedge(void **state) {
     /* Inside all four planes. */
     int inside = 1;
     for (int f = 0; f < 4; ++f) {
-      const double *a = points + 3 * faces[3 * f], *b = points + 3 * faces[3 * f + 1], *c = points + 3 * faces[3 * f + 2];
+      const double *a = points + 3 * faces[3 * f], *b = points + 3 * faces[3 * f + 1],
+                   *c = points + 3 * faces[3 * f + 2];
       const double n[3] = {(b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]),
                            (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]),
                            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])};

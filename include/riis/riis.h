@@ -35,6 +35,7 @@
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
  * models: application to cardiac valves" (2025); docs/theory.md lists every departure from it.
  */
+/* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_RIIS_H
 #define RIIS_RIIS_H
 
@@ -65,7 +66,8 @@ enum {
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
   RIIS_INVALID_STRUCT_SIZE = 2, /* struct_size does not fit any release of this struct: not filled by its init function,
                                    or the caller was compiled against a newer riis.h than the library */
-  RIIS_INVALID_PARAMETER = 3,   /* a valve or one of its parameters: unknown name, value out of range, values that do not go together */
+  RIIS_INVALID_PARAMETER = 3,   /* a valve or one of its parameters: unknown name, value out of range, values that do
+                                   not go together */
   RIIS_INVALID_SURFACE = 4,     /* the caller's surface arrays: empty, non-finite, index out of range, zero area */
   RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is sound but larger than the library takes on */
@@ -106,7 +108,7 @@ RIIS_API void riis_set_log(riis_log_function function, void *user_data);
  * Valve: named parameters (paper, table "Aortic valve parameters")
  * ------------------------------------------------------------------------------------------------------------------ */
 
-/* A parametric valve: its kind and the value of each of its parameters. No geometry is made before riis_surface_create. */
+/* A parametric valve: its kind and its parameters' values. No geometry is made before riis_surface_create. */
 typedef struct riis_valve riis_valve;
 
 /* Makes a valve of a kind by name with the paper's parameter values. Kinds: "aortic".
@@ -116,8 +118,8 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by the paper's name. Parameters of one cusp carry its name: "right.leaflet_angle", "left.rotation",
  * "non_coronary.bending_power"; those of the whole valve none: "root_radius". Scalars have 1 value, vectors 3 (rotation,
- * translation: x, y, z; t0_* and t3_*: right, left, non-coronary cusp). A name without a cusp where the parameter
- * belongs to a cusp ("translation", "leaflet_angle") sets it for all three cusps.
+ * translation: x, y, z; t0_* and t3_*: right, left, non-coronary cusp). A name without a cusp where the parameter belongs
+ * to a cusp ("translation", "leaflet_angle") sets it for all three cusps.
  *   n_values  length of values; must be the parameter's own length
  *   values    copied
  * Each value is checked against the parameter's range here; whether parameters go together (a bending height below the
@@ -163,19 +165,21 @@ enum {
   RIIS_ZERO_AREA_SKIP = 1    /* leave them out, count them, log a warning; the ids of the others do not change */
 };
 
-/* How a surface is made and where it stands. */
+/* How a surface is made and where it stands: x -> scale * rotation * x + translation, the placement, is applied last, to
+ * valves and to arrays alike. */
 typedef struct riis_surface_options {
   int64_t struct_size;
-  double half_thickness;     /* d_min: a node is marked when its distance to the surface is <= half_thickness (paper, 4.2).
-                                In placed (mesh) units, > 0. Default RIIS_AUTO: 0.1 * scale */
-  double tolerance;          /* generated valves: tolerance * half_thickness bounds |distance to the triangles - distance to the
-                                smooth surface|. 1e-6 to 1, default 0.05. Not used for surfaces from arrays */
-  double scale;              /* the placement x -> scale * rotation * x + translation, applied last, to valves and to arrays. */
-  double rotation_axis[3];   /*   scale 1e-12 to 1e12, default 1. The axis need not be unit, but not zero, default (0, 0, 1); */
-  double rotation_angle;     /*   rotation_angle in degrees, counter-clockwise seen against the axis, default 0;              */
-  double translation[3];     /*   translation in mesh units, default 0                                                        */
-  int32_t zero_area;         /* surfaces from arrays: RIIS_ZERO_AREA_*, default RIIS_ZERO_AREA_REFUSE */
-  int32_t flip_normals;      /* 1 turns every triangle over, so that normal and side change sign; default 0 */
+  double half_thickness;   /* d_min, in mesh units, > 0: a node is marked when its distance to the surface is at most this
+                              (paper, 4.2). Default RIIS_AUTO: 0.1 * scale */
+  double tolerance;        /* generated valves: tolerance * half_thickness bounds |distance to the triangles - distance to
+                              the smooth surface| (docs/theory.md, "Tolerance", says how firmly). 1e-6 to 1, default 0.05.
+                              Not used for surfaces from arrays */
+  double scale;            /* 1e-12 to 1e12, default 1 */
+  double rotation_axis[3]; /* of any length, not zero; default (0, 0, 1) */
+  double rotation_angle;   /* degrees, counter-clockwise seen against the axis; default 0 */
+  double translation[3];   /* mesh units; default 0 */
+  int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
+  int32_t flip_normals;    /* 1 turns every triangle over, so that normal and side change sign; default 0 */
 } riis_surface_options;
 /* Fills *options with the defaults; struct_size is sizeof(riis_surface_options) of the caller. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
@@ -187,7 +191,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  *   options  NULL for defaults
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together; RIIS_LIMIT_EXCEEDED where the tolerance asks for
  * more than 16,777,216 triangles. */
-RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface);
+RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
+                                         riis_surface **surface);
 
 /* The caller's own surface, triangles or quads, by arrays that are read during the call only. Filled by its init function;
  * then set what there is. */
@@ -197,7 +202,7 @@ typedef struct riis_surface_arrays {
   const double *x, *y, *z;   /* vertex i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60 */
   int64_t stride;            /* in doubles; 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
-  const void *vertex_ids;    /* corners_per_face entries a face, in the order that makes the normal by the right-hand rule */
+  const void *vertex_ids;    /* corners_per_face entries a face; their order makes the normal by the right-hand rule */
   int32_t vertex_id_bits;    /* 32 or 64: vertex_ids points to int32_t or int64_t. Default 32 */
   int32_t index_base;        /* 0 or 1: the number of the first vertex in vertex_ids. Default 0 */
   int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
@@ -216,7 +221,8 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
 /* Replaces the surface's content, as for a valve that moved: the handle stays, pointers got from it before end.
  *   options  NULL keeps the options that the surface has, not the defaults
  * On an error > 0 the surface is as it was. */
-RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options);
+RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
+                                         const riis_surface_options *options);
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
 RIIS_API void riis_surface_destroy(riis_surface **surface);
@@ -242,12 +248,13 @@ RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t 
 RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv);
 /* The triangles that closest points are sought on. Any pointer may be NULL. Lifetime as above.
  *   vertex_id    (3, n_triangles), from 0
- *   triangle_id  (n_triangles), ascending: the id that queries report. For a generated valve it is the position, 0, 1, 2, ...
+ *   triangle_id  (n_triangles), ascending: the id that queries report. For a generated valve the position: 0, 1, 2, ...
  *   leaflet_id   (n_triangles)
  *   patch_id     (n_triangles); generated valves: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
  *                surfaces from arrays: 0 */
-RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles, const int64_t **vertex_id,
-                                            const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id);
+RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
+                                            const int64_t **vertex_id, const int64_t **triangle_id,
+                                            const int32_t **leaflet_id, const int32_t **patch_id);
 
 /* ------------------------------------------------------------------------------------------------------------------ *
  * Closest points (paper, 4.1)
@@ -261,9 +268,9 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest of the closest triangles' ids */
   int32_t leaflet_id;
-  int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 on the surface. At an edge or
-                             a vertex that several triangles share, their angle-weighted normal decides (Baerentzen, Aanaes
-                             2005); vertices are shared when their placed coordinates are equal */
+  int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 on the surface. At an
+                             edge or a vertex that several triangles share, their angle-weighted normal decides
+                             (Baerentzen, Aanaes 2005); vertices are shared when their placed coordinates are equal */
 } riis_closest;
 /* Every number is computed in double precision, equal to that of a loop over all triangles.
  *   point        3 finite coordinates, magnitude at most 1e60
@@ -273,7 +280,8 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 
 typedef struct riis_closest_options {
   int64_t struct_size;
-  double distance_limit;  /* points farther than this get far_distance, ids -1, side 0, and zeros. Default RIIS_AUTO: no limit */
+  double distance_limit;  /* points farther than this get far_distance, ids -1, side 0, and zeros. >= 0; default
+                             RIIS_AUTO: no limit */
   double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
   int32_t n_threads;      /* 1 to 1024, or 0, the default: the processors this process may use */
   int32_t reserved;       /* 0 */
@@ -304,8 +312,8 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_
                                          const double *z, int64_t stride, const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
 
-/* The distance that a far point gets unless the caller chooses another: finite, so that it can be interpolated and compared
- * without floating-point exceptions. */
+/* The distance that a far point gets unless the caller chooses another: finite, so that it can be interpolated and
+ * compared without floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
 /* ------------------------------------------------------------------------------------------------------------------ *
@@ -344,8 +352,8 @@ enum {
 
 typedef struct riis_mark_options {
   int64_t struct_size;
-  double distance_limit;     /* distances are wanted up to here, in mesh units, >= the surface's half thickness; marks stay those of the
-                                half thickness. Default RIIS_AUTO: the half thickness */
+  double distance_limit;     /* distances are wanted up to here, in mesh units: from the surface's half thickness to
+                                1e60; marks stay those of the half thickness. Default RIIS_AUTO: the half thickness */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out; NULL: all nodes. Read during the call only */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* 1 to 1024, or 0, the default: the processors this process may use */
@@ -362,25 +370,29 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                                      riis_mark_result *result);
 
-/* The marked nodes, ascending by node_id, all arrays (n_marked). Any pointer may be NULL; with n_marked = 0 the arrays are NULL. Owned by
- * the result, valid until the next riis_mark_nodes with it or its destruction. A result never marked with has none. */
+/* The marked nodes, ascending by node_id, all arrays (n_marked). Any pointer may be NULL; with n_marked = 0 the arrays
+ * are NULL. Owned by the result, valid until the next riis_mark_nodes with it or its destruction. A result never marked
+ * with has none. */
 RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked, const int64_t **node_id,
-                                             const double **distance, const int64_t **triangle_id, const int32_t **leaflet_id);
-/* The same for all nodes within the distance limit, marked or not: a superset, equal to the marked nodes without a wider limit. */
+                                             const double **distance, const int64_t **triangle_id,
+                                             const int32_t **leaflet_id);
+/* The same for all nodes within the distance limit, marked or not: a superset, equal to the marked nodes without a wider
+ * limit. */
 RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within, const int64_t **node_id,
                                                    const double **distance, const int64_t **triangle_id,
                                                    const int32_t **leaflet_id);
 
-/* The same as dense arrays of the caller's, one entry a node of the mesh; NULL for what is not wanted. Every entry is written.
+/* The same as dense arrays of the caller's, one entry a node of the mesh; NULL for what is not wanted. Every entry is
+ * written.
  *   n_nodes       length of the arrays; must be the number of nodes that was marked with
- *   far_distance  distance of the nodes beyond the limit or masked out; RIIS_FAR_DISTANCE, or any value (NaN too) outside
- *                 [0, distance limit], so that no far node can look near
+ *   far_distance  distance of the nodes beyond the limit or masked out; RIIS_FAR_DISTANCE, or any value (NaN too)
+ *                 outside [0, distance limit], so that no far node can look near
  *   mark          1 for marked nodes, 0 for others
  *   distance      of every node within the distance limit, else far_distance
  *   triangle_id   of every node within the distance limit, else -1
  *   leaflet_id    of every node within the distance limit, else -1 */
-RIIS_API riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance, uint8_t *mark,
-                                            double *distance, int64_t *triangle_id, int32_t *leaflet_id);
+RIIS_API riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance,
+                                            uint8_t *mark, double *distance, int64_t *triangle_id, int32_t *leaflet_id);
 
 /* How the last marking went. */
 typedef struct riis_mark_stats {

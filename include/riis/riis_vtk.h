@@ -6,6 +6,7 @@
  * VTK keeps process-wide state: call these functions from one thread at a time. What VTK would print while a function
  * runs is caught and becomes the error text.
  */
+/* clang-format off: as riis.h */
 #ifndef RIIS_RIIS_VTK_H
 #define RIIS_RIIS_VTK_H
 

@@ -55,18 +55,30 @@ riis_status riis_component_error(riis_status status, const char *text) { return 
 
 const char *riis_status_name(riis_status status) {
   switch (status) {
-    case RIIS_OK: return "RIIS_OK";
-    case RIIS_INVALID_ARGUMENT: return "RIIS_INVALID_ARGUMENT";
-    case RIIS_INVALID_STRUCT_SIZE: return "RIIS_INVALID_STRUCT_SIZE";
-    case RIIS_INVALID_PARAMETER: return "RIIS_INVALID_PARAMETER";
-    case RIIS_INVALID_SURFACE: return "RIIS_INVALID_SURFACE";
-    case RIIS_INVALID_MESH: return "RIIS_INVALID_MESH";
-    case RIIS_LIMIT_EXCEEDED: return "RIIS_LIMIT_EXCEEDED";
-    case RIIS_OUT_OF_MEMORY: return "RIIS_OUT_OF_MEMORY";
-    case RIIS_FILE_ERROR: return "RIIS_FILE_ERROR";
-    case RIIS_UNAVAILABLE: return "RIIS_UNAVAILABLE";
-    case RIIS_INTERNAL_ERROR: return "RIIS_INTERNAL_ERROR";
-    default: return "unknown status";
+    case RIIS_OK:
+      return "RIIS_OK";
+    case RIIS_INVALID_ARGUMENT:
+      return "RIIS_INVALID_ARGUMENT";
+    case RIIS_INVALID_STRUCT_SIZE:
+      return "RIIS_INVALID_STRUCT_SIZE";
+    case RIIS_INVALID_PARAMETER:
+      return "RIIS_INVALID_PARAMETER";
+    case RIIS_INVALID_SURFACE:
+      return "RIIS_INVALID_SURFACE";
+    case RIIS_INVALID_MESH:
+      return "RIIS_INVALID_MESH";
+    case RIIS_LIMIT_EXCEEDED:
+      return "RIIS_LIMIT_EXCEEDED";
+    case RIIS_OUT_OF_MEMORY:
+      return "RIIS_OUT_OF_MEMORY";
+    case RIIS_FILE_ERROR:
+      return "RIIS_FILE_ERROR";
+    case RIIS_UNAVAILABLE:
+      return "RIIS_UNAVAILABLE";
+    case RIIS_INTERNAL_ERROR:
+      return "RIIS_INTERNAL_ERROR";
+    default:
+      return "unknown status";
   }
 }
 

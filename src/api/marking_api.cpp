@@ -54,14 +54,16 @@ void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **
 
 extern "C" {
 
-riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride, riis_mesh **mesh) {
+riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
+                             riis_mesh **mesh) {
   return guarded([&] {
     require(mesh, "mesh");
     *mesh = new riis_mesh{riis::make_mesh({n_nodes, x, y, z, stride})};
   });
 }
 
-riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride) {
+riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
+                             int64_t stride) {
   return guarded([&] { require(mesh, "mesh")->mesh = riis::make_mesh({n_nodes, x, y, z, stride}); });
 }
 
@@ -109,9 +111,11 @@ riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_m
 }
 
 riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within, const int64_t **node_id,
-                                          const double **distance, const int64_t **triangle_id, const int32_t **leaflet_id) {
-  return guarded(
-      [&] { get_list(require(result, "result")->result.within, n_within, node_id, distance, triangle_id, leaflet_id); });
+                                          const double **distance, const int64_t **triangle_id,
+                                          const int32_t **leaflet_id) {
+  return guarded([&] {
+    get_list(require(result, "result")->result.within, n_within, node_id, distance, triangle_id, leaflet_id);
+  });
 }
 
 riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance, uint8_t *mark,
@@ -122,8 +126,8 @@ riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nod
       riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is %lld; the result is of a mesh with %lld nodes",
                  static_cast<long long>(n_nodes), static_cast<long long>(content.stats.n_nodes));
     if (far_distance >= 0 && far_distance <= content.distance_limit)
-      riis::fail(RIIS_INVALID_ARGUMENT, "far_distance is %g; it must not lie between 0 and the distance limit %g", far_distance,
-                 content.distance_limit);
+      riis::fail(RIIS_INVALID_ARGUMENT, "far_distance is %g; it must not lie between 0 and the distance limit %g",
+                 far_distance, content.distance_limit);
     riis::write_dense(content, far_distance, mark, distance, triangle_id, leaflet_id);
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that cross the border with their size, so that a caller compiled against an older header keeps working: what it
-// does not know takes its default on the way in and is not written on the way out.
+// Structs that cross the border with their size, so that a caller compiled against an older header keeps working: what
+// it does not know takes its default on the way in and is not written on the way out.
 #pragma once
 
 #include <cstring>
@@ -16,7 +16,9 @@ void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && first_size <= sizeof(Struct) && sizeof(Struct) % 8 == 0);
   constexpr std::size_t size_here = sizeof(Struct);
   if (size < static_cast<std::int64_t>(first_size) || size > static_cast<std::int64_t>(size_here) || size % 8 != 0)
-    fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of %s is %lld; riis %s knows %lld to %lld: use its init function, and a header no newer than the library",
+    fail(RIIS_INVALID_STRUCT_SIZE,
+         "the struct size of %s is %lld; riis %s knows %lld to %lld: use its init function, and a header no newer than "
+         "the library",
          name, static_cast<long long>(size), riis_version_string(), static_cast<long long>(first_size),
          static_cast<long long>(size_here));
 }

@@ -20,16 +20,16 @@ using riis::require;
 namespace {
 
 // Sizes of the first release.
-constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104, closest_size = 96, closest_options_size = 32,
-                      closest_arrays_size = 64;
+constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104, closest_size = 96,
+                      closest_options_size = 32, closest_arrays_size = 64;
 
 const riis_surface_options default_options{sizeof(riis_surface_options), RIIS_AUTO, 0.05, 1.0, {0, 0, 1}, 0, {0, 0, 0},
-                                           RIIS_ZERO_AREA_REFUSE, 0};
-const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0,
-                                         nullptr};
+                                           RIIS_ZERO_AREA_REFUSE,        0};
+const riis_surface_arrays default_arrays{
+    sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr};
 const riis_closest_options default_closest_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0};
-const riis_closest_arrays default_closest_arrays{sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-                                                 nullptr};
+const riis_closest_arrays default_closest_arrays{
+    sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
 class Stopwatch {
  public:
@@ -60,7 +60,8 @@ void check_options(const riis_surface_options &options) {
   for (const double value : options.translation) check_range("translation", value, -1e50, 1e50);
   const double *axis = options.rotation_axis;
   if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (%g, %g, %g); it must not be zero", axis[0], axis[1], axis[2]);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (%g, %g, %g); it must not be zero", axis[0], axis[1],
+               axis[2]);
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
 }
@@ -69,7 +70,8 @@ riis::Placement placement_of(const riis_surface_options &options) {
   const double *axis = options.rotation_axis, *t = options.translation;
   // Scaled before it is squared.
   const double size = std::hypot(axis[0], axis[1], axis[2]);
-  return {options.scale, riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
+  return {options.scale,
+          riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
           {t[0], t[1], t[2]}};
 }
 
@@ -85,8 +87,8 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
   const double seconds_triangles = stopwatch.lap();
   auto made = std::make_unique<const riis::Surface>(std::move(triangles), half_thickness_of(options));
   const double seconds_scene = stopwatch.lap();
-  riis::log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s", made->triangles().n_triangles(),
-                    seconds_triangles, seconds_scene);
+  riis::log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s",
+                    made->triangles().n_triangles(), seconds_triangles, seconds_scene);
   surface.surface = std::move(made);
   surface.options = options;
   surface.seconds_triangles = seconds_triangles;
@@ -98,9 +100,10 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   check_options(options);
   fill(surface, options, [&](const riis::Placement &placement) {
     const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
-    riis::TriangleSet triangles = riis::triangulate(valve->valve.kind().make_patches(valve->valve.values()), max_error, placement,
-                                                    options.flip_normals != 0);
-    if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve's parameters leave it without any area");
+    riis::TriangleSet triangles = riis::triangulate(valve->valve.kind().make_patches(valve->valve.values()), max_error,
+                                                    placement, options.flip_normals != 0);
+    if (triangles.n_triangles() == 0)
+      riis::fail(RIIS_INVALID_PARAMETER, "the valve's parameters leave it without any area");
     return triangles;
   });
 }
@@ -109,7 +112,8 @@ void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, 
   const riis_surface_arrays whole = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
   check_options(options);
   fill(surface, options, [&](const riis::Placement &placement) {
-    return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP, options.flip_normals != 0);
+    return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP,
+                                       options.flip_normals != 0);
   });
 }
 
@@ -157,21 +161,24 @@ riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
   return guarded([&] {
-    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) { fill_from_valve(made, valve, whole); });
+    create(options, surface,
+           [&](riis_surface &made, const riis_surface_options &whole) { fill_from_valve(made, valve, whole); });
   });
 }
 
 riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
                                             riis_surface **surface) {
   return guarded([&] {
-    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) { fill_from_arrays(made, arrays, whole); });
+    create(options, surface,
+           [&](riis_surface &made, const riis_surface_options &whole) { fill_from_arrays(made, arrays, whole); });
   });
 }
 
 riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
   return guarded([&] {
     require(surface, "surface");
-    fill_from_valve(*surface, valve, riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+    fill_from_valve(*surface, valve,
+                    riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -179,7 +186,8 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
                                             const riis_surface_options *options) {
   return guarded([&] {
     require(surface, "surface");
-    fill_from_arrays(*surface, arrays, riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+    fill_from_arrays(*surface, arrays,
+                     riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -195,10 +203,15 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
     riis::write_struct<info_size>(info, struct_size, "info",
-                       riis_surface_info{static_cast<int64_t>(set.n_vertices()), static_cast<int64_t>(set.n_triangles()),
-                                         set.n_zero_area, content.half_thickness(), content.area(),
-                                         {lower.x, lower.y, lower.z}, {upper.x, upper.y, upper.z},
-                                         surface->seconds_triangles, surface->seconds_scene});
+                                  riis_surface_info{static_cast<int64_t>(set.n_vertices()),
+                                                    static_cast<int64_t>(set.n_triangles()),
+                                                    set.n_zero_area,
+                                                    content.half_thickness(),
+                                                    content.area(),
+                                                    {lower.x, lower.y, lower.z},
+                                                    {upper.x, upper.y, upper.z},
+                                                    surface->seconds_triangles,
+                                                    surface->seconds_scene});
   });
 }
 
@@ -230,7 +243,8 @@ riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_trian
   });
 }
 
-riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest, int64_t struct_size) {
+riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
+                               int64_t struct_size) {
   return guarded([&] {
     const riis::Surface &content = content_of(surface);
     require(point, "point");
@@ -242,29 +256,35 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
 }
 
 riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<closest_options_size>(options, struct_size, "options", default_closest_options); });
+  return guarded(
+      [&] { riis::init_struct<closest_options_size>(options, struct_size, "options", default_closest_options); });
 }
 
 riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<closest_arrays_size>(arrays, struct_size, "arrays", default_closest_arrays); });
+  return guarded(
+      [&] { riis::init_struct<closest_arrays_size>(arrays, struct_size, "arrays", default_closest_arrays); });
 }
 
-riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y, const double *z,
-                                int64_t stride, const riis_closest_options *options, const riis_closest_arrays *arrays) {
+riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y,
+                                const double *z, int64_t stride, const riis_closest_options *options,
+                                const riis_closest_arrays *arrays) {
   return guarded([&] {
     const riis::Surface &content = content_of(surface);
-    const riis_closest_options whole = riis::completed<closest_options_size>(options, "options", default_closest_options);
+    const riis_closest_options whole =
+        riis::completed<closest_options_size>(options, "options", default_closest_options);
     const riis_closest_arrays to =
         riis::completed<closest_arrays_size>(require(arrays, "arrays"), "arrays", default_closest_arrays);
-    if (n_points < 0) riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
+    if (n_points < 0)
+      riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
     riis::check_n_threads(whole.n_threads, "options.n_threads");
     const bool limited = whole.distance_limit != RIIS_AUTO;
     if (limited && !(whole.distance_limit >= 0))
       riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %g; it must be at least 0", whole.distance_limit);
     const double limit = limited ? whole.distance_limit : std::numeric_limits<double>::infinity();
     if (limited && whole.far_distance >= 0 && whole.far_distance <= limit)
-      riis::fail(RIIS_INVALID_ARGUMENT, "options.far_distance is %g; it must not lie between 0 and the distance limit %g",
-                 whole.far_distance, limit);
+      riis::fail(RIIS_INVALID_ARGUMENT,
+                 "options.far_distance is %g; it must not lie between 0 and the distance limit %g", whole.far_distance,
+                 limit);
     if (n_points == 0) return;
     const riis::StridedPoints points{n_points, x, y, z, stride};
     riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);

@@ -51,18 +51,25 @@ riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_paramete
   });
 }
 
-riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter, int64_t struct_size) {
+riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
+                                 int64_t struct_size) {
   return guarded([&] {
     require(valve, "valve");
     const auto &specs = valve->valve.kind().parameters;
     if (parameter_id < 0 || parameter_id >= static_cast<int64_t>(specs.size()))
       riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is %lld; the %s valve has parameters 0 to %lld",
-                 static_cast<long long>(parameter_id), valve->valve.kind().name, static_cast<long long>(specs.size()) - 1);
+                 static_cast<long long>(parameter_id), valve->valve.kind().name,
+                 static_cast<long long>(specs.size()) - 1);
     const riis::ParameterSpec &spec = specs[static_cast<std::size_t>(parameter_id)];
     const auto &defaults = spec.default_values;
     riis::write_struct<72>(parameter, struct_size, "parameter",
-                       riis_parameter{spec.name, spec.unit, spec.description, spec.n_values,
-                                      {defaults[0], defaults[1], defaults[2]}, spec.minimum, spec.maximum});
+                           riis_parameter{spec.name,
+                                          spec.unit,
+                                          spec.description,
+                                          spec.n_values,
+                                          {defaults[0], defaults[1], defaults[2]},
+                                          spec.minimum,
+                                          spec.maximum});
   });
 }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decision kernel: the closest point of one triangle to one point, in double precision. Every mark and every reported
-// distance comes from it, so it is compiled once, for the baseline instruction set and without contraction: the same
-// bits whoever calls. Also the exhaustive loop over all triangles, slow and exact: the oracle of every faster search.
+// The decision kernel: the closest point of one triangle to one point, in double precision. Every mark and every
+// reported distance comes from it, so it is compiled once, for the baseline instruction set and without contraction:
+// the same bits whoever calls. Also the exhaustive loop over all triangles, slow and exact: the oracle of every faster
+// search.
 #pragma once
 
 #include <array>
@@ -19,9 +20,9 @@ struct PointOnTriangle {
   std::array<double, 3> barycentric;  // >= 0; 0 exactly for a corner that an edge or vertex does not touch
 };
 
-// The triangle has an area (has_zero_area in surface/triangle_set.hpp). The point is the best of four candidates, each on the triangle
-// to rounding: on the three edges, clamped, and the foot of the perpendicular where that is inside. A misjudged "inside"
-// therefore costs rounding only, never a distance that is too small.
+// The triangle has an area (has_zero_area in surface/triangle_set.hpp). The point is the best of four candidates, each
+// on the triangle to rounding: on the three edges, clamped, and the foot of the perpendicular where that is inside. A
+// misjudged "inside" therefore costs rounding only, never a distance that is too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
 // Closest over several triangles: the smallest square, the lowest position among equals.

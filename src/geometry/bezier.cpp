@@ -26,8 +26,8 @@ double quadrature_of_speed(const Bezier &curve, double t0, double t1) {
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   double sum = 0;
   for (int i = 0; i < 4; ++i)
-    sum += weight[i] * (length(derivative(curve, middle - half * node[i])) +
-                        length(derivative(curve, middle + half * node[i])));
+    sum += weight[i] *
+           (length(derivative(curve, middle - half * node[i])) + length(derivative(curve, middle + half * node[i])));
   return half * sum;
 }
 
@@ -48,8 +48,8 @@ void flatten_after_first(const Bezier &curve, double max_flatness, int depth, st
     return;
   }
   if (depth == max_depth)
-    fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than %d points for a flatness of %g: the tolerance is too small", 1 << max_depth,
-         max_flatness);
+    fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than %d points for a flatness of %g: the tolerance is too small",
+         1 << max_depth, max_flatness);
   const auto [left, right] = split(curve, 0.5);
   flatten_after_first(left, max_flatness, depth + 1, points);
   flatten_after_first(right, max_flatness, depth + 1, points);

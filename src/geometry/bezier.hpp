@@ -30,14 +30,15 @@ Vec3 evaluate(const Bezier &curve, double t);
 // dB/dt.
 Vec3 derivative(const Bezier &curve, double t);
 
-// Length of the curve from parameter t0 to t1, t0 <= t1: adaptive Gauss-Legendre quadrature of |B'|, relative error about 1e-12.
+// Length of the curve from parameter t0 to t1, t0 <= t1: adaptive Gauss-Legendre quadrature of |B'|, relative error
+// about 1e-12.
 double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 
 // The two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
-// kappa: the largest distance of an inner control point to the segment from the first to the last. (The paper measures to the
-// line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
+// kappa: the largest distance of an inner control point to the segment from the first to the last. (The paper measures
+// to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
 double flatness(const Bezier &curve);
 
 // Points on the curve from its first to its last, halved until every piece has flatness <= max_flatness (> 0): paper,

@@ -98,7 +98,8 @@ Vec3 evaluate(const QuadGrid &grid, double u, double v) {
   const std::size_t i = interval(grid.u, u), j = interval(grid.v, v);
   const double du = (u - grid.u[i]) / (grid.u[i + 1] - grid.u[i]);
   const double dv = (v - grid.v[j]) / (grid.v[j + 1] - grid.v[j]);
-  return mix(mix(grid.point(i, j), grid.point(i + 1, j), du), mix(grid.point(i, j + 1), grid.point(i + 1, j + 1), du), dv);
+  return mix(mix(grid.point(i, j), grid.point(i + 1, j), du), mix(grid.point(i, j + 1), grid.point(i + 1, j + 1), du),
+             dv);
 }
 
 }  // namespace riis

@@ -10,20 +10,22 @@
 
 namespace riis {
 
-// The sides of a patch, named by the parameter that is constant on them. side_v0 and side_v1 run with u, side_u0 and side_u1
-// run with v. A collapsed side has length 0.
+// The sides of a patch, named by the parameter that is constant on them. side_v0 and side_v1 run with u, side_u0 and
+// side_u1 run with v. A collapsed side has length 0.
 struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// One line of the grid. Where vertices of two opposite sides nearly coincide in parameter they share a line, each side keeping its
-// own vertex: no sliver quads, and no vertex of a shared curve is lost or moved, so neighbouring patches stay without cracks.
+// One line of the grid. Where vertices of two opposite sides nearly coincide in parameter they share a line, each side
+// keeping its own vertex: no sliver quads, and no vertex of a shared curve is lost or moved, so neighbouring patches
+// stay without cracks.
 struct GridLine {
   double t0, t1;  // parameter on the first and the second side that the line ends on
   double middle;  // their mean: the line's u (or v)
 };
 
-// The union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without length gives none.
+// The union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without length
+// gives none.
 std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
 
 struct QuadGrid {
@@ -33,12 +35,12 @@ struct QuadGrid {
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
 };
 
-// The Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged where that moves a point by
-// at most max_merge_shift along a side.
+// The Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged where that
+// moves a point by at most max_merge_shift along a side.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift);
 
-// S(u,v): bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for the weight's
-// numerator; it is u - u_{o-1}.)
+// S(u,v): bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for the
+// weight's numerator; it is u - u_{o-1}.)
 Vec3 evaluate(const QuadGrid &grid, double u, double v);
 
 }  // namespace riis

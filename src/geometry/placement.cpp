@@ -10,10 +10,14 @@ SineCosine sine_cosine_degrees(double degrees) {
   const double radians = (turned - 90.0 * quarters) * (3.14159265358979323846 / 180.0);
   const double s = std::sin(radians), c = std::cos(radians);
   switch (static_cast<int>(quarters) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -31,7 +35,8 @@ Rotation rotation_xyz(Vec3 degrees) {
                  z = rotation_about({0, 0, 1}, degrees.z);
   const auto turned = [&](Vec3 a) { return z * (y * (x * a)); };
   const Vec3 column_x = turned({1, 0, 0}), column_y = turned({0, 1, 0}), column_z = turned({0, 0, 1});
-  return {{column_x.x, column_y.x, column_z.x}, {column_x.y, column_y.y, column_z.y}, {column_x.z, column_y.z, column_z.z}};
+  return {
+      {column_x.x, column_y.x, column_z.x}, {column_x.y, column_y.y, column_z.y}, {column_x.z, column_y.z, column_z.z}};
 }
 
 }  // namespace riis

@@ -14,8 +14,8 @@ inline Vec3 operator*(const Rotation &rotation, Vec3 a) {
   return {dot(rotation.row_x, a), dot(rotation.row_y, a), dot(rotation.row_z, a)};
 }
 
-// By an angle in degrees about an axis of any length > 0, counter-clockwise seen against the axis. Exact for multiples of 90
-// degrees about a coordinate axis.
+// By an angle in degrees about an axis of any length > 0, counter-clockwise seen against the axis. Exact for multiples
+// of 90 degrees about a coordinate axis.
 Rotation rotation_about(Vec3 axis, double degrees);
 
 // First about x, then y, then z, by degrees: how the paper's rotation [x, y, z] of a cusp is read.

@@ -18,8 +18,8 @@ struct Polyline {
 // Repeated points are dropped, so that t ascends strictly. At least one point.
 Polyline make_polyline(const std::vector<Vec3> &points);
 
-// C(t) by linear interpolation, t in [0,1]; a vertex exactly at its own t. C(1) is the last point. (The paper's smallest t_i > t
-// does not exist at t = 1.)
+// C(t) by linear interpolation, t in [0,1]; a vertex exactly at its own t. C(1) is the last point. (The paper's
+// smallest t_i > t does not exist at t = 1.)
 Vec3 evaluate(const Polyline &polyline, double t);
 
 }  // namespace riis

@@ -66,8 +66,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t, MarkResult &result) 
                   0};
 }
 
-void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance, std::int64_t *triangle_id,
-                 std::int32_t *leaflet_id) {
+void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,
+                 std::int64_t *triangle_id, std::int32_t *leaflet_id) {
   constexpr std::int64_t nodes_per_block = 65536;
   const std::int64_t n_nodes = result.stats.n_nodes;
   parallel_for((n_nodes + nodes_per_block - 1) / nodes_per_block, result.n_threads, [&](std::int64_t block, int) {

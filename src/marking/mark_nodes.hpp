@@ -11,7 +11,7 @@ namespace riis {
 void mark_nodes(const SearchRequest &request, std::int32_t search, MarkResult &result);
 
 // Dense arrays of the result, any of them null; docs at riis_mark_result_dense.
-void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance, std::int64_t *triangle_id,
-                 std::int32_t *leaflet_id);
+void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,
+                 std::int64_t *triangle_id, std::int32_t *leaflet_id);
 
 }  // namespace riis

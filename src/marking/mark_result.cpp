@@ -17,7 +17,8 @@ void NodeList::resize(std::size_t n) {
   leaflet_id.resize(n);
 }
 
-void NodeList::set(std::size_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet) {
+void NodeList::set(std::size_t i, std::int64_t node, double node_distance, std::int64_t triangle,
+                   std::int32_t leaflet) {
   node_id[i] = node;
   distance[i] = node_distance;
   triangle_id[i] = triangle;

@@ -29,7 +29,8 @@ struct NodeList {
   void set(std::size_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet);
 };
 
-// Found nodes by the thread that found them, and where those of each block of nodes are. Reused: a steady step allocates nothing.
+// Found nodes by the thread that found them, and where those of each block of nodes are. Reused: a steady step
+// allocates nothing.
 struct Collection {
   struct Block {
     int thread;

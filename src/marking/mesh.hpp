@@ -8,8 +8,8 @@
 
 namespace riis {
 
-// Checks pointers, stride and every coordinate; fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first coordinate (by
-// number) that is not finite or too large, naming it as `what` ("node", "point").
+// Checks pointers, stride and every coordinate; fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first
+// coordinate (by number) that is not finite or too large, naming it as `what` ("node", "point").
 void check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
 
 struct Mesh {

@@ -19,18 +19,17 @@ inline int default_thread_count() noexcept {
   return n < 1 ? 1 : n;
 }
 
-// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads and returns how many threads ran. Blocks are
-// handed out in ascending order, so each thread sees ascending block numbers. The first exception is thrown again here
-// after all threads have stopped. No setting of the caller's OpenMP changes; inside a caller's parallel region the loop runs
-// on as many threads as nesting allows.
+// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads and returns how many
+// threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. The first
+// exception is thrown again here after all threads have stopped. No setting of the caller's OpenMP changes; inside a
+// caller's parallel region the loop runs on as many threads as nesting allows.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_threads > n_blocks) n_threads = n_blocks < 1 ? 1 : static_cast<int>(n_blocks);
   std::atomic<std::int64_t> next_block{0};
   std::exception_ptr first_exception;
   int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) \
-    shared(n_blocks, body, next_block, first_exception, n_ran)
+#pragma omp parallel num_threads(n_threads) default(none) shared(n_blocks, body, next_block, first_exception, n_ran)
   {
     const FloatEnvironment environment;
     const int thread = omp_get_thread_num();

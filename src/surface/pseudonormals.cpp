@@ -70,7 +70,8 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   for (std::size_t first = 0; first < edges.size();) {
     std::size_t last = first;
     Vec3 sum{0, 0, 0};
-    for (; last < edges.size() && ends(edges[last]) == ends(edges[first]); ++last) sum = sum + face_[edges[last].slot / 3];
+    for (; last < edges.size() && ends(edges[last]) == ends(edges[first]); ++last)
+      sum = sum + face_[edges[last].slot / 3];
     for (; first < last; ++first) edge_[edges[first].slot] = sum;
   }
 }

@@ -20,7 +20,10 @@ double area_of(const TriangleSet &set) {
 }  // namespace
 
 Surface::Surface(TriangleSet triangles, double half_thickness)
-    : triangles_(std::move(triangles)), scene_(triangles_), half_thickness_(half_thickness), area_(area_of(triangles_)) {}
+    : triangles_(std::move(triangles)),
+      scene_(triangles_),
+      half_thickness_(half_thickness),
+      area_(area_of(triangles_)) {}
 
 const Pseudonormals &Surface::pseudonormals() const {
   if (const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire)) return *made;

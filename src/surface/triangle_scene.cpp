@@ -32,8 +32,8 @@ struct Release {
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-// One device for all surfaces of the process, there as long as one of them is: creating one costs more than a small scene. The
-// default configuration leaves threads to the caller's TBB settings.
+// One device for all surfaces of the process, there as long as one of them is: creating one costs more than a small
+// scene. The default configuration leaves threads to the caller's TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -73,11 +73,11 @@ struct Frame {
 // Beyond this many half extents from the centre single precision separates nothing: all triangles are asked.
 constexpr double far_away = 1e6;
 
-// The radius, in the frame's units, that makes Embree visit every triangle whose distance from q is at most `distance`. Embree
-// compares float sums of squares of the float point to outward-rounded boxes with the radius' square. With unit roundoff e = 2^-24
-// the point is off by at most sqrt(3) e max|q|; the subtractions, squares and sums are right to a factor 1 + 6 e, the radius'
-// square to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and 4 e max|q| cover these, with the rounding of this function itself;
-// 2^-60 keeps the radius' square a normal float.
+// The radius, in the frame's units, that makes Embree visit every triangle whose distance from q is at most `distance`.
+// Embree compares float sums of squares of the float point to outward-rounded boxes with the radius' square. With unit
+// roundoff e = 2^-24 the point is off by at most sqrt(3) e max|q|; the subtractions, squares and sums are right to a
+// factor 1 + 6 e, the radius' square to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and 4 e max|q| cover these, with the
+// rounding of this function itself; 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + 0x1p-60);

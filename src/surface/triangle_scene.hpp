@@ -2,8 +2,9 @@
 // Triangles in an Embree scene, asked for closest points. The only file, with its .cpp, that names Embree.
 // In: a triangle set, a point, a limit. Out: the closest triangle, equal to the brute force over the same kernel.
 //
-// Embree works in single precision. Here it only culls: coordinates are recentred and scaled by a power of two to the size of
-// the surface, boxes are rounded outwards, radii inflated by more than Embree's rounding; every candidate is decided in double.
+// Embree works in single precision. Here it only culls: coordinates are recentred and scaled by a power of two to the
+// size of the surface, boxes are rounded outwards, radii inflated by more than Embree's rounding; every candidate is
+// decided in double.
 #pragma once
 
 #include <memory>
@@ -25,8 +26,8 @@ class TriangleScene {
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
 
-  // The closest triangle to p, if its distance is at most limit (>= 0, may be infinite); triangle -1 if there is none. p is
-  // finite with coordinates up to max_coordinate. May be called by several threads at once.
+  // The closest triangle to p, if its distance is at most limit (>= 0, may be infinite); triangle -1 if there is none.
+  // p is finite with coordinates up to max_coordinate. May be called by several threads at once.
   ClosestTriangle closest(Vec3 p, double limit) const;
 
   const Bounds &bounds() const { return bounds_; }

@@ -27,7 +27,8 @@ void check_fields(const riis_surface_arrays &arrays) {
   if (arrays.n_vertices < 1 || arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
     fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is %lld; it must be from 1 to 2147483647", ll{arrays.n_vertices});
   const std::int64_t max_faces = max_triangles / (arrays.corners_per_face - 2);
-  if (arrays.n_faces < 1) fail(RIIS_INVALID_SURFACE, "arrays.n_faces is %lld; it must be at least 1", ll{arrays.n_faces});
+  if (arrays.n_faces < 1)
+    fail(RIIS_INVALID_SURFACE, "arrays.n_faces is %lld; it must be at least 1", ll{arrays.n_faces});
   if (arrays.n_faces > max_faces)
     fail(RIIS_LIMIT_EXCEEDED, "arrays.n_faces is %lld; it must be at most %lld", ll{arrays.n_faces}, ll{max_faces});
 }
@@ -52,7 +53,8 @@ void place_vertices(const riis_surface_arrays &arrays, const Placement &placemen
     for (int c = 0; c < 6; ++c)
       if (!(std::abs(coordinates[c]) <= max_coordinate))
         fail(RIIS_INVALID_SURFACE, "%s of vertex %lld%s is %g; it must be finite and at most %g in magnitude",
-             c % 3 == 0 ? "x" : (c % 3 == 1 ? "y" : "z"), ll{i}, c < 3 ? "" : ", placed,", coordinates[c], max_coordinate);
+             c % 3 == 0 ? "x" : (c % 3 == 1 ? "y" : "z"), ll{i}, c < 3 ? "" : ", placed,", coordinates[c],
+             max_coordinate);
     set.xyz.insert(set.xyz.end(), {placed.x, placed.y, placed.z});
   }
 }
@@ -71,15 +73,17 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
   set.leaflet_id.reserve(n_triangles);
   for (std::int64_t face = 0; face < arrays.n_faces; ++face) {
     const std::int32_t leaflet_id = arrays.leaflet_id ? arrays.leaflet_id[face] : 0;
-    if (leaflet_id < 0) fail(RIIS_INVALID_SURFACE, "arrays.leaflet_id of face %lld is %d; it must be at least 0", ll{face}, leaflet_id);
+    if (leaflet_id < 0)
+      fail(RIIS_INVALID_SURFACE, "arrays.leaflet_id of face %lld is %d; it must be at least 0", ll{face}, leaflet_id);
     for (std::int64_t half = 0; half < halves; ++half) {
       const std::int64_t a = vertex_id_at(arrays, face * corners);
       std::int64_t b = vertex_id_at(arrays, face * corners + half + 1);
       std::int64_t c = vertex_id_at(arrays, face * corners + half + 2);
       if (has_zero_area(set.vertex(a), set.vertex(b), set.vertex(c))) {
         if (!skip_zero_area)
-          fail(RIIS_INVALID_SURFACE, "face %lld (vertices %lld, %lld, %lld%s) has zero area", ll{face}, ll{a + arrays.index_base},
-               ll{b + arrays.index_base}, ll{c + arrays.index_base}, corners == 4 ? ", one half of a quad" : "");
+          fail(RIIS_INVALID_SURFACE, "face %lld (vertices %lld, %lld, %lld%s) has zero area", ll{face},
+               ll{a + arrays.index_base}, ll{b + arrays.index_base}, ll{c + arrays.index_base},
+               corners == 4 ? ", one half of a quad" : "");
         ++set.n_zero_area;
         continue;
       }
@@ -90,10 +94,10 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
     }
   }
   set.patch_id.assign(set.triangle_id.size(), 0);
-  if (set.n_triangles() == 0)
-    fail(RIIS_INVALID_SURFACE, "none of the %lld faces has any area", ll{arrays.n_faces});
+  if (set.n_triangles() == 0) fail(RIIS_INVALID_SURFACE, "none of the %lld faces has any area", ll{arrays.n_faces});
   if (set.n_zero_area > 0)
-    log_message(RIIS_LOG_WARNING, "%lld of %lld triangles have zero area and were left out", ll{set.n_zero_area}, ll{arrays.n_faces * halves});
+    log_message(RIIS_LOG_WARNING, "%lld of %lld triangles have zero area and were left out", ll{set.n_zero_area},
+                ll{arrays.n_faces * halves});
   return set;
 }
 

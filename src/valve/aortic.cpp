@@ -12,7 +12,19 @@ namespace riis {
 namespace {
 
 // Positions in the list of specs below: those of the whole valve, then those of each cusp.
-enum General { root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, n_general };
+enum General {
+  root_height,
+  root_radius,
+  leaflet_height,
+  bending_height,
+  t3_leaflet,
+  t3_bending,
+  t0_leaflet,
+  t0_bending,
+  xq,
+  zq,
+  n_general
+};
 enum OfCusp {
   leaflet_radius_in,
   leaflet_radius_out,
@@ -28,35 +40,83 @@ enum OfCusp {
 };
 constexpr std::size_t n_cusps = 3;
 
-// Ranges that keep every length between what a valve can be in micrometres and in kilometres; absurd ratios are refused when the
-// patches are made.
+// Ranges that keep every length between what a valve can be in micrometres and in kilometres; absurd ratios are refused
+// when the patches are made.
 constexpr double shortest = 1e-9, longest = 1e9;
 
-#define RIIS_CUSP(cusp, r_li, r_lo, a_l, p_l, r_bi, r_bo, a_b, p_b, turn)                                                       \
-  {cusp ".leaflet_radius_in", "length", "radius of the free edge at the symmetry plane", 1, {r_li}, 0, longest},                \
-      {cusp ".leaflet_radius_out", "length", "radius of the end of the free edge, at the commissure", 1, {r_lo}, shortest, longest}, \
-      {cusp ".leaflet_angle", "degree", "angle from the symmetry plane to the end of the free edge", 1, {a_l}, 1, 179},         \
-      {cusp ".leaflet_power", "1", "exponent of the free edge's profile", 1, {p_l}, 1, 100},                                    \
-      {cusp ".bending_radius_in", "length", "radius of the bending curve at the symmetry plane", 1, {r_bi}, 0, longest},        \
-      {cusp ".bending_radius_out", "length", "radius of the end of the bending curve, at the sinus", 1, {r_bo}, shortest, longest}, \
-      {cusp ".bending_angle", "degree", "angle from the symmetry plane to the end of the bending curve", 1, {a_b}, 1, 179},     \
-      {cusp ".bending_power", "1", "exponent of the bending curve's profile", 1, {p_b}, 1, 100},                                \
-      {cusp ".rotation", "degree", "turns of the cusp about x, then y, then z", 3, {0, 0, turn}, -360, 360}, {                  \
-    cusp ".translation", "length", "shift of the cusp after its rotation", 3, {0, 0, -1}, -longest, longest                     \
+#define RIIS_CUSP(cusp, r_li, r_lo, a_l, p_l, r_bi, r_bo, a_b, p_b, turn)                                                \
+  {cusp ".leaflet_radius_in", "length", "radius of the free edge at the symmetry plane", 1, {r_li}, 0, longest},         \
+      {cusp ".leaflet_radius_out",                                                                                       \
+       "length",                                                                                                         \
+       "radius of the end of the free edge, at the commissure",                                                          \
+       1,                                                                                                                \
+       {r_lo},                                                                                                           \
+       shortest,                                                                                                         \
+       longest},                                                                                                         \
+      {cusp ".leaflet_angle", "degree", "angle from the symmetry plane to the end of the free edge", 1, {a_l}, 1, 179},  \
+      {cusp ".leaflet_power", "1", "exponent of the free edge's profile", 1, {p_l}, 1, 100},                             \
+      {cusp ".bending_radius_in", "length", "radius of the bending curve at the symmetry plane", 1, {r_bi}, 0, longest}, \
+      {cusp ".bending_radius_out",                                                                                       \
+       "length",                                                                                                         \
+       "radius of the end of the bending curve, at the sinus",                                                           \
+       1,                                                                                                                \
+       {r_bo},                                                                                                           \
+       shortest,                                                                                                         \
+       longest},                                                                                                         \
+      {cusp ".bending_angle",                                                                                            \
+       "degree",                                                                                                         \
+       "angle from the symmetry plane to the end of the bending curve",                                                  \
+       1,                                                                                                                \
+       {a_b},                                                                                                            \
+       1,                                                                                                                \
+       179},                                                                                                             \
+      {cusp ".bending_power", "1", "exponent of the bending curve's profile", 1, {p_b}, 1, 100},                         \
+      {cusp ".rotation", "degree", "turns of the cusp about x, then y, then z", 3, {0, 0, turn}, -360, 360}, {           \
+    cusp ".translation", "length", "shift of the cusp after its rotation", 3, {0, 0, -1}, -longest, longest              \
   }
 
 PatchSet make_patches(const ParameterValues &values);
 
 const ValveKind kind = {
     "aortic",
-    {{"root_height", "length", "height of the root; does not enter the cusps: the translation does", 1, {1}, 0, longest},
+    {{"root_height",
+      "length",
+      "height of the root; does not enter the cusps: the translation does",
+      1,
+      {1},
+      0,
+      longest},
      {"root_radius", "length", "radius of the root, where the cusps are attached", 1, {1.29}, shortest, longest},
      {"leaflet_height", "length", "height of the free edge above the root", 1, {1.02}, shortest, longest},
      {"bending_height", "length", "height of the bending curve above the root", 1, {0.71}, shortest, longest},
-     {"t3_leaflet", "length", "end tangent of the free edge: right, left, non-coronary", 3, {0.5, 0.5, 0.65}, 0, longest},
-     {"t3_bending", "length", "end tangent of the bending curve: right, left, non-coronary", 3, {0.55, 0.23, 0.4}, 0, longest},
-     {"t0_leaflet", "length", "start tangent of the free edge: right, left, non-coronary", 3, {0.025, 0.1, 0.1}, 0, longest},
-     {"t0_bending", "length", "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
+     {"t3_leaflet",
+      "length",
+      "end tangent of the free edge: right, left, non-coronary",
+      3,
+      {0.5, 0.5, 0.65},
+      0,
+      longest},
+     {"t3_bending",
+      "length",
+      "end tangent of the bending curve: right, left, non-coronary",
+      3,
+      {0.55, 0.23, 0.4},
+      0,
+      longest},
+     {"t0_leaflet",
+      "length",
+      "start tangent of the free edge: right, left, non-coronary",
+      3,
+      {0.025, 0.1, 0.1},
+      0,
+      longest},
+     {"t0_bending",
+      "length",
+      "start tangent of the bending curve: right, left, non-coronary",
+      3,
+      {0.1, 0.1, 0.1},
+      0,
+      longest},
      {"xq", "1", "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
      {"zq", "1", "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
      RIIS_CUSP("right", 0.24, 1.365, 61, 1.58, 0.4, 1.39, 47.3, 1.82, 0),
@@ -65,11 +125,14 @@ const ValveKind kind = {
     make_patches};
 #undef RIIS_CUSP
 
-const char *name_of(std::size_t cusp, OfCusp parameter) { return kind.parameters[n_general + cusp * n_of_cusp + parameter].name; }
+const char *name_of(std::size_t cusp, OfCusp parameter) {
+  return kind.parameters[n_general + cusp * n_of_cusp + parameter].name;
+}
 
-// The free edge or the bending curve of half a cusp, y >= 0, in the cusp's frame: from the symmetry plane to the end at radius_out and angle,
-// along the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power.
-Bezier profile_curve(double radius_in, double radius_out, double angle, double power, double height, double t0, double t3) {
+// The free edge or the bending curve of half a cusp, y >= 0, in the cusp's frame: from the symmetry plane to the end at
+// radius_out and angle, along the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power.
+Bezier profile_curve(double radius_in, double radius_out, double angle, double power, double height, double t0,
+                     double t3) {
   const auto [sine, cosine] = sine_cosine_degrees(angle);
   const Vec3 first{radius_in, 0, height}, last{radius_out * cosine, radius_out * sine, height};
   const double chord_slope = (last.x - radius_in) / last.y;
@@ -96,10 +159,10 @@ HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
   const double R = general(root_radius), h_l = general(leaflet_height), h_b = general(bending_height), s = h_b / h_l;
 
   HalfCusp half;
-  half.leaflet = profile_curve(own(leaflet_radius_in), own(leaflet_radius_out), own(leaflet_angle), own(leaflet_power), h_l,
-                               general(t0_leaflet, cusp), general(t3_leaflet, cusp));
-  half.bending = profile_curve(own(bending_radius_in), own(bending_radius_out), own(bending_angle), own(bending_power), h_b,
-                               general(t0_bending, cusp), general(t3_bending, cusp));
+  half.leaflet = profile_curve(own(leaflet_radius_in), own(leaflet_radius_out), own(leaflet_angle), own(leaflet_power),
+                               h_l, general(t0_leaflet, cusp), general(t3_leaflet, cusp));
+  half.bending = profile_curve(own(bending_radius_in), own(bending_radius_out), own(bending_angle), own(bending_power),
+                               h_b, general(t0_bending, cusp), general(t3_bending, cusp));
 
   // Sinus: the quadratic from the root point to the leaflet's end, through the bending curve's end at s.
   const Vec3 root{R, 0, 0}, L = half.leaflet.last(), B = half.bending.last();
@@ -118,7 +181,8 @@ HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
 void check_together(const ParameterValues &values) {
   const double R = values[root_radius][0], h_l = values[leaflet_height][0], h_b = values[bending_height][0];
   if (!(h_b <= 0.99 * h_l && h_b >= 0.01 * h_l))
-    fail(RIIS_INVALID_PARAMETER, "bending_height is %g; it must be from 0.01 to 0.99 of leaflet_height, which is %g", h_b, h_l);
+    fail(RIIS_INVALID_PARAMETER, "bending_height is %g; it must be from 0.01 to 0.99 of leaflet_height, which is %g",
+         h_b, h_l);
   const auto check_ratio = [R](const char *name, double value) {
     if (value > 100 * R)
       fail(RIIS_INVALID_PARAMETER, "%s is %g; it must be at most 100 times root_radius, which is %g", name, value, R);

@@ -12,7 +12,8 @@ namespace {
 
 // A name as it appears in an error: cut, because it may be anything.
 struct Shown {
-  explicit Shown(std::string_view text) : size(static_cast<int>(std::min<std::size_t>(text.size(), 80))), data(text.data()) {}
+  explicit Shown(std::string_view text)
+      : size(static_cast<int>(std::min<std::size_t>(text.size(), 80))), data(text.data()) {}
   int size;
   const char *data;
 };
@@ -36,8 +37,8 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
          spec.n_values == 1 ? "" : "s", static_cast<long long>(n_values));
   for (int i = 0; i < spec.n_values; ++i)
     if (!(values[i] >= spec.minimum && values[i] <= spec.maximum))
-      fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' is %g; it must be from %g to %g", shown.size, shown.data, values[i],
-           spec.minimum, spec.maximum);
+      fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' is %g; it must be from %g to %g", shown.size, shown.data,
+           values[i], spec.minimum, spec.maximum);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ struct ValveKind {
 // The kind of that name; fails with RIIS_INVALID_PARAMETER naming the kinds there are.
 const ValveKind &find_valve_kind(std::string_view name);
 
-// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER, naming the parameter and the value, and then
-// leave the values as they were.
+// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER, naming the parameter and the value,
+// and then leave the values as they were.
 class Valve {
  public:
   explicit Valve(const ValveKind &kind);

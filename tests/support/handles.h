@@ -26,7 +26,8 @@ static inline riis_surface *aortic_surface(const riis_surface_options *options) 
 }
 
 /* Triangles from arrays: xyz(3, n_vertices), ids(3, n_triangles). */
-static inline riis_surface_arrays triangle_arrays(int64_t n_vertices, const double *xyz, int64_t n_triangles, const int32_t *ids) {
+static inline riis_surface_arrays triangle_arrays(int64_t n_vertices, const double *xyz, int64_t n_triangles,
+                                                  const int32_t *ids) {
   riis_surface_arrays arrays;
   CHECK_OK(riis_surface_arrays_init(&arrays, sizeof arrays));
   arrays.n_vertices = n_vertices;

@@ -55,7 +55,9 @@ QuadGrid grid_of(const std::int64_t *n, const double *const *points, double max_
 
 extern "C" {
 
-void bezier_evaluate(int degree, const double *control, double t, double *point) { put(evaluate(curve(degree, control), t), point); }
+void bezier_evaluate(int degree, const double *control, double t, double *point) {
+  put(evaluate(curve(degree, control), t), point);
+}
 
 void bezier_derivative(int degree, const double *control, double t, double *vector) {
   put(derivative(curve(degree, control), t), vector);
@@ -132,8 +134,9 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
     if (name) valve.set(name, 1, &value);
     const PatchSet made = valve.kind().make_patches(valve.values());
     const std::size_t n_curves = made.curves.size(), n_patches = made.patches.size();
-    *set = {static_cast<int64_t>(n_curves), static_cast<int64_t>(n_patches), room<int32_t>(n_curves), room<double>(12 * n_curves),
-            room<int64_t>(4 * n_patches),   room<int32_t>(n_patches),        room<int32_t>(n_patches)};
+    *set = {static_cast<int64_t>(n_curves), static_cast<int64_t>(n_patches), room<int32_t>(n_curves),
+            room<double>(12 * n_curves),    room<int64_t>(4 * n_patches),    room<int32_t>(n_patches),
+            room<int32_t>(n_patches)};
     for (std::size_t i = 0; i < n_curves; ++i) {
       set->degree[i] = made.curves[i].degree;
       for (std::size_t k = 0; k < 4; ++k) put(made.curves[i].control[k], set->control + 12 * i + 3 * k);
@@ -156,7 +159,8 @@ void patch_set_free(patch_set *set) {
   std::free(set->flip);
 }
 
-int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points, double limit) {
+int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
+                                double limit) {
   TriangleSet set;
   set.xyz.assign(xyz, xyz + 9 * n_triangles);
   for (int64_t i = 0; i < 3 * n_triangles; ++i) set.vertex_id.push_back(i);

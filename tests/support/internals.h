@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The stages behind the public interface, for tests in C. Points are arrays of 3 doubles; what is returned by pointer belongs to the caller
- * (free). A refusal is returned as its status with the text in riis_last_error(). */
+ * The stages behind the public interface, for tests in C. Points are arrays of 3 doubles; what is returned by pointer
+ * belongs to the caller (free). A refusal is returned as its status with the text in riis_last_error(). */
 #ifndef RIIS_TEST_INTERNALS_H
 #define RIIS_TEST_INTERNALS_H
 
@@ -19,7 +19,8 @@ double bezier_flatness(int degree, const double *control);
 riis_status bezier_flatten(int degree, const double *control, double max_flatness, int64_t *n_points, double **points);
 
 /* Polylines. */
-double polyline_make(int64_t n, const double *points, int64_t *n_kept, double *t); /* t has room for n; returns the length */
+double polyline_make(int64_t n, const double *points, int64_t *n_kept,
+                     double *t); /* t has room for n; returns the length */
 void polyline_evaluate(int64_t n, const double *points, double t, double *point);
 
 /* Coons patches of four polylines: n[4] points each, sides in the order v0, v1, u0, u1. */
@@ -47,12 +48,15 @@ typedef struct patch_set {
 riis_status aortic_patches(const char *name, double value, patch_set *set);
 void patch_set_free(patch_set *set);
 
-/* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the closest triangle to
- * each point; returns for how many points squared distance (bits) or triangle differ. Points beyond the limit must give none. */
-int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points, double limit);
+/* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the
+ * closest triangle to each point; returns for how many points squared distance (bits) or triangle differ. Points beyond
+ * the limit must give none. */
+int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
+                                double limit);
 
-/* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory", std::bad_alloc; "standard", another
- * standard exception, "boom"; "other", an int; "worker", an Error thrown by a worker thread of a parallel loop; "nothing", none. */
+/* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory",
+ * std::bad_alloc; "standard", another standard exception, "boom"; "other", an int; "worker", an Error thrown by a
+ * worker thread of a parallel loop; "nothing", none. */
 riis_status wall_meets(const char *exception);
 
 #ifdef __cplusplus

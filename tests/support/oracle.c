@@ -39,7 +39,8 @@ long double oracle_point_triangle(const double *p, const double *abc) {
   return length_minus(ap, vb / sum, ab, vc / sum, ac);
 }
 
-long double oracle_distance(const double *p, int64_t n, const int64_t *vertex_id, const double *xyz, int64_t *triangle) {
+long double oracle_distance(const double *p, int64_t n, const int64_t *vertex_id, const double *xyz,
+                            int64_t *triangle) {
   real smallest = INFINITY;
   for (int64_t i = 0; i < n; ++i) {
     double abc[9];

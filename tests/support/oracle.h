@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent answer to "how far is this triangle": Voronoi regions in extended precision, where the library projects in double. */
+ * An independent answer to "how far is this triangle": Voronoi regions in extended precision, where the library
+ * projects in double. */
 #ifndef RIIS_TEST_ORACLE_H
 #define RIIS_TEST_ORACLE_H
 
@@ -8,7 +9,8 @@
 /* Distance from p to the triangle a b c (abc[9]). */
 long double oracle_point_triangle(const double *p, const double *abc);
 
-/* Smallest distance from p to n triangles: vertex_id (3, n) into xyz. *triangle is the position of the first that attains it. */
+/* Smallest distance from p to n triangles: vertex_id (3, n) into xyz. *triangle is the position of the first that
+ * attains it. */
 long double oracle_distance(const double *p, int64_t n, const int64_t *vertex_id, const double *xyz, int64_t *triangle);
 
 #endif

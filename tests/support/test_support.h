@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What every test needs: CMocka with its headers in order, checks on doubles (CMocka 1.1.5 compares floats), random numbers with
- * a printed seed. */
+ * What every test needs: CMocka with its headers in order, checks on doubles (CMocka 1.1.5 compares floats), random
+ * numbers with a printed seed. */
 #ifndef RIIS_TEST_SUPPORT_H
 #define RIIS_TEST_SUPPORT_H
 
@@ -17,32 +17,33 @@
 #include <cmocka.h>
 
 /* |a - b| <= tolerance, and neither is NaN. */
-#define CHECK_NEAR(a, b, tolerance)                                                                              \
-  do {                                                                                                           \
-    const double check_a = (a), check_b = (b), check_t = (tolerance);                                            \
-    if (!(fabs(check_a - check_b) <= check_t))                                                                   \
-      fail_msg("%s = %.17g, %s = %.17g: differ by %.3g, more than %.3g", #a, check_a, #b, check_b, check_a - check_b, check_t); \
+#define CHECK_NEAR(a, b, tolerance)                                                                                   \
+  do {                                                                                                                \
+    const double check_a = (a), check_b = (b), check_t = (tolerance);                                                 \
+    if (!(fabs(check_a - check_b) <= check_t))                                                                        \
+      fail_msg("%s = %.17g, %s = %.17g: differ by %.3g, more than %.3g", #a, check_a, #b, check_b, check_a - check_b, \
+               check_t);                                                                                              \
   } while (0)
 
-#define CHECK_AT_MOST(a, limit)                                                                         \
-  do {                                                                                                  \
-    const double check_a = (a), check_l = (limit);                                                      \
+#define CHECK_AT_MOST(a, limit)                                                                              \
+  do {                                                                                                       \
+    const double check_a = (a), check_l = (limit);                                                           \
     if (!(check_a <= check_l)) fail_msg("%s = %.17g is more than %s = %.17g", #a, check_a, #limit, check_l); \
   } while (0)
 
 /* Same bits. */
-#define CHECK_SAME(a, b)                                                                 \
-  do {                                                                                   \
-    const double check_a = (a), check_b = (b);                                           \
-    if (memcmp(&check_a, &check_b, sizeof check_a) != 0)                                 \
-      fail_msg("%s = %.17g, %s = %.17g: not the same bits", #a, check_a, #b, check_b);   \
+#define CHECK_SAME(a, b)                                                               \
+  do {                                                                                 \
+    const double check_a = (a), check_b = (b);                                         \
+    if (memcmp(&check_a, &check_b, sizeof check_a) != 0)                               \
+      fail_msg("%s = %.17g, %s = %.17g: not the same bits", #a, check_a, #b, check_b); \
   } while (0)
 
 #ifdef RIIS_RIIS_H
-#define CHECK_OK(call)                                                                                         \
-  do {                                                                                                         \
-    const riis_status check_s = (call);                                                                        \
-    if (check_s != RIIS_OK) fail_msg("%s: %s: %s", #call, riis_status_name(check_s), riis_last_error());       \
+#define CHECK_OK(call)                                                                                   \
+  do {                                                                                                   \
+    const riis_status check_s = (call);                                                                  \
+    if (check_s != RIIS_OK) fail_msg("%s: %s: %s", #call, riis_status_name(check_s), riis_last_error()); \
   } while (0)
 
 /* The call is refused with this status and a text that holds every one of the parts (up to three, separated by '|'). */
