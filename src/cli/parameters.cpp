@@ -26,11 +26,10 @@ std::string text_of(const std::string &path) {
   errno = 0;
   std::ifstream file(path);
   std::ostringstream text;
-  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (!file || file.bad()) {
-    const std::string reason = errno ? "cannot be read: " + std::generic_category().message(errno) : "is empty";
-    refuse(path, reason);
-  }
+  if (file) text << file.rdbuf();
+  // A folder can be opened, but not read.
+  if (!file.is_open() || errno != 0) refuse(path, "cannot be read: " + std::generic_category().message(errno));
+  if (text.str().empty()) refuse(path, "is empty");
   return text.str();
 }
 

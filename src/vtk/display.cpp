@@ -3,9 +3,10 @@
 
 #include <X11/Xlib.h>
 
+#include <chrono>
 #include <cstdlib>
-#include <memory>
 #include <string>
+#include <thread>
 
 #include "vtk/vtk_errors.hpp"
 
@@ -14,23 +15,31 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-struct CloseDisplay {
-  void operator()(Display *display) const { XCloseDisplay(display); }
-};
+// The server may be resetting itself after a picture before this one.
+Display *open_display() {
+  for (int n_tries_left = 5;; --n_tries_left) {
+    Display *display = XOpenDisplay(nullptr);
+    if (display || n_tries_left == 1) return display;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
 
 }  // namespace
 
-void check_display() {
+HeldDisplay::HeldDisplay() {
   const char *name = std::getenv("DISPLAY");
   if (!name || !*name) fail(RIIS_UNAVAILABLE, std::string("a picture needs an X display: DISPLAY is not set") + advice);
-  const std::unique_ptr<Display, CloseDisplay> display(XOpenDisplay(nullptr));
-  if (!display) {
+  display_ = open_display();
+  if (!display_) {
     fail(RIIS_UNAVAILABLE, std::string("a picture needs an X display: DISPLAY ") + name + " cannot be opened" + advice);
   }
   int opcode = 0, event = 0, error = 0;
-  if (!XQueryExtension(display.get(), "GLX", &opcode, &event, &error)) {
+  if (!XQueryExtension(display_, "GLX", &opcode, &event, &error)) {
+    XCloseDisplay(display_);
     fail(RIIS_UNAVAILABLE, std::string("a picture needs OpenGL: DISPLAY ") + name + " has no GLX extension" + advice);
   }
 }
+
+HeldDisplay::~HeldDisplay() { XCloseDisplay(display_); }
 
 }  // namespace riis::vtk

@@ -2,9 +2,22 @@
 // VTK 9.1 renders through X and GLX only and aborts the process where it finds none.
 #pragma once
 
+struct _XDisplay;
+
 namespace riis::vtk {
 
-// Fails with RIIS_UNAVAILABLE unless the X display that VTK would open is there and has GLX.
-void check_display();
+// A connection to the X display that VTK would open, held while VTK draws: a server without clients resets itself, and
+// refuses connections meanwhile.
+class HeldDisplay {
+ public:
+  // Fails with RIIS_UNAVAILABLE unless the display is there and has GLX.
+  HeldDisplay();
+  ~HeldDisplay();
+  HeldDisplay(const HeldDisplay &) = delete;
+  HeldDisplay &operator=(const HeldDisplay &) = delete;
+
+ private:
+  _XDisplay *display_;
+};
 
 }  // namespace riis::vtk

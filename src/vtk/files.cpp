@@ -109,6 +109,12 @@ ReplacingFile::~ReplacingFile() {
   if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
+void ReplacingFile::write(const unsigned char *bytes, std::int64_t n_bytes) {
+  std::ofstream file(temporary_, std::ios::binary);
+  file.write(reinterpret_cast<const char *>(bytes), n_bytes);
+  if (!file.flush()) fail_file(path_, "cannot be written: " + system_text(errno));
+}
+
 void ReplacingFile::commit(const std::string &closing) {
   if (const int error = synchronise(temporary_)) fail_file(path_, "cannot be written: " + system_text(error));
   if (tail_of(temporary_, 64).find(closing) == std::string::npos) {

@@ -46,6 +46,8 @@ class ReplacingFile {
   ReplacingFile &operator=(const ReplacingFile &) = delete;
 
   const std::string &temporary() const { return temporary_; }
+  // Writes the content, for those who have it in memory.
+  void write(const unsigned char *bytes, std::int64_t n_bytes);
   // Fails unless the temporary file ends with the closing bytes, which a format writes last: a full disk stops a stream
   // early, and not every writer notices.
   void commit(const std::string &closing);

@@ -17,7 +17,7 @@ namespace riis::vtk {
 // An unstructured grid with at least one point, from .vtu (XML) or .vtk (legacy).
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught);
 
-// Polydata with at least one point, from .vtp (XML).
+// Polydata of polygons and strips only, with at least one point, from .vtp (XML).
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
 }  // namespace riis::vtk

@@ -15,6 +15,7 @@
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 #include "vtk/array_names.hpp"
@@ -37,7 +38,7 @@ struct View {
 View view_of(int32_t view) {
   if (view == RIIS_VTK_VIEW_SIDE) return {{0, 1, 0}, {0, 0, 1}};
   if (view == RIIS_VTK_VIEW_TOP) return {{0, 0, -1}, {0, 1, 0}};
-  View oblique = {{-0.45, 0.65, -0.85}, {0, 0, 1}};
+  View oblique = {{0.35, 0.55, -1.0}, {0, 0, 1}};
   vtkMath::Normalize(oblique.direction.data());
   const double along = oblique.direction[2];
   for (std::size_t k = 0; k < 3; ++k) oblique.up[k] -= along * oblique.direction[k];
@@ -102,6 +103,9 @@ void check_options(const riis_vtk_picture_options &options) {
   };
   check_pixels("width", options.width);
   check_pixels("height", options.height);
+  if (options.reserved != 0) {
+    fail(RIIS_INVALID_ARGUMENT, "options->reserved is " + std::to_string(options.reserved) + ", not 0");
+  }
 }
 
 void check_has_marks(const riis_vtk_mesh *mesh) {
@@ -117,21 +121,22 @@ void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOut
   vtkNew<vtkWindowToImageFilter> image;
   image->SetInput(window);
   image->ReadFrontBufferOff();
+  // Into memory, since the PNG library itself prints when a file cannot be written.
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.temporary().c_str());
+  writer->WriteToMemoryOn();
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError) {
-    fail_file(path, std::string("cannot be written: ") + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
-  }
   caught.check(path);
+  vtkUnsignedCharArray *bytes = writer->GetResult();
+  if (!bytes || writer->GetErrorCode() != vtkErrorCode::NoError) fail_file(path, "could not be encoded");
+  file.write(bytes->GetPointer(0), bytes->GetNumberOfValues());
   file.commit("IEND");
 }
 
 void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk_picture_options &options,
           const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
-  check_display();
+  const HeldDisplay display;
   const vtkSmartPointer<vtkPolyData> triangles = polydata_of(surface);
   const int text_size = std::max(8, options.height / 36);
   const double panel_width = mesh ? 0.5 : 1.0;

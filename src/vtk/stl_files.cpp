@@ -47,7 +47,7 @@ std::int64_t promised_triangles(const std::string &path, std::int64_t size) {
                         " triangles in its header");
   }
   if (tail_of(path, 4096).find("endsolid") == std::string::npos) fail_file(path, "is truncated: endsolid is missing");
-  return count_words(path, "facet");
+  return count_words(path, "endfacet");
 }
 
 }  // namespace
@@ -64,6 +64,7 @@ vtkSmartPointer<vtkPolyData> read_stl(const std::string &path, const CaughtOutpu
     fail_file(path, "gives " + std::to_string(data->GetNumberOfCells()) + " of the " + std::to_string(n_promised) +
                         " triangles that it promises");
   }
+  data->BuildCells();
   return data;
 }
 

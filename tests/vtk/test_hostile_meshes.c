@@ -181,9 +181,10 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   size_t size = 0;
   char *bytes = scratch_read(scratch_path(whole), &size);
   int n_refused = 0;
+  scratch_write(cut, bytes, size);
   scratch_watch_output();
-  for (size_t kept = 0; kept <= size; ++kept) {
-    scratch_write(cut, bytes, kept);
+  for (size_t kept = size + 1; kept-- > 0;) {
+    assert_int_equal(truncate(scratch_path(cut), (off_t)kept), 0);
     riis_vtk_mesh *mesh = NULL;
     int64_t n_nodes = -1, n_cells = -1;
     const riis_status status = read_mesh(cut, &mesh);

@@ -3,8 +3,10 @@
  * Pictures, under a virtual display: of the size that was asked for, not blank, one panel or two, different for each
  * view. */
 #include <riis/riis_vtk.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
 #include "expect.h"
 #include "scratch.h"
@@ -59,14 +61,14 @@ static void draw(const char *name, const riis_vtk_mesh *drawn, int32_t view, int
   assert_int_equal(n_printed, 0);
 }
 
-/* The picture has this size, many colours, and something drawn on a good part of both halves. */
+/* The picture has this size, many colours, and colour on a good part of both halves. */
 static void expect_picture(const char *name, int expected_width, int expected_height) {
-  int width = 0, height = 0, n_colours = 0, n_drawn[2] = {0, 0};
-  assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_drawn), 1);
+  int width = 0, height = 0, n_colours = 0, n_coloured[2] = {0, 0};
+  assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_coloured), 1);
   assert_int_equal(width, expected_width);
   assert_int_equal(height, expected_height);
   assert_true(n_colours > 100);
-  assert_true(n_drawn[0] > width * height / 40 && n_drawn[1] > width * height / 40);
+  assert_true(n_coloured[0] > width * height / 40 && n_coloured[1] > width * height / 40);
 }
 
 static void test_views(void **state) {
@@ -93,8 +95,8 @@ static void test_one_panel(void **state) {
   draw("alone.png", NULL, RIIS_VTK_VIEW_TOP, 300, 500);
   expect_picture("alone.png", 300, 500);
   draw("small.png", mesh, RIIS_VTK_VIEW_TOP, 64, 64);
-  int width = 0, height = 0, n_colours = 0, n_drawn[2];
-  assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_drawn), 1);
+  int width = 0, height = 0, n_colours = 0, n_coloured[2];
+  assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_coloured), 1);
   assert_true(width == 64 && height == 64 && n_colours > 1);
 }
 
@@ -120,6 +122,28 @@ static void test_nothing_marked(void **state) {
   riis_vtk_mesh_destroy(&other);
 }
 
+/* With room for n_bytes a file, as on a disk that fills up, there is no picture and nothing beside it. */
+static void test_full_disk(void **state) {
+  (void)state;
+  struct rlimit limit, small;
+  getrlimit(RLIMIT_FSIZE, &limit);
+  void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+  const int n_before = scratch_n_files();
+  const rlim_t rooms[] = {1, 100, 5000, 9000};
+  for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; ++i) {
+    small = limit;
+    small.rlim_cur = rooms[i];
+    scratch_watch_output();
+    setrlimit(RLIMIT_FSIZE, &small);
+    const riis_status status = riis_vtk_draw(surface, NULL, NULL, scratch_path("full.png"));
+    setrlimit(RLIMIT_FSIZE, &limit);
+    assert_int_equal(scratch_end_watch(), 0);
+    expect_refused(status, RIIS_FILE_ERROR, "full.png: ");
+    assert_int_equal(scratch_n_files(), n_before);
+  }
+  signal(SIGXFSZ, handler);
+}
+
 static void test_refusals(void **state) {
   (void)state;
   const int n_before = scratch_n_files();
@@ -132,10 +156,8 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_views),
-      cmocka_unit_test(test_one_panel),
-      cmocka_unit_test(test_nothing_marked),
-      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_views),     cmocka_unit_test(test_one_panel), cmocka_unit_test(test_nothing_marked),
+      cmocka_unit_test(test_full_disk), cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }

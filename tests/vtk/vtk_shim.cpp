@@ -223,7 +223,7 @@ int shim_read_array(const char *path, char where, const char *name, char type[32
   return 1;
 }
 
-int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_drawn[2]) {
+int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_coloured[2]) {
   vtkNew<vtkPNGReader> reader;
   if (!reader->CanReadFile(path)) return 0;
   reader->SetFileName(path);
@@ -233,16 +233,15 @@ int shim_read_png(const char *path, int *width, int *height, int *n_colours, int
   image->GetDimensions(size);
   *width = size[0];
   *height = size[1];
-  n_drawn[0] = n_drawn[1] = 0;
+  n_coloured[0] = n_coloured[1] = 0;
   const int n_channels = image->GetNumberOfScalarComponents();
   std::set<std::vector<unsigned char>> colours;
-  std::vector<unsigned char> background;
   for (int y = 0; y < size[1]; ++y) {
     for (int x = 0; x < size[0]; ++x) {
       const auto *pixel = static_cast<const unsigned char *>(image->GetScalarPointer(x, y, 0));
       const std::vector<unsigned char> colour(pixel, pixel + n_channels);
-      if (background.empty()) background = colour;
-      n_drawn[x < size[0] / 2 ? 0 : 1] += colour != background;
+      const auto [least, most] = std::minmax_element(colour.begin(), colour.end());
+      n_coloured[x < size[0] / 2 ? 0 : 1] += *most - *least > 60;
       colours.insert(colour);
     }
   }

@@ -34,7 +34,7 @@ int shim_read_array(const char *path, char where, const char *name, char type[32
 
 /* Width, height, how many different colours, and how many pixels of the left and the right half differ from the
  * corner's colour. */
-int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_drawn[2]);
+int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_coloured[2]);
 
 /* Distances of points to triangles by VTK's own searches. */
 enum { SHIM_STATIC_LOCATOR, SHIM_CELL_LOCATOR, SHIM_IMPLICIT_DISTANCE };

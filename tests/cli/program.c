@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "program.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scratch.h"
+#include "vtk_shim.h"
+
+int program_exit_code;
+char program_out[longest_output], program_err[longest_output];
+
+static void give_up(const char *what) {
+  perror(what);
+  exit(1);
+}
+
+/* Both streams go to files, so that neither can fill up while nobody reads it. */
+static int temporary_file(void) {
+  char name[] = "output-XXXXXX";
+  const int file = mkstemp(name);
+  if (file < 0) give_up("mkstemp");
+  unlink(name);
+  return file;
+}
+
+static void take_text(int file, char text[longest_output]) {
+  const ssize_t n = pread(file, text, longest_output - 1, 0);
+  if (n < 0) give_up("pread");
+  text[n] = 0;
+  close(file);
+}
+
+void run_program(const char *argument, ...) {
+  const char *arguments[64] = {RIIS_MARK_PROGRAM};
+  int n = 1;
+  va_list rest;
+  va_start(rest, argument);
+  for (const char *next = argument; next; next = va_arg(rest, const char *)) arguments[n++] = next;
+  va_end(rest);
+
+  const int out = temporary_file(), err = temporary_file();
+  fflush(NULL);
+  const pid_t process = fork();
+  if (process < 0) give_up("fork");
+  if (process == 0) {
+    dup2(out, STDOUT_FILENO);
+    dup2(err, STDERR_FILENO);
+    execv(RIIS_MARK_PROGRAM, (char *const *)(uintptr_t)arguments);
+    _exit(127);
+  }
+  int status = 0;
+  if (waitpid(process, &status, 0) != process) give_up("waitpid");
+  program_exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  take_text(out, program_out);
+  take_text(err, program_err);
+}
+
+void expect_run_fine(const char *file, int line) {
+  if (program_exit_code != 0 || program_err[0]) {
+    print_error("%s:%d: exit code %d, stderr: %s\n", file, line, program_exit_code, program_err);
+    fail();
+  }
+}
+
+void expect_run_refused(int exit_code, const char *part_of_text, const char *file, int line) {
+  const char *end = strchr(program_err, '\n');
+  const int one_line = end && end[1] == 0;
+  const int named = strncmp(program_err, "riis-mark: ", 11) == 0;
+  if (program_exit_code != exit_code || !one_line || !named || !strstr(program_err, part_of_text) || program_out[0]) {
+    print_error("%s:%d: exit code %d for %d, wanted one line with \"%s\"\nstderr: %s\nstdout: %s\n", file, line,
+                program_exit_code, exit_code, part_of_text, program_err, program_out);
+    fail();
+  }
+}
+
+static const char *value_of(const char *json, const char *key) {
+  char quoted[64];
+  snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+  const char *found = strstr(json, quoted);
+  if (!found) fail_msg("no \"%s\" in %s", key, json);
+  return found + strlen(quoted);
+}
+
+double json_number(const char *json, const char *key) {
+  const char *text = value_of(json, key);
+  char *end = NULL;
+  const double number = strtod(text, &end);
+  if (end == text) fail_msg("\"%s\" is not a number in %s", key, json);
+  return number;
+}
+
+int json_has_text(const char *json, const char *key, const char *value) {
+  return strncmp(value_of(json, key), value, strlen(value)) == 0;
+}
+
+int make_box(void **state) {
+  const double lower[3] = {-1.7, -1.6, -1.3}, upper[3] = {1.5, 1.6, 0.4};
+  scratch_setup(state);
+  return shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_box_side, lower, upper, 1) ? 0 : -1;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Runs riis-mark as a user would and keeps what it printed. */
+#ifndef RIIS_TESTS_PROGRAM_H
+#define RIIS_TESTS_PROGRAM_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+enum { longest_output = 65536 };
+
+/* The last run. */
+extern int program_exit_code; /* 128 + N where signal N ended it */
+extern char program_out[longest_output], program_err[longest_output];
+
+/* Runs the program with these arguments; the last one is NULL. */
+void run_program(const char *argument, ...);
+
+/* Runs it, and fails the test unless it went well with nothing on stderr. */
+#define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
+/* Runs it, and fails the test unless it gave up with this code, nothing on stdout, and one line on stderr with this
+ * text. */
+#define RUN_REFUSED(exit_code, text, ...) \
+  (run_program(__VA_ARGS__, NULL), expect_run_refused(exit_code, text, __FILE__, __LINE__))
+
+void expect_run_fine(const char *file, int line);
+void expect_run_refused(int exit_code, const char *part_of_text, const char *file, int line);
+
+/* The number behind "key": in JSON text; fails the test if there is none. */
+double json_number(const char *json, const char *key);
+int json_has_text(const char *json, const char *key, const char *value);
+
+/* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */
+enum { n_box_side = 13, n_box = n_box_side * n_box_side * n_box_side };
+int make_box(void **state);
+
+#endif

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The files that riis-mark writes against the C interface run on the same mesh. */
+#include <riis/riis_vtk.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+/* What the C interface says about in.vtu. */
+typedef struct expected_marks {
+  riis_surface *surface;
+  uint8_t marked[n_box];
+  double distance[n_box];
+  int32_t leaflet[n_box];
+  riis_mark_stats stats;
+} expected_marks;
+
+static expected_marks expected;
+
+static void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_options, double distance_limit,
+                      double far_distance) {
+  static double xyz[3 * n_box];
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  riis_mark_options mark_options;
+  assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, NULL, xyz), 1);
+  riis_surface_destroy(&expected.surface);
+  expect_fine(riis_surface_create(valve, surface_options, &expected.surface));
+  expect_fine(riis_mesh_create(n_box, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_mark_options_init(&mark_options, sizeof mark_options));
+  mark_options.distance_limit = distance_limit;
+  expect_fine(riis_mark_nodes(expected.surface, mesh, &mark_options, result));
+  expect_fine(
+      riis_mark_result_dense(result, n_box, far_distance, expected.marked, expected.distance, NULL, expected.leaflet));
+  expect_fine(riis_mark_result_stats(result, &expected.stats, sizeof expected.stats));
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+}
+
+static void expect_array(const char *name, const char *expected_type, int kind) {
+  static double values[n_box];
+  char type[32];
+  int64_t n_components = 0, n_tuples = 0;
+  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', name, type, &n_components, &n_tuples, values), 1);
+  assert_string_equal(type, expected_type);
+  assert_int_equal(n_components, 1);
+  assert_int_equal(n_tuples, n_box);
+  for (int i = 0; i < n_box; ++i) {
+    const double wanted = kind == 0 ? expected.marked[i] : kind == 1 ? expected.distance[i] : expected.leaflet[i];
+    if (memcmp(&values[i], &wanted, sizeof wanted))
+      fail_msg("%s of node %d is %.17g, not %.17g", name, i, values[i], wanted);
+  }
+}
+
+/* out.vtu is in.vtu, its points as doubles, with the expected marks. */
+static void expect_marked_mesh(void) {
+  static double before[3 * n_box], after[3 * n_box];
+  static int64_t corners[2][24 * n_box];
+  int64_t n_points = 0, n_cells = 0;
+  char type[32];
+  assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, type, before), 1);
+  assert_string_equal(type, "float");
+  assert_int_equal(shim_read_points(scratch_path("out.vtu"), &n_points, &n_cells, type, after), 1);
+  assert_string_equal(type, "double");
+  assert_int_equal(n_points, n_box);
+  assert_memory_equal(before, after, sizeof before);
+  const int64_t n_corners = shim_read_corners(scratch_path("in.vtu"), corners[0]);
+  assert_int_equal(shim_read_corners(scratch_path("out.vtu"), corners[1]), n_corners);
+  assert_memory_equal(corners[0], corners[1], (size_t)n_corners * sizeof corners[0][0]);
+  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "pressure", NULL, NULL, NULL, NULL), 1);
+  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'c', "region", NULL, NULL, NULL, NULL), 1);
+  expect_array("riis_marked", "unsigned char", 0);
+  expect_array("riis_distance", "double", 1);
+  expect_array("riis_leaflet", "int", 2);
+  assert_true(expected.stats.n_marked > 20);
+}
+
+static void expect_surface_output(void) {
+  int64_t n_vertices = 0, n_triangles = 0, n_points = 0, n_cells = 0;
+  const double *xyz = NULL;
+  const int64_t *vertex_id = NULL;
+  expect_fine(riis_surface_vertices(expected.surface, &n_vertices, &xyz));
+  expect_fine(riis_surface_triangles(expected.surface, &n_triangles, &vertex_id, NULL, NULL, NULL));
+  char type[32];
+  assert_int_equal(shim_read_points(scratch_path("out.vtp"), &n_points, &n_cells, type, NULL), 1);
+  assert_string_equal(type, "double");
+  assert_int_equal(n_points, n_vertices);
+  assert_int_equal(n_cells, n_triangles);
+  double *points = malloc((size_t)(3 * n_points) * sizeof *points);
+  shim_read_points(scratch_path("out.vtp"), NULL, NULL, NULL, points);
+  assert_memory_equal(points, xyz, (size_t)(3 * n_points) * sizeof *points);
+  free(points);
+  int64_t *corners = malloc((size_t)(3 * n_cells) * sizeof *corners);
+  assert_int_equal(shim_read_corners(scratch_path("out.vtp"), corners), 3 * n_triangles);
+  assert_memory_equal(corners, vertex_id, (size_t)(3 * n_cells) * sizeof *corners);
+  free(corners);
+}
+
+static void test_defaults(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  expect_fine(riis_valve_create("aortic", &valve));
+  mark_by_c(valve, NULL, RIIS_AUTO, RIIS_FAR_DISTANCE);
+  riis_valve_destroy(&valve);
+  RUN_FINE(scratch_path("in.vtu"), "--output", scratch_path("out.vtu"), "--surface-output", scratch_path("out.vtp"));
+  expect_marked_mesh();
+  expect_surface_output();
+  assert_non_null(strstr(program_out, "2,197 nodes"));
+  assert_non_null(strstr(program_out, "aortic valve"));
+}
+
+static void test_every_number(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface_options options;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_valve_set_scalar(valve, "root_radius", 1.3));
+  expect_fine(riis_valve_set_scalar(valve, "right.leaflet_angle", 60));
+  const double shift[3] = {0.1, -0.05, -0.9};
+  expect_fine(riis_valve_set(valve, "left.translation", 3, shift));
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = 0.17;
+  options.tolerance = 0.4;
+  options.scale = 1.1;
+  options.rotation_axis[0] = 1;
+  options.rotation_axis[1] = -2;
+  options.rotation_axis[2] = 0.5;
+  options.rotation_angle = -12.5;
+  options.translation[0] = -0.1;
+  options.translation[2] = -0.2;
+  options.flip_normals = 1;
+  mark_by_c(valve, &options, 0.35, -2.5);
+  riis_valve_destroy(&valve);
+  RUN_FINE("--set", "root_radius=1.3", "--set", "right.leaflet_angle=60", scratch_path("in.vtu"), "--set",
+           "left.translation=0.1,-0.05,-0.9", "--half-thickness", "0.17", "--tolerance", ".4", "--scale", "1.1",
+           "--rotate", "1,-2,0.5,-12.5", "--translate", "-0.1,0,-2e-1", "--flip-normals", "--distance-limit", "0.35",
+           "--far-distance", "-2.5", "--search", "exhaustive", "--threads", "1", "--output", scratch_path("out.vtu"),
+           "--surface-output", scratch_path("out.vtp"), "--stats", scratch_path("stats.json"), "--quiet");
+  expect_marked_mesh();
+  expect_surface_output();
+  assert_string_equal(program_out, "");
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  riis_surface_info info;
+  expect_fine(riis_surface_get_info(expected.surface, &info, sizeof info));
+  assert_true(json_number(json, "n_nodes") == n_box);
+  assert_true(json_number(json, "n_marked") == (double)expected.stats.n_marked);
+  assert_true(json_number(json, "n_within_limit") == (double)expected.stats.n_within_limit);
+  assert_true(expected.stats.n_within_limit > expected.stats.n_marked);
+  assert_true(json_number(json, "n_triangles") == (double)info.n_triangles);
+  assert_true(json_number(json, "area") == info.area);
+  assert_true(json_number(json, "half_thickness") == 0.17);
+  assert_true(json_number(json, "distance_limit") == 0.35);
+  assert_true(json_number(json, "threads") == 1);
+  assert_true(json_has_text(json, "search", "\"exhaustive\""));
+  assert_true(json_has_text(json, "complete", "true"));
+  const char *stages[] = {"read", "surface", "scene", "mesh", "search", "write", "picture"};
+  const char *seconds = strstr(json, "\"seconds\": {");
+  assert_non_null(seconds);
+  for (size_t i = 0; i < sizeof stages / sizeof stages[0]; ++i) {
+    const double value = json_number(seconds, stages[i]);
+    assert_true(value >= 0 && value < 100);
+  }
+  free(json);
+}
+
+static void test_stats_on_stdout(void **state) {
+  (void)state;
+  RUN_FINE(scratch_path("in.vtu"), "--stats", "-");
+  assert_true(program_out[0] == '{' && strcmp(program_out + strlen(program_out) - 3, "\n}\n") == 0);
+  assert_true(json_number(program_out, "n_nodes") == n_box);
+}
+
+/* The surface output taken as --surface gives the same marks: triangles, leaflets and all. */
+static void test_surface_from_file(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface_options options;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = 0.2;
+  mark_by_c(valve, &options, 0.3, RIIS_FAR_DISTANCE);
+  riis_valve_destroy(&valve);
+  /* The triangles depend on the half thickness, by the tolerance. */
+  RUN_FINE("--half-thickness", "0.2", "--surface-output", scratch_path("out.vtp"));
+  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("out.vtp"), "--half-thickness", "0.2", "--distance-limit",
+           "0.3", "--output", scratch_path("out.vtu"));
+  expect_marked_mesh();
+  assert_non_null(strstr(program_out, "out.vtp: "));
+}
+
+static void test_legacy_mesh(void **state) {
+  (void)state;
+  const double lower[3] = {-1.5, -1.5, -1}, upper[3] = {1.5, 1.5, 0};
+  assert_int_equal(shim_write_box(scratch_path("in.vtk"), SHIM_LEGACY_BINARY, 6, lower, upper, 0), 1);
+  RUN_FINE(scratch_path("in.vtk"), "--output", scratch_path("from_legacy.vtu"), "--half-thickness", "0.3");
+  int64_t n = 0;
+  assert_int_equal(shim_read_array(scratch_path("from_legacy.vtu"), 'p', "riis_marked", NULL, NULL, &n, NULL), 1);
+  assert_int_equal(n, 216);
+}
+
+static int destroy_all(void **state) {
+  riis_surface_destroy(&expected.surface);
+  return scratch_teardown(state);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_defaults),        cmocka_unit_test(test_every_number),
+      cmocka_unit_test(test_stats_on_stdout), cmocka_unit_test(test_surface_from_file),
+      cmocka_unit_test(test_legacy_mesh),
+  };
+  return cmocka_run_group_tests(tests, make_box, destroy_all);
+}

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Valve parameters from JSON and from --set, seen through --print-params and the surface's area. */
+#include <riis/riis.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "program.h"
+#include "scratch.h"
+
+/* The number behind the key within the object of a cusp. */
+static double in_cusp(const char *json, const char *cusp, const char *key) {
+  char quoted[64];
+  snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
+  const char *object = strstr(json, quoted);
+  if (!object) fail_msg("no %s in %s", cusp, json);
+  return json_number(object, key);
+}
+
+/* The first number of an array within the object of a cusp. */
+static double first_in_cusp(const char *json, const char *cusp, const char *key) {
+  char quoted[64];
+  snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
+  const char *object = strstr(json, quoted);
+  snprintf(quoted, sizeof quoted, "\"%s\": [", key);
+  const char *array = object ? strstr(object, quoted) : NULL;
+  if (!array) fail_msg("no %s in %s of %s", key, cusp, json);
+  double value = 0;
+  assert_int_equal(sscanf(array + strlen(quoted), "%lf", &value), 1);
+  return value;
+}
+
+static void test_template(void **state) {
+  (void)state;
+  static char defaults[longest_output];
+  RUN_FINE("--print-params");
+  strcpy(defaults, program_out);
+  assert_true(json_number(defaults, "root_radius") == 1.29);
+  assert_true(in_cusp(defaults, "right", "leaflet_angle") == 61);
+  assert_true(in_cusp(defaults, "left", "leaflet_angle") == 58.5);
+  /* Every parameter that the library has is there. */
+  riis_valve *valve = NULL;
+  int64_t n = 0;
+  assert_int_equal(riis_valve_create("aortic", &valve), RIIS_OK);
+  assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter;
+    assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    const char *dot = strrchr(parameter.name, '.');
+    char quoted[80];
+    snprintf(quoted, sizeof quoted, "\"%s\": ", dot ? dot + 1 : parameter.name);
+    if (!strstr(defaults, quoted)) fail_msg("%s is not in the template", parameter.name);
+  }
+  riis_valve_destroy(&valve);
+  /* And it is read back to the same values. */
+  scratch_write_text("template.json", defaults);
+  RUN_FINE("--print-params", "--params", scratch_path("template.json"));
+  assert_string_equal(program_out, defaults);
+}
+
+static void test_json_forms(void **state) {
+  (void)state;
+  scratch_write_text("p.json",
+                     "{\"root_radius\": 1.3, \"right\": {\"leaflet_angle\": 60}, \"left.leaflet_angle\": 59}");
+  RUN_FINE("--params", scratch_path("p.json"), "--print-params");
+  assert_true(json_number(program_out, "root_radius") == 1.3);
+  assert_true(in_cusp(program_out, "right", "leaflet_angle") == 60);
+  assert_true(in_cusp(program_out, "left", "leaflet_angle") == 59);
+  assert_true(in_cusp(program_out, "non_coronary", "leaflet_angle") == 60.5);
+}
+
+/* A cusp's own value wins over one for all cusps, wherever it stands in the file. */
+static void test_json_order(void **state) {
+  (void)state;
+  const char *files[3] = {"{\"right.translation\": [1, 2, 3], \"translation\": [7, 8, 9]}",
+                          "{\"translation\": [7, 8, 9], \"right.translation\": [1, 2, 3]}",
+                          "{\"right\": {\"translation\": [1, 2, 3]}, \"translation\": [7, 8, 9]}"};
+  for (int i = 0; i < 3; ++i) {
+    scratch_write_text("p.json", files[i]);
+    RUN_FINE("--params", scratch_path("p.json"), "--print-params");
+    assert_true(first_in_cusp(program_out, "right", "translation") == 1);
+    assert_true(first_in_cusp(program_out, "left", "translation") == 7);
+    assert_true(first_in_cusp(program_out, "non_coronary", "translation") == 7);
+  }
+}
+
+/* --set comes after the file and goes strictly from left to right. */
+static void test_set_order(void **state) {
+  (void)state;
+  scratch_write_text("p.json", "{\"right.translation\": [1, 2, 3]}");
+  RUN_FINE("--set", "translation=4,5,6", "--params", scratch_path("p.json"), "--print-params");
+  assert_true(first_in_cusp(program_out, "right", "translation") == 4);
+  RUN_FINE("--set", "right.translation=1,2,3", "--set", "translation=4,5,6", "--print-params");
+  assert_true(first_in_cusp(program_out, "right", "translation") == 4);
+  RUN_FINE("--set", "translation=4,5,6", "--set", "right.translation=1,2,3", "--print-params");
+  assert_true(first_in_cusp(program_out, "right", "translation") == 1);
+  assert_true(first_in_cusp(program_out, "left", "translation") == 4);
+}
+
+/* The parameters reach the surface. */
+static void test_surface_changes(void **state) {
+  (void)state;
+  RUN_FINE(scratch_path("in.vtu"), "--stats", "-");
+  const double area = json_number(program_out, "area");
+  scratch_write_text("p.json", "{\"right\": {\"leaflet_angle\": 55}}");
+  RUN_FINE(scratch_path("in.vtu"), "--params", scratch_path("p.json"), "--stats", "-");
+  const double from_file = json_number(program_out, "area");
+  RUN_FINE(scratch_path("in.vtu"), "--set", "right.leaflet_angle=55", "--stats", "-");
+  assert_true(json_number(program_out, "area") == from_file);
+  assert_true(from_file < area - 0.01);
+}
+
+static void test_json_refusals(void **state) {
+  (void)state;
+  const struct {
+    const char *json, *text;
+  } files[] = {
+      {"", "p.json: is empty"},
+      {"{\"root_radius\": }", "p.json: is not JSON: parse error at line 1"},
+      {"[1, 2]", "p.json: must hold a JSON object"},
+      {"{\"rootradius\": 1}", "rootradius"},
+      {"{\"middle\": {\"leaflet_angle\": 1}}", "p.json: middle is not a part of the valve"},
+      {"{\"middle.leaflet_angle\": 1}", "middle"},
+      {"{\"right\": {\"leaflet_angel\": 1}}", "leaflet_angel"},
+      {"{\"right\": 3}", "right"},
+      {"{\"root_radius\": \"1.3\"}", "p.json: root_radius must be a number or an array of numbers, not \"1.3\""},
+      {"{\"root_radius\": null}", "p.json: root_radius must be a number"},
+      {"{\"root_radius\": true}", "p.json: root_radius must be a number"},
+      {"{\"root_radius\": [1.3, 1.4]}", "root_radius"},
+      {"{\"right\": {\"translation\": [1, 2]}}", "right.translation"},
+      {"{\"right\": {\"translation\": [1, [2], 3]}}", "p.json: right.translation must be a number"},
+      {"{\"right\": {\"leaflet_angle\": {\"deep\": 1}}}", "p.json: right.leaflet_angle must be a number"},
+      {"{\"root_radius\": -1}", "root_radius"},
+      {"{\"root_radius\": 1e999}", "p.json: is not JSON: "},
+      {"{\"root_radius\": 1, \"root_radius\": 2}", "p.json: root_radius is given twice"},
+      {"{\"right.leaflet_angle\": 60, \"right\": {\"leaflet_angle\": 61}}",
+       "p.json: right.leaflet_angle is given twice"},
+      {"{\"bending_height\": 1.5}", "bending_height"},
+  };
+  for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
+    scratch_write_text("p.json", files[i].json);
+    RUN_REFUSED(1, files[i].text, scratch_path("in.vtu"), "--params", scratch_path("p.json"));
+  }
+  RUN_REFUSED(1, "missing.json: cannot be read: No such file", scratch_path("in.vtu"), "--params",
+              scratch_path("missing.json"));
+  RUN_REFUSED(1, ": cannot be read", scratch_path("in.vtu"), "--params", scratch_path("."));
+}
+
+static void test_set_refusals(void **state) {
+  (void)state;
+  RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "--print-params", "--set", "root_radius");
+  RUN_REFUSED(2, "--set: '=3' is not NAME=VALUE", "--print-params", "--set", "=3");
+  RUN_REFUSED(2, "--set root_radius: '' is not a number", "--print-params", "--set", "root_radius=");
+  RUN_REFUSED(2, "--set root_radius: '1.3cm' is not a number", "--print-params", "--set", "root_radius=1.3cm");
+  RUN_REFUSED(2, "--set translation: '' is not a number", "--print-params", "--set", "translation=1,,3");
+  RUN_REFUSED(1, "root_diameter", "--print-params", "--set", "root_diameter=2");
+  RUN_REFUSED(1, "root_radius", "--print-params", "--set", "root_radius=1,2,3");
+  RUN_REFUSED(1, "root_radius", "--print-params", "--set", "root_radius=nan");
+  RUN_REFUSED(1, "right.leaflet_power", "--print-params", "--set", "right.leaflet_power=0.5");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_template),     cmocka_unit_test(test_json_forms),      cmocka_unit_test(test_json_order),
+      cmocka_unit_test(test_set_order),    cmocka_unit_test(test_surface_changes), cmocka_unit_test(test_json_refusals),
+      cmocka_unit_test(test_set_refusals),
+  };
+  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
+}

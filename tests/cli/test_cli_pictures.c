@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --picture: without a display one line and exit code 1, not an abort; with one, a file for each, each with its view.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "program.h"
+#include "scratch.h"
+#include "virtual_display.h"
+#include "vtk_shim.h"
+
+static void test_without_display(void **state) {
+  (void)state;
+  char display[64] = "";
+  const char *before = getenv("DISPLAY");
+  if (before) strncpy(display, before, sizeof display - 1);
+  unsetenv("DISPLAY");
+  RUN_REFUSED(1, "DISPLAY is not set", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
+  assert_int_equal(scratch_exists("none.png"), 0);
+  setenv("DISPLAY", ":7654", 1);
+  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
+  assert_int_equal(scratch_exists("none.png"), 0);
+  if (before) {
+    setenv("DISPLAY", display, 1);
+  } else {
+    unsetenv("DISPLAY");
+  }
+}
+
+static void expect_picture(const char *name) {
+  int width = 0, height = 0, n_colours = 0, n_coloured[2] = {0, 0};
+  assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_coloured), 1);
+  assert_int_equal(width, 1600);
+  assert_int_equal(height, 800);
+  assert_true(n_colours > 100);
+  assert_true(n_coloured[0] > 30000 && n_coloured[1] > 30000);
+}
+
+static int same_file(const char *a, const char *b) {
+  size_t size[2] = {0, 0};
+  char *bytes[2] = {scratch_read(scratch_path(a), &size[0]), scratch_read(scratch_path(b), &size[1])};
+  const int same = size[0] == size[1] && memcmp(bytes[0], bytes[1], size[0]) == 0;
+  free(bytes[0]);
+  free(bytes[1]);
+  return same;
+}
+
+static void test_pictures(void **state) {
+  (void)state;
+  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.3", "--picture", scratch_path("1.png"), "--view", "top",
+           "--picture", scratch_path("2.png"), "--view", "side", "--picture", scratch_path("3.png"));
+  expect_picture("1.png");
+  expect_picture("2.png");
+  expect_picture("3.png");
+  assert_non_null(strstr(program_out, "3.png"));
+  /* The third had no --view of its own: oblique. */
+  RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("4.png"), scratch_path("in.vtu"), "--view", "oblique");
+  assert_true(same_file("3.png", "4.png"));
+  assert_false(same_file("1.png", "2.png"));
+  assert_false(same_file("1.png", "3.png"));
+  assert_false(same_file("2.png", "3.png"));
+}
+
+int main(int argc, char **argv) {
+  (void)argc;
+  enter_virtual_display(argv);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_without_display),
+      cmocka_unit_test(test_pictures),
+  };
+  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
+}

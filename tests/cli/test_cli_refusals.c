@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Every refusal: its exit code and one line on stderr that names what was wrong; and no output is left behind. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static void test_usage(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "nothing to do: a MESH is needed", "--quiet");
+  RUN_REFUSED(2, "nothing to do: --quiet", mesh, "--quiet");
+  RUN_REFUSED(2, "--output needs a MESH", "--output", "a.vtu");
+  RUN_REFUSED(2, "--stats needs a MESH", "--stats", "-");
+  RUN_REFUSED(2, "--frobnicate", mesh, "--frobnicate");
+  RUN_REFUSED(2, "second.vtu", mesh, "second.vtu");
+  RUN_REFUSED(2, "--valve", mesh, "--valve", "aortic", "--surface", "a.vtp");
+  RUN_REFUSED(2, "--set", mesh, "--surface", "a.vtp", "--set", "root_radius=1");
+  RUN_REFUSED(2, "--params", mesh, "--surface", "a.vtp", "--params", "a.json");
+  RUN_REFUSED(2, "--tolerance", mesh, "--surface", "a.vtp", "--tolerance", "0.1");
+  RUN_REFUSED(2, "--print-params", "--surface", "a.vtp", "--print-params");
+  RUN_REFUSED(2, "--skip-zero-area", mesh, "--skip-zero-area");
+  RUN_REFUSED(2, "--search", mesh, "--search", "clever");
+  RUN_REFUSED(2, "--view", mesh, "--picture", "a.png", "--view", "below");
+  RUN_REFUSED(2, "--view: more views than pictures", mesh, "--picture", "a.png", "--view", "top", "--view", "side");
+  RUN_REFUSED(2, "--output", mesh, "--output", "a.vtu", "--output", "b.vtu");
+  RUN_REFUSED(2, "--output", mesh, "--output");
+}
+
+static void test_numbers(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "--rotate: '0,0,1' has 3 numbers; it takes X,Y,Z,DEG", mesh, "--rotate", "0,0,1");
+  RUN_REFUSED(2, "--rotate: 'z' is not a number", mesh, "--rotate", "0,0,z,90");
+  RUN_REFUSED(2, "--translate: '1,2,3,4' has 4 numbers; it takes X,Y,Z", mesh, "--translate", "1,2,3,4");
+  RUN_REFUSED(2, "--scale: 'big' is not a number", mesh, "--scale", "big");
+  RUN_REFUSED(2, "--scale: '1,5' is not a number", mesh, "--scale", "1,5");
+  RUN_REFUSED(2, "--scale: '1e999' is not a number that fits", mesh, "--scale", "1e999");
+  RUN_REFUSED(2, "--threads: 'two' is not a whole number", mesh, "--threads", "two");
+  RUN_REFUSED(2, "--threads: '2.5' is not a whole number", mesh, "--threads", "2.5");
+  RUN_REFUSED(2, "--threads: '99999999999' is not a whole number", mesh, "--threads", "99999999999");
+  /* RIIS_AUTO, which is -1, must not come from outside. */
+  RUN_REFUSED(2, "--half-thickness: -1 is not above 0", mesh, "--half-thickness", "-1");
+  RUN_REFUSED(2, "--half-thickness: nan is not above 0", mesh, "--half-thickness", "nan");
+  RUN_REFUSED(2, "--distance-limit: -1 is not above 0", mesh, "--distance-limit", "-1");
+}
+
+/* Values of the right form that the library refuses. */
+static void test_values(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "scale", mesh, "--scale", "0");
+  RUN_REFUSED(2, "scale", mesh, "--scale", "-1");
+  RUN_REFUSED(2, "rotation_axis", mesh, "--rotate", "0,0,0,90");
+  RUN_REFUSED(2, "tolerance", mesh, "--tolerance", "0");
+  RUN_REFUSED(2, "tolerance", mesh, "--tolerance", "-1");
+  RUN_REFUSED(2, "half_thickness", mesh, "--half-thickness", "inf");
+  RUN_REFUSED(2, "distance_limit", mesh, "--distance-limit", "0.05");
+  RUN_REFUSED(2, "n_threads", mesh, "--threads", "-2");
+  RUN_REFUSED(2, "n_threads", mesh, "--threads", "1025");
+  RUN_REFUSED(2, "far_distance", mesh, "--far-distance", "0.05", "--output", scratch_path("a.vtu"));
+  RUN_REFUSED(1, "mitre", mesh, "--valve", "mitre");
+  assert_int_equal(scratch_exists("a.vtu"), 0);
+}
+
+static void test_input_files(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(1, "missing.vtu: cannot be read: No such file", scratch_path("missing.vtu"));
+  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file", "mesh.msh");
+  RUN_REFUSED(1, "missing.vtp: cannot be read: No such file", mesh, "--surface", scratch_path("missing.vtp"));
+  scratch_write_text("garbage.vtu", "garbage");
+  RUN_REFUSED(1, "garbage.vtu: is not a VTK XML file", scratch_path("garbage.vtu"));
+  size_t size = 0;
+  char *bytes = scratch_read(mesh, &size);
+  scratch_write("cut.vtu", bytes, size / 2);
+  free(bytes);
+  RUN_REFUSED(1, "cut.vtu: is truncated", scratch_path("cut.vtu"), "--output", scratch_path("a.vtu"));
+  assert_int_equal(scratch_exists("a.vtu"), 0);
+}
+
+/* Data that only the core can judge is named with its file. */
+static void test_bad_data(void **state) {
+  (void)state;
+  scratch_write_text(
+      "nan.vtu",
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"4\" NumberOfCells=\"0\"><Points>\n"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 nan 0 0 0 "
+      "1</DataArray></Points>\n"
+      "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\"></DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\"></DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\"></DataArray></Cells>\n"
+      "</Piece></UnstructuredGrid></VTKFile>\n");
+  RUN_REFUSED(1, "nan.vtu: ", scratch_path("nan.vtu"));
+  assert_non_null(strstr(program_err, "node 2"));
+  scratch_write_text("nan.stl",
+                     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 2 0 "
+                     "0\nendloop\nendfacet\nendsolid\n");
+  RUN_REFUSED(1, "nan.stl: ", scratch_path("in.vtu"), "--surface", scratch_path("nan.stl"));
+}
+
+static void test_outputs(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "--output: ", mesh, "--output", scratch_path("a.vtk"));
+  RUN_REFUSED(2, "--surface-output: ", mesh, "--surface-output", scratch_path("a.stl"));
+  RUN_REFUSED(2, "--picture: ", mesh, "--picture", scratch_path("a.jpg"));
+  RUN_REFUSED(1, "a.vtu: cannot be written: the folder", mesh, "--output", scratch_path("no_folder/a.vtu"));
+  RUN_REFUSED(1, "a.vtp: cannot be written: the folder", mesh, "--surface-output", scratch_path("no_folder/a.vtp"));
+  RUN_REFUSED(1, "a.png: cannot be written: the folder", mesh, "--picture", scratch_path("no_folder/a.png"));
+  RUN_REFUSED(1, "a.json: cannot be written: the folder", mesh, "--stats", scratch_path("no_folder/a.json"));
+  assert_int_equal(mkdir(scratch_path("folder.vtu"), 0700), 0);
+  RUN_REFUSED(1, "folder.vtu: is a directory", mesh, "--output", scratch_path("folder.vtu"));
+  RUN_REFUSED(1, "/dev/full: cannot be written: No space left", mesh, "--stats", "/dev/full", "--quiet");
+}
+
+/* An output that cannot be is refused before the mesh is read: this one is missing too, and is not the one named. */
+static void test_outputs_first(void **state) {
+  (void)state;
+  RUN_REFUSED(1, "a.vtu: cannot be written", scratch_path("missing.vtu"), "--output", scratch_path("no_folder/a.vtu"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_usage),         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_values),
+      cmocka_unit_test(test_input_files),   cmocka_unit_test(test_bad_data), cmocka_unit_test(test_outputs),
+      cmocka_unit_test(test_outputs_first),
+  };
+  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
+}
