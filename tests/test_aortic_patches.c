@@ -5,21 +5,8 @@
 
 static const double degree_in_radians = 3.14159265358979323846 / 180;
 
-/* Positions of the curves of one cusp, in the order in which they are made. */
-enum {
-  root,
-  symmetry_below,
-  symmetry_above,
-  bending,
-  leaflet,
-  sinus_below,
-  sinus_above,
-  bending_m,
-  leaflet_m,
-  sinus_below_m,
-  sinus_above_m,
-  n_of_cusp
-};
+/* Positions of the curves of half a cusp, in the order in which they are made. */
+enum { root, symmetry_below, symmetry_above, bending, leaflet, sinus_below, sinus_above, n_of_cusp };
 
 static patch_set set;
 
@@ -34,25 +21,26 @@ static void check_point(const double *p, double x, double y, double z) {
   CHECK_NEAR(p[2], z, 1e-14);
 }
 
-/* The right cusp stands in its own frame, but for the translation by -1. */
 static void right_cusp_meets_the_table(void **state) {
   (void)state;
   const double a_l = 61 * degree_in_radians, a_b = 47.3 * degree_in_radians;
-  const double L[3] = {1.365 * cos(a_l), 1.365 * sin(a_l), 0.02}, B[3] = {1.39 * cos(a_b), 1.39 * sin(a_b), 0.71 - 1};
-  check_point(control(0, root), 1.29, 0, -1);
-  check_point(control(0, leaflet), 0.24, 0, 0.02);
+  const double L[3] = {1.365 * cos(a_l), 1.365 * sin(a_l), 1.02}, B[3] = {1.39 * cos(a_b), 1.39 * sin(a_b), 0.71};
+  check_point(control(0, root), 1.29, 0, 0);
+  check_point(last(0, root), 1.29, 0, 0);
+  check_point(control(0, leaflet), 0.24, 0, 1.02);
   check_point(last(0, leaflet), L[0], L[1], L[2]);
-  check_point(control(0, bending), 0.4, 0, -0.29);
+  check_point(control(0, bending), 0.4, 0, 0.71);
   check_point(last(0, bending), B[0], B[1], B[2]);
-  check_point(control(0, symmetry_below), 1.29, 0, -1);
-  check_point(last(0, symmetry_below), 0.4, 0, -0.29);
-  check_point(last(0, symmetry_above), 0.24, 0, 0.02);
+  check_point(control(0, symmetry_below), 1.29, 0, 0);
+  check_point(last(0, symmetry_below), 0.4, 0, 0.71);
+  check_point(last(0, symmetry_above), 0.24, 0, 1.02);
+  check_point(control(0, sinus_below), 1.29, 0, 0);
   check_point(last(0, sinus_below), B[0], B[1], B[2]);
   check_point(last(0, sinus_above), L[0], L[1], L[2]);
   /* Tangents of the free edge: t0 (0, 1, 0), and t3 (p (L_x - r_li) / L_y, 1, 0). */
   const double *q = control(0, leaflet);
-  check_point(q + 3, 0.24, 0.025, 0.02);
-  check_point(q + 6, L[0] - 0.5 * 1.58 * (L[0] - 0.24) / L[1], L[1] - 0.5, 0.02);
+  check_point(q + 3, 0.24, 0.025, 1.02);
+  check_point(q + 6, L[0] - 0.5 * 1.58 * (L[0] - 0.24) / L[1], L[1] - 0.5, 1.02);
 }
 
 /* The two pieces of the symmetry curve are one cubic with the first inner control point where xq and zq say, through b
@@ -64,7 +52,7 @@ static void symmetry_curve_is_one_cubic(void **state) {
   /* Splitting at s leaves (1-s) D0 + s D1 as the first part's second control point. */
   double d1[3];
   for (int c = 0; c < 3; ++c) d1[c] = (below[3 + c] - (1 - s) * below[c]) / s;
-  check_point(d1, (1.29 + 0.4) / 2 - 0.2 * (1.29 - 0.4), 0, 0.71 / 2 - 0.2 * 0.71 - 1);
+  check_point(d1, (1.29 + 0.4) / 2 - 0.2 * (1.29 - 0.4), 0, 0.71 / 2 - 0.2 * 0.71);
   /* Smooth there: the tangents are parallel, in the ratio of the parameters. */
   for (int c = 0; c < 3; ++c) CHECK_NEAR((below[9 + c] - below[6 + c]) / s, (above[3 + c] - above[c]) / (1 - s), 1e-13);
   for (int i = 0; i < 4; ++i) assert_true(below[3 * i + 1] == 0 && above[3 * i + 1] == 0);
@@ -72,20 +60,26 @@ static void symmetry_curve_is_one_cubic(void **state) {
 
 static void cusps_are_mirror_images_and_turned(void **state) {
   (void)state;
-  for (int i = 0; i < 4; ++i) {
-    const double *half = control(0, leaflet) + 3 * i, *mirrored = control(0, leaflet_m) + 3 * i;
-    CHECK_SAME(half[0], mirrored[0]);
-    CHECK_SAME(half[1] + mirrored[1], 0.0);
-    CHECK_SAME(half[2], mirrored[2]);
-  }
-  /* The middle of each free edge points along the cusp's rotation. */
   const double angle[3] = {0, 119.5, -121.5}, radius[3] = {0.24, 0.49, 0.2};
-  for (int cusp = 0; cusp < 3; ++cusp)
-    check_point(control(cusp, leaflet), radius[cusp] * cos(angle[cusp] * degree_in_radians),
-                radius[cusp] * sin(angle[cusp] * degree_in_radians), 0.02);
-  /* Cusps meet at the commissures in angle: right at 61, left from 119.5 - 58.5 = 61, ... */
-  const double *right_end = last(0, leaflet), *left_end = last(1, leaflet_m);
-  CHECK_NEAR(atan2(right_end[1], right_end[0]), atan2(left_end[1], left_end[0]), 1e-13);
+  for (int64_t image = 0; image < set.n_images; ++image) {
+    const int cusp = set.leaflet_id[image];
+    const double turn = angle[cusp] * degree_in_radians;
+    double middle[3], end[3];
+    /* The middle of each free edge points along the cusp's rotation, for both halves to the last bit ... */
+    patch_image_place(&set, image, control(cusp, leaflet), middle);
+    check_point(middle, radius[cusp] * cos(turn), radius[cusp] * sin(turn), 0.02);
+    for (int64_t other = 0; other < image; ++other)
+      if (set.leaflet_id[other] == cusp) {
+        double same[3];
+        patch_image_place(&set, other, control(cusp, leaflet), same);
+        for (int c = 0; c < 3; ++c) CHECK_NEAR(same[c], middle[c], 0);
+      }
+    /* ... and its end is at the leaflet's angle to either side of it. */
+    static const double leaflet_angle[3] = {61, 58.5, 60.5}, leaflet_radius_out[3] = {1.365, 1.495, 1.38};
+    patch_image_place(&set, image, last(cusp, leaflet), end);
+    const double to = (angle[cusp] + (set.mirrored[image] ? -1 : 1) * leaflet_angle[cusp]) * degree_in_radians;
+    check_point(end, leaflet_radius_out[cusp] * cos(to), leaflet_radius_out[cusp] * sin(to), 0.02);
+  }
 }
 
 static void corners_meet_to_the_last_bit(void **state) {
@@ -107,12 +101,18 @@ static void corners_meet_to_the_last_bit(void **state) {
 
 static void twelve_patches_of_three_leaflets(void **state) {
   (void)state;
+  int seen[12] = {0};
   assert_int_equal(set.n_curves, 3 * n_of_cusp);
-  assert_int_equal(set.n_patches, 12);
-  for (int i = 0; i < 12; ++i) {
-    assert_int_equal(set.leaflet_id[i], i / 4);
-    assert_int_equal(set.flip[i], i % 4 >= 2);
+  assert_int_equal(set.n_patches, 6);
+  assert_int_equal(set.n_images, 12);
+  for (int64_t i = 0; i < set.n_images; ++i) {
+    assert_true(set.patch_id[i] >= 0 && set.patch_id[i] < 12);
+    ++seen[set.patch_id[i]];
+    assert_int_equal(set.leaflet_id[i], set.patch_id[i] / 4);
+    assert_int_equal(set.mirrored[i], set.patch_id[i] % 4 >= 2);
+    assert_int_equal(set.patch[i], 2 * set.leaflet_id[i] + set.patch_id[i] % 2);
   }
+  for (int i = 0; i < 12; ++i) assert_int_equal(seen[i], 1);
 }
 
 static void power_one_is_a_straight_profile(void **state) {
@@ -131,14 +131,18 @@ static void power_one_is_a_straight_profile(void **state) {
 static void parameters_that_do_not_go_together_are_refused(void **state) {
   (void)state;
   patch_set none;
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 1.02|leaflet_height",
-                aortic_patches("bending_height", 1.02, &none));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 0.71|leaflet_height, which is 0.7",
-                aortic_patches("leaflet_height", 0.7, &none));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "right.leaflet_radius_out is 500|root_radius",
-                aortic_patches("right.leaflet_radius_out", 500, &none));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "leaflet_height is 1.02|root_radius, which is 200",
-                aortic_patches("root_radius", 200, &none));
+#define IS_REFUSED(name, value, text) CHECK_REFUSED(RIIS_INVALID_PARAMETER, text, aortic_patches(name, value, &none))
+  IS_REFUSED("bending_height", 1.02, "bending_height is 1.02|leaflet_height, which is 1.02");
+  IS_REFUSED("bending_height", 0.0102, "bending_height is 0.0102");
+  IS_REFUSED("leaflet_height", 0.7, "bending_height is 0.71|leaflet_height, which is 0.7");
+  IS_REFUSED("right.leaflet_radius_out", 500, "right.leaflet_radius_out is 500|root_radius, which is 1.29");
+  IS_REFUSED("right.leaflet_radius_out", 1e-9, "right.leaflet_radius_out is 1e-09|from 0.05");
+  IS_REFUSED("leaflet_radius_in", 129, "right.leaflet_radius_in is 129");
+  IS_REFUSED("root_radius", 200, "leaflet_height is 1.02|root_radius, which is 200");
+  /* Sound one by one, absurd together: the curve, its reach and its parameters are named. */
+  IS_REFUSED("leaflet_angle", 5, "left cusp's leaflet curve reaches|leaflet_angle");
+  IS_REFUSED("bending_height", 0.06, "right cusp's symmetry curve reaches|bending_height, leaflet_height, xq, zq");
+  IS_REFUSED("non_coronary.bending_radius_out", 12, "non_coronary cusp's|reaches");
 }
 
 int main(void) {

@@ -10,7 +10,7 @@ static void numbers_of_the_model(void **state) {
   (void)state;
   /* Area and bounds that the model must have; triangles lie on chords, so both come from below as the tolerance falls.
    */
-  const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {7e-3, 1e-3, 4e-4};
+  const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
     riis_surface_options options = surface_options();
@@ -18,7 +18,7 @@ static void numbers_of_the_model(void **state) {
     riis_surface *surface = aortic_surface(&options);
     const riis_surface_info info = info_of(surface);
     riis_surface_destroy(&surface);
-    CHECK_NEAR(info.area, 6.986, area_error[i]);
+    CHECK_NEAR(info.area, 6.9862, area_error[i]);
     assert_true(info.area > last_area);
     last_area = info.area;
     const double lower[3] = {-1.494, -1.431, -1.000}, upper[3] = {1.290, 1.321, 0.020};
@@ -191,6 +191,61 @@ static void three_cusps_are_three_pieces(void **state) {
   assert_true(gap > 1e-3);
 }
 
+static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
+
+/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved: every edge
+ * there (u = 0 at both ends) is of exactly two triangles. Sides depend on it where the cusp is folded. */
+static void halves_meet_to_the_last_bit(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  for (int trial = 0; trial < 3; ++trial) {
+    riis_surface_options options = surface_options();
+    if (trial == 1) { /* as sharply folded as it gets */
+      CHECK_OK(riis_valve_set_scalar(valve, "leaflet_power", 1));
+      CHECK_OK(riis_valve_set_scalar(valve, "bending_power", 1));
+      CHECK_OK(riis_valve_set_scalar(valve, "leaflet_angle", 20));
+      CHECK_OK(riis_valve_set_scalar(valve, "bending_angle", 20));
+    }
+    if (trial == 2) {
+      CHECK_OK(riis_valve_set(valve, "rotation", 3, turned));
+      CHECK_OK(riis_valve_set(valve, "translation", 3, moved));
+      options.scale = 0.01;
+      options.rotation_angle = 33;
+      options.translation[1] = 3;
+    }
+    surface = NULL;
+    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    int64_t n, n_edges = 0;
+    const double *xyz, *uv;
+    const int64_t *id;
+    CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
+    CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
+    CHECK_OK(riis_surface_triangles(surface, &n, &id, NULL, NULL, NULL));
+    double(*edges)[6] = malloc((size_t)n * 3 * sizeof *edges);
+    for (int64_t i = 0; i < 3 * n; ++i) {
+      const int64_t a = id[i], b = id[i % 3 == 2 ? i - 2 : i + 1];
+      if (uv[2 * a] != 0 || uv[2 * b] != 0) continue;
+      const int swap = memcmp(xyz + 3 * a, xyz + 3 * b, 3 * sizeof *xyz) > 0;
+      for (int c = 0; c < 3; ++c) { /* + 0: no negative zeros */
+        edges[n_edges][c] = xyz[3 * (swap ? b : a) + c] + 0.0;
+        edges[n_edges][3 + c] = xyz[3 * (swap ? a : b) + c] + 0.0;
+      }
+      ++n_edges;
+    }
+    qsort(edges, (size_t)n_edges, sizeof *edges, compare_edges);
+    int64_t n_lonely = n_edges % 2;
+    for (int64_t i = 0; i + 1 < n_edges; i += 2) n_lonely += compare_edges(edges[i], edges[i + 1]) != 0;
+    free(edges);
+    riis_surface_destroy(&surface);
+    assert_true(n_edges > 50);
+    assert_int_equal(n_lonely, 0);
+  }
+  riis_valve_destroy(&valve);
+}
+
 static void parameters_change_the_surface_and_update_keeps_the_handle(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -318,6 +373,7 @@ int main(void) {
       cmocka_unit_test(normals_point_downstream),
       cmocka_unit_test(placement_is_applied_last),
       cmocka_unit_test(three_cusps_are_three_pieces),
+      cmocka_unit_test(halves_meet_to_the_last_bit),
       cmocka_unit_test(parameters_change_the_surface_and_update_keeps_the_handle),
       cmocka_unit_test(every_parameter_by_name),
   };

@@ -158,6 +158,11 @@ static void batches_equal_single_queries(void **state) {
     assert_int_equal(limited_triangle[i], far ? -1 : triangle_id[i]);
   }
   assert_true(n_far > 100 && n_far < n - 100);
+  /* An infinite limit is none. */
+  options.distance_limit = INFINITY;
+  options.far_distance = RIIS_FAR_DISTANCE;
+  CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
+  assert_memory_equal(limited, distance, sizeof limited);
   CHECK_OK(riis_closest_points(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
   riis_surface_destroy(&surface);
 }

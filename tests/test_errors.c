@@ -133,7 +133,7 @@ static void parameters_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is inf", riis_valve_set_scalar(valve, "root_radius", INFINITY));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is 0", riis_valve_set_scalar(valve, "root_radius", 0));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radius' is -1.29", riis_valve_set_scalar(valve, "root_radius", -1.29));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'left.leaflet_angle' is 180|1 to 179",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'left.leaflet_angle' is 180|5 to 175",
                 riis_valve_set_scalar(valve, "left.leaflet_angle", 180));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_power' is 0.5|from 1",
                 riis_valve_set_scalar(valve, "leaflet_power", 0.5));
@@ -190,6 +190,8 @@ static void surface_options_are_refused_by_name(void **state) {
   OPTION_IS_REFUSED(translation[0], -INFINITY, "translation is -inf");
   OPTION_IS_REFUSED(zero_area, 2, "zero_area is 2");
   OPTION_IS_REFUSED(flip_normals, -1, "flip_normals is -1");
+  /* So far away that the valve would be flattened by rounding. */
+  OPTION_IS_REFUSED(translation[1], 1e14, "translation moves the valve by 1e+14|tolerance * half_thickness, 0.005");
   options = surface_options();
   options.tolerance = 1e-6;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
@@ -221,7 +223,7 @@ static void surface_arrays_are_refused_by_name(void **state) {
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.corners_per_face = 5, "arrays.corners_per_face is 5");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.reserved = 1, "arrays.reserved is 1");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_vertices = 0, "arrays.n_vertices is 0");
-  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_vertices = INT64_C(1) << 40, "arrays.n_vertices is 1099511627776");
+  ARRAYS_ARE_REFUSED(RIIS_LIMIT_EXCEEDED, arrays.n_vertices = INT64_C(1) << 40, "arrays.n_vertices is 1099511627776");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_faces = 0, "arrays.n_faces is 0");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_faces = -7, "arrays.n_faces is -7");
   ARRAYS_ARE_REFUSED(RIIS_LIMIT_EXCEEDED, arrays.n_faces = 16777217, "arrays.n_faces is 16777217|16777216");
@@ -257,6 +259,7 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   CHECK_OK(riis_closest_arrays_init(&out, sizeof out));
   out.distance = distance;
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is 0", riis_mesh_create(0, xyz, xyz, xyz, 1, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold", riis_mesh_create(INT64_MAX / 16, xyz, xyz, xyz, 3, &mesh));
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -5", riis_mesh_create(-5, xyz, xyz, xyz, 1, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is 0", riis_mesh_create(4, xyz, xyz, xyz, 0, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is -3", riis_mesh_create(4, xyz, xyz, xyz, -3, &mesh));
@@ -280,6 +283,9 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025",
                 riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.n_threads = 0;
+  options.reserved = 7;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reserved is 7", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  options.reserved = 0;
   options.distance_limit = -2;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is -2",
                 riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
@@ -306,7 +312,8 @@ static void marking_options_are_refused_by_name(void **state) {
     options.field = value;                                                                        \
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result)); \
   } while (0)
-  MARK_OPTION_IS_REFUSED(distance_limit, 0.05, "distance_limit is 0.05|half thickness, 0.1");
+  MARK_OPTION_IS_REFUSED(distance_limit, 0.05, "distance_limit is 0.05|half thickness, 0.1,");
+  MARK_OPTION_IS_REFUSED(distance_limit, nextafter(0.1, 0), "distance_limit is 0.09999999999999999;");
   MARK_OPTION_IS_REFUSED(distance_limit, NAN, "distance_limit is nan");
   MARK_OPTION_IS_REFUSED(distance_limit, INFINITY, "distance_limit is inf");
   MARK_OPTION_IS_REFUSED(search, 2, "search is 2");

@@ -47,9 +47,9 @@ static void at_share(int64_t i, double share, double *point) {
             point);
 }
 
-static void smooth_point(int64_t patch, double u, double v, double *point) {
-  const int64_t *side = set.sides + 4 * patch;
-  double c0[3], c1[3], d0[3], d1[3];
+static void smooth_point(int64_t image, double u, double v, double *placed) {
+  const int64_t *side = set.sides + 4 * set.patch[image];
+  double c0[3], c1[3], d0[3], d1[3], point[3];
   at_share(side[0], u, c0);
   at_share(side[1], u, c1);
   at_share(side[2], v, d0);
@@ -59,6 +59,7 @@ static void smooth_point(int64_t patch, double u, double v, double *point) {
   for (int c = 0; c < 3; ++c)
     point[c] = (1 - v) * c0[c] + v * c1[c] + (1 - u) * d0[c] + u * d1[c] - (1 - u) * (1 - v) * p00[c] -
                u * (1 - v) * p10[c] - (1 - u) * v * p01[c] - u * v * p11[c];
+  patch_image_place(&set, image, point, placed);
 }
 
 static void deviation_stays_within_the_bound(void **state) {
@@ -72,10 +73,10 @@ static void deviation_stays_within_the_bound(void **state) {
     const double bound = tolerances[i] * 0.1;
     double to_triangles = 0, to_smooth = 0;
     /* Every smooth point is near a triangle ... */
-    for (int64_t patch = 0; patch < set.n_patches; ++patch)
+    for (int64_t image = 0; image < set.n_images; ++image)
       for (int k = 0; k < 400; ++k) {
         double p[3];
-        smooth_point(patch, random_between(&rng, 0, 1), random_between(&rng, 0, 1), p);
+        smooth_point(image, random_between(&rng, 0, 1), random_between(&rng, 0, 1), p);
         to_triangles = fmax(to_triangles, closest_to(surface, p[0], p[1], p[2]).distance);
       }
     /* ... and every triangle's middle is near the smooth surface: at most as far as the smooth point of its own (u,v).
@@ -93,7 +94,9 @@ static void deviation_stays_within_the_bound(void **state) {
         for (int c = 0; c < 3; ++c) middle[c] += xyz[3 * id[3 * t + k] + c] / 3;
         for (int c = 0; c < 2; ++c) at[c] += uv[2 * id[3 * t + k] + c] / 3;
       }
-      smooth_point(patch_id[t], at[0], at[1], p);
+      int64_t image = 0;
+      while (set.patch_id[image] != patch_id[t]) ++image;
+      smooth_point(image, at[0], at[1], p);
       to_smooth = fmax(to_smooth, hypot(hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]));
     }
     printf("tolerance %5.3f: %6lld triangles; smooth to triangles %.2f, triangles to smooth %.2f of the bound\n",

@@ -134,6 +134,25 @@ static void winding_is_the_callers_unless_flipped(void **state) {
   riis_surface_destroy(&flipped);
 }
 
+/* Two triangles back to back: their normals cancel at the common edges up to rounding, and each side is the reported triangle's. */
+static void side_of_folded_faces_is_the_triangles_own(void **state) {
+  (void)state;
+  const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
+  const int32_t faces[6] = {0, 1, 2, 1, 0, 2};
+  riis_surface_arrays arrays = triangle_arrays(3, points, 2, faces);
+  riis_surface *surface = surface_from(&arrays, NULL);
+  for (int i = 1; i <= 20; ++i)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      const riis_closest closest = closest_to(surface, points[0], points[1], points[2] + sign * 0.05 * i);
+      double height = 0;
+      const double difference[3] = {0 - (closest.point[0] - points[0]), 0 - (closest.point[1] - points[1]),
+                                    points[2] + sign * 0.05 * i - closest.point[2]};
+      for (int c = 0; c < 3; ++c) height += difference[c] * closest.normal[c];
+      assert_int_equal(closest.side, height > 0 ? 1 : -1);
+    }
+  riis_surface_destroy(&surface);
+}
+
 static void update_replaces_the_content(void **state) {
   (void)state;
   riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
@@ -194,6 +213,7 @@ int main(void) {
       cmocka_unit_test(zero_area_is_refused_or_skipped_with_ids_kept),
       cmocka_unit_test(tiny_and_huge_surfaces_have_area),
       cmocka_unit_test(winding_is_the_callers_unless_flipped),
+      cmocka_unit_test(side_of_folded_faces_is_the_triangles_own),
       cmocka_unit_test(update_replaces_the_content),
       cmocka_unit_test(side_at_edges_and_corners_of_a_wedge),
   };

@@ -27,10 +27,15 @@
  *   NULL, and accepts NULL.
  * - Option structs begin with struct_size and are filled by their init function, which takes the size that the caller
  *   compiled with; a NULL options pointer means all defaults. Fields are only ever appended.
- * - A handle may be read (const) by any number of threads at once; it is written by one thread with no reader beside it.
- *   Different handles never interfere. Results are bitwise the same for any number of threads.
- * - Each call runs with the default floating-point environment and puts the caller's back: traps, rounding mode and
- *   flush-to-zero of the caller neither change the result nor fire inside. The caller's OpenMP and TBB settings stay.
+ * - A handle may be read (const) by any number of threads at once; it is written by one thread with no reader beside
+ *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
+ * - Where a number of threads can be given, 0 stands for the processors that the calling thread may run on (its affinity
+ *   mask); OMP_NUM_THREADS and omp_set_num_threads do not matter. More threads than the system grants end the process: that
+ *   is how OpenMP's run-time answers, out of the library's reach. With 1 no thread is started, which is also all that a
+ *   child of fork() may ask for.
+ * - Each call runs with the default floating-point environment, a log function included, and puts the caller's back:
+ *   traps, rounding mode and flush-to-zero of the caller neither change the result nor fire inside. The caller's OpenMP
+ *   and TBB settings stay.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from parametric surface
  * models: application to cardiac valves" (2025); docs/theory.md lists every departure from it.
@@ -124,7 +129,8 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *   values    copied
  * Each value is checked against the parameter's range here; whether parameters go together (a bending height below the
  * leaflet height) is checked by riis_surface_create, so that the order of setting them does not matter.
- * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is then unchanged. */
+ * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value, RIIS_INVALID_ARGUMENT for NULL; the valve is then
+ * unchanged. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values);
 /* The same for a parameter with one value. */
 RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
@@ -145,7 +151,8 @@ typedef struct riis_parameter {
 /* How many parameters the valve has. */
 RIIS_API riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters);
 /* Describes parameter number parameter_id, 0 <= parameter_id < n_parameters.
- *   struct_size  sizeof(riis_parameter) of the caller; no more than that is written */
+ *   struct_size  sizeof(riis_parameter) of the caller; no more than that is written
+ * Errors: RIIS_INVALID_ARGUMENT for a parameter_id that there is not. */
 RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
                                           int64_t struct_size);
 
@@ -169,15 +176,16 @@ enum {
  * valves and to arrays alike. */
 typedef struct riis_surface_options {
   int64_t struct_size;
-  double half_thickness;   /* d_min, in mesh units, > 0: a node is marked when its distance to the surface is at most this
-                              (paper, 4.2). Default RIIS_AUTO: 0.1 * scale */
-  double tolerance;        /* generated valves: tolerance * half_thickness bounds |distance to the triangles - distance to
-                              the smooth surface| (docs/theory.md, "Tolerance", says how firmly). 1e-6 to 1, default 0.05.
+  double half_thickness;   /* d_min, in mesh units, 1e-50 to 1e50: a node is marked when its distance to the surface is at
+                              most this (paper, 4.2). Default RIIS_AUTO: 0.1 * scale */
+  double tolerance;        /* generated valves: tolerance * half_thickness bounds the difference between distances to the
+                              triangles and to the smooth surface (docs/theory.md, "Tolerance"). 1e-6 to 1, default 0.05.
                               Not used for surfaces from arrays */
   double scale;            /* 1e-12 to 1e12, default 1 */
-  double rotation_axis[3]; /* of any length, not zero; default (0, 0, 1) */
-  double rotation_angle;   /* degrees, counter-clockwise seen against the axis; default 0 */
-  double translation[3];   /* mesh units; default 0 */
+  double rotation_axis[3]; /* of any length from 1e-50 on, components up to 1e50; default (0, 0, 1) */
+  double rotation_angle;   /* degrees, counter-clockwise seen against the axis; -1e6 to 1e6, default 0 */
+  double translation[3];   /* mesh units; -1e50 to 1e50, for valves no farther than where coordinates round by a thousandth
+                              of tolerance * half_thickness; default 0 */
   int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
   int32_t flip_normals;    /* 1 turns every triangle over, so that normal and side change sign; default 0 */
 } riis_surface_options;
@@ -189,8 +197,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  * valve. Triangles of zero area, which arise at the root point of each cusp, are dropped.
  *   valve    read during the call only
  *   options  NULL for defaults
- * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together; RIIS_LIMIT_EXCEEDED where the tolerance asks for
- * more than 16,777,216 triangles. */
+ * Errors: RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together
+ * or throw a curve far away; RIIS_LIMIT_EXCEEDED where the tolerance asks for more than 16,777,216 triangles. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
@@ -213,7 +221,8 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 
 /* Makes a surface from arrays. The winding stays the caller's. A triangle's id is the caller's: the face's number for
  * triangles, 2 * face and 2 * face + 1 for the halves of a quad, whatever was skipped.
- * Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value. A triangle has zero area when its height over its
+ * Errors: RIIS_INVALID_ARGUMENT for a field or option out of range; RIIS_LIMIT_EXCEEDED for too many vertices or faces;
+ * RIIS_INVALID_SURFACE naming the face or vertex and its value. A triangle has zero area when its height over its
  * longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
                                                      riis_surface **surface);
@@ -268,11 +277,13 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest of the closest triangles' ids */
   int32_t leaflet_id;
-  int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 on the surface. At an
-                             edge or a vertex that several triangles share, their angle-weighted normal decides
-                             (Baerentzen, Aanaes 2005); vertices are shared when their placed coordinates are equal */
+  int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 exactly on the surface or
+                             level with its rim. At an edge or a vertex that several triangles share, their angle-weighted
+                             normal decides (Baerentzen, Aanaes 2005); vertices are shared when their placed coordinates are
+                             equal. Where an edge ends inside another (along the bending curve) it is the one triangle's */
 } riis_closest;
-/* Every number is computed in double precision, equal to that of a loop over all triangles.
+/* Every number is computed in double precision, equal to that of a loop over all triangles. Distances below 1e-154 underflow
+ * to 0. The first side asked of a new surface makes what all sides need.
  *   point        3 finite coordinates, magnitude at most 1e60
  *   struct_size  sizeof(riis_closest) of the caller; no more than that is written */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
@@ -281,9 +292,9 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 typedef struct riis_closest_options {
   int64_t struct_size;
   double distance_limit;  /* points farther than this get far_distance, ids -1, side 0, and zeros. >= 0; default
-                             RIIS_AUTO: no limit */
+                             RIIS_AUTO: no limit, which infinity is, too */
   double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
-  int32_t n_threads;      /* 1 to 1024, or 0, the default: the processors this process may use */
+  int32_t n_threads;      /* 1 to 1024, or 0, the default: the processors the calling thread may use */
   int32_t reserved;       /* 0 */
 } riis_closest_options;
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
@@ -354,9 +365,10 @@ typedef struct riis_mark_options {
   int64_t struct_size;
   double distance_limit;     /* distances are wanted up to here, in mesh units: from the surface's half thickness to
                                 1e60; marks stay those of the half thickness. Default RIIS_AUTO: the half thickness */
-  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out; NULL: all nodes. Read during the call only */
+  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out; NULL: all nodes. Read during the call only. Nodes left
+                                out have finite coordinates, too */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
-  int32_t n_threads;         /* 1 to 1024, or 0, the default: the processors this process may use */
+  int32_t n_threads;         /* 1 to 1024, or 0, the default: the processors the calling thread may use */
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <stdexcept>
 
 #include "api/component.h"
 
@@ -35,6 +36,8 @@ riis_status record_current_exception() noexcept {
   } catch (const Error &error) {
     return record_error(error.status, error.text);
   } catch (const std::bad_alloc &) {
+    return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::length_error &) {  // a container asked for more than memory can hold
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &exception) {
     char text[error_text_size];

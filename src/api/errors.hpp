@@ -6,6 +6,7 @@
 
 #include <riis/riis.h>
 
+#include <charconv>
 #include <cstddef>
 #include <new>
 
@@ -18,6 +19,13 @@ inline constexpr std::size_t error_text_size = 512;
 struct Error {
   riis_status status;
   char text[error_text_size];
+};
+
+// A number as the shortest text that reads back as the same number, for the texts of errors: two different numbers never look
+// the same.
+struct Number {
+  explicit Number(double value) noexcept { *std::to_chars(text, text + sizeof text - 1, value).ptr = '\0'; }
+  char text[32];
 };
 
 // Throws an Error. The text names the argument and its value.

@@ -19,9 +19,16 @@ const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nu
 double limit_of(const riis_mark_options &options, double half_thickness) {
   if (options.distance_limit == RIIS_AUTO) return half_thickness;
   if (!(options.distance_limit >= half_thickness && options.distance_limit <= 1e60))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %g; it must be from the half thickness, %g, to 1e60",
-               options.distance_limit, half_thickness);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %s; it must be from the half thickness, %s, to 1e+60",
+               riis::Number(options.distance_limit).text, riis::Number(half_thickness).text);
   return options.distance_limit;
+}
+
+riis::Mesh checked_mesh(const riis::StridedPoints &nodes) {
+  if (nodes.n < 1)
+    riis::fail(RIIS_INVALID_MESH, "n_nodes is %lld; a mesh has at least 1 node", static_cast<long long>(nodes.n));
+  riis::check_points(nodes, "node", RIIS_INVALID_MESH);
+  return {nodes};
 }
 
 int threads_of(const riis_mark_options &options) {
@@ -35,19 +42,14 @@ std::int32_t search_of(const riis_mark_options &options) {
   return options.search;
 }
 
-template <class T>
-void put(T *to, T value) {
-  if (to) *to = value;
-}
-
 void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **node_id, const double **distance,
               const std::int64_t **triangle_id, const std::int32_t **leaflet_id) {
-  put(n, static_cast<std::int64_t>(list.size()));
+  riis::put(n, static_cast<std::int64_t>(list.size()));
   const bool empty = list.size() == 0;
-  put(node_id, empty ? nullptr : list.node_id.data());
-  put(distance, empty ? nullptr : list.distance.data());
-  put(triangle_id, empty ? nullptr : list.triangle_id.data());
-  put(leaflet_id, empty ? nullptr : list.leaflet_id.data());
+  riis::put(node_id, empty ? nullptr : list.node_id.data());
+  riis::put(distance, empty ? nullptr : list.distance.data());
+  riis::put(triangle_id, empty ? nullptr : list.triangle_id.data());
+  riis::put(leaflet_id, empty ? nullptr : list.leaflet_id.data());
 }
 
 }  // namespace
@@ -58,13 +60,13 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
                              riis_mesh **mesh) {
   return guarded([&] {
     require(mesh, "mesh");
-    *mesh = new riis_mesh{riis::make_mesh({n_nodes, x, y, z, stride})};
+    *mesh = new riis_mesh{checked_mesh({n_nodes, x, y, z, stride})};
   });
 }
 
 riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                              int64_t stride) {
-  return guarded([&] { require(mesh, "mesh")->mesh = riis::make_mesh({n_nodes, x, y, z, stride}); });
+  return guarded([&] { require(mesh, "mesh")->mesh = checked_mesh({n_nodes, x, y, z, stride}); });
 }
 
 void riis_mesh_destroy(riis_mesh **mesh) {
@@ -125,9 +127,7 @@ riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nod
     if (n_nodes != content.stats.n_nodes)
       riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is %lld; the result is of a mesh with %lld nodes",
                  static_cast<long long>(n_nodes), static_cast<long long>(content.stats.n_nodes));
-    if (far_distance >= 0 && far_distance <= content.distance_limit)
-      riis::fail(RIIS_INVALID_ARGUMENT, "far_distance is %g; it must not lie between 0 and the distance limit %g",
-                 far_distance, content.distance_limit);
+    riis::check_far_distance("far_distance", far_distance, content.distance_limit);
     riis::write_dense(content, far_distance, mark, distance, triangle_id, leaflet_id);
   });
 }

@@ -52,6 +52,19 @@ void write_struct(Struct *out, std::int64_t size, const char *name, const Struct
   std::memcpy(out, &value, static_cast<std::size_t>(size));
 }
 
+// *to = value where it is wanted.
+template <class T>
+void put(T *to, T value) {
+  if (to) *to = value;
+}
+
+// A far distance must not be mistaken for a near one.
+inline void check_far_distance(const char *name, double far_distance, double distance_limit) {
+  if (far_distance >= 0 && far_distance <= distance_limit)
+    fail(RIIS_INVALID_ARGUMENT, "%s is %s; it must not lie between 0 and the distance limit %s", name,
+         Number(far_distance).text, Number(distance_limit).text);
+}
+
 inline void check_n_threads(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be from 1 to 1024, or 0 for the default", name, n_threads);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis_surface_* and riis_closest_*: argument checks around the stages from parameters to closest points.
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,7 @@
 #include "api/handles.hpp"
 #include "api/log.hpp"
 #include "api/structs.hpp"
+#include "distance/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/triangulate.hpp"
 #include "surface/user_arrays.hpp"
@@ -44,7 +47,8 @@ class Stopwatch {
 
 void check_range(const char *name, double value, double minimum, double maximum) {
   if (!(value >= minimum && value <= maximum))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.%s is %g; it must be from %g to %g", name, value, minimum, maximum);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.%s is %s; it must be from %s to %s", name, riis::Number(value).text,
+               riis::Number(minimum).text, riis::Number(maximum).text);
 }
 
 void check_flag(const char *name, std::int32_t value) {
@@ -60,8 +64,8 @@ void check_options(const riis_surface_options &options) {
   for (const double value : options.translation) check_range("translation", value, -1e50, 1e50);
   const double *axis = options.rotation_axis;
   if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (%g, %g, %g); it must not be zero", axis[0], axis[1],
-               axis[2]);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (%s, %s, %s); it must be at least 1e-50 long",
+               riis::Number(axis[0]).text, riis::Number(axis[1]).text, riis::Number(axis[2]).text);
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
 }
@@ -77,6 +81,18 @@ riis::Placement placement_of(const riis_surface_options &options) {
 
 double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
+}
+
+// A translation so far that coordinates round by what matters would flatten the valve.
+void check_precision(const riis_surface_options &options) {
+  const double *t = options.translation;
+  const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
+  const double wanted = options.tolerance * half_thickness_of(options);
+  if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * wanted)
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "options.translation moves the valve by %s, where coordinates round by more than a thousandth of "
+               "tolerance * half_thickness, %s",
+               riis::Number(largest).text, riis::Number(wanted).text);
 }
 
 // Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
@@ -100,6 +116,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   check_options(options);
   fill(surface, options, [&](const riis::Placement &placement) {
     const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
+    check_precision(options);
     riis::TriangleSet triangles = riis::triangulate(valve->valve.kind().make_patches(valve->valve.values()), max_error,
                                                     placement, options.flip_normals != 0);
     if (triangles.n_triangles() == 0)
@@ -127,24 +144,54 @@ void create(const riis_surface_options *options, riis_surface **surface, const F
 
 const riis::Surface &content_of(const riis_surface *surface) { return *require(surface, "surface")->surface; }
 
-template <class T>
-void put(T *to, T value) {
-  if (to) *to = value;
+void put_vector(double *to, std::int64_t i, double x, double y, double z) {
+  if (!to) return;
+  to[3 * i] = x;
+  to[3 * i + 1] = y;
+  to[3 * i + 2] = z;
 }
 
-// Entry i of the arrays that are wanted.
-void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis_closest &closest) {
-  const auto put_vector = [i](double *array, const double *value) {
-    if (array)
-      for (int c = 0; c < 3; ++c) array[3 * i + c] = value[c];
-  };
-  if (to.distance) to.distance[i] = closest.distance;
-  put_vector(to.point, closest.point);
-  put_vector(to.barycentric, closest.barycentric);
-  put_vector(to.normal, closest.normal);
-  if (to.triangle_id) to.triangle_id[i] = closest.triangle_id;
-  if (to.leaflet_id) to.leaflet_id[i] = closest.leaflet_id;
-  if (to.side) to.side[i] = closest.side;
+// Entry i of the arrays that are wanted, for a triangle that was found.
+void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
+                   const riis::ClosestTriangle &found) {
+  const riis::TriangleSet &set = content.triangles();
+  const auto triangle = static_cast<std::size_t>(found.triangle);
+  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
+  if (to.triangle_id) to.triangle_id[i] = set.triangle_id[triangle];
+  if (to.leaflet_id) to.leaflet_id[i] = set.leaflet_id[triangle];
+  const std::array<riis::Vec3, 3> corners = set.corners(triangle);
+  if (to.normal) {
+    const riis::Vec3 normal = riis::triangle_normal(corners);
+    put_vector(to.normal, i, normal.x, normal.y, normal.z);
+  }
+  if (to.point || to.barycentric || to.side) {
+    const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
+    put_vector(to.point, i, on.point.x, on.point.y, on.point.z);
+    put_vector(to.barycentric, i, on.barycentric[0], on.barycentric[1], on.barycentric[2]);
+    if (to.side) to.side[i] = content.side(p, triangle, on);
+  }
+}
+
+void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
+  if (to.distance) to.distance[i] = far_distance;
+  if (to.triangle_id) to.triangle_id[i] = -1;
+  if (to.leaflet_id) to.leaflet_id[i] = -1;
+  if (to.side) to.side[i] = 0;
+  put_vector(to.normal, i, 0, 0, 0);
+  put_vector(to.point, i, 0, 0, 0);
+  put_vector(to.barycentric, i, 0, 0, 0);
+}
+
+// Infinity where there is none.
+double limit_of(const riis_closest_options &options) {
+  if (options.distance_limit == RIIS_AUTO) return std::numeric_limits<double>::infinity();
+  if (!(options.distance_limit >= 0))
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %s; it must be at least 0",
+               riis::Number(options.distance_limit).text);
+  // Without a limit no point is far, whatever far points get.
+  if (std::isfinite(options.distance_limit))
+    riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
+  return options.distance_limit;
 }
 
 }  // namespace
@@ -218,16 +265,16 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
 riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices, const double **xyz) {
   return guarded([&] {
     const riis::TriangleSet &set = content_of(surface).triangles();
-    put(n_vertices, static_cast<int64_t>(set.n_vertices()));
-    put(xyz, set.xyz.data());
+    riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    riis::put(xyz, set.xyz.data());
   });
 }
 
 riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv) {
   return guarded([&] {
     const riis::TriangleSet &set = content_of(surface).triangles();
-    put(n_vertices, static_cast<int64_t>(set.n_vertices()));
-    put(uv, set.uv.empty() ? nullptr : set.uv.data());
+    riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    riis::put(uv, set.uv.empty() ? nullptr : set.uv.data());
   });
 }
 
@@ -235,11 +282,11 @@ riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_trian
                                    const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id) {
   return guarded([&] {
     const riis::TriangleSet &set = content_of(surface).triangles();
-    put(n_triangles, static_cast<int64_t>(set.n_triangles()));
-    put(vertex_id, set.vertex_id.data());
-    put(triangle_id, set.triangle_id.data());
-    put(leaflet_id, set.leaflet_id.data());
-    put(patch_id, set.patch_id.data());
+    riis::put(n_triangles, static_cast<int64_t>(set.n_triangles()));
+    riis::put(vertex_id, set.vertex_id.data());
+    riis::put(triangle_id, set.triangle_id.data());
+    riis::put(leaflet_id, set.leaflet_id.data());
+    riis::put(patch_id, set.patch_id.data());
   });
 }
 
@@ -251,7 +298,11 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
     riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
     const riis::Vec3 p{point[0], point[1], point[2]};
     const riis::ClosestTriangle found = content.scene().closest(p, std::numeric_limits<double>::infinity());
-    riis::write_struct<closest_size>(closest, struct_size, "closest", content.describe(p, found));
+    riis_closest answer{};
+    const riis_closest_arrays to{sizeof to,     &answer.distance,    answer.point,       answer.barycentric,
+                                 answer.normal, &answer.triangle_id, &answer.leaflet_id, &answer.side};
+    write_closest(to, 0, content, p, found);
+    riis::write_struct<closest_size>(closest, struct_size, "closest", answer);
   });
 }
 
@@ -277,26 +328,24 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     if (n_points < 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
     riis::check_n_threads(whole.n_threads, "options.n_threads");
-    const bool limited = whole.distance_limit != RIIS_AUTO;
-    if (limited && !(whole.distance_limit >= 0))
-      riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %g; it must be at least 0", whole.distance_limit);
-    const double limit = limited ? whole.distance_limit : std::numeric_limits<double>::infinity();
-    if (limited && whole.far_distance >= 0 && whole.far_distance <= limit)
-      riis::fail(RIIS_INVALID_ARGUMENT,
-                 "options.far_distance is %g; it must not lie between 0 and the distance limit %g", whole.far_distance,
-                 limit);
+    if (whole.reserved != 0) riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is %d; it must be 0", whole.reserved);
+    const double limit = limit_of(whole);
     if (n_points == 0) return;
     const riis::StridedPoints points{n_points, x, y, z, stride};
     riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
 
-    const riis_closest far{whole.far_distance, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, -1, -1, 0};
+    // Here, so that memory that runs out leaves the arrays alone.
+    if (to.side) content.prepare_sides();
     constexpr std::int64_t points_per_block = 512;
     const int n_threads = whole.n_threads ? whole.n_threads : riis::default_thread_count();
     riis::parallel_for((n_points + points_per_block - 1) / points_per_block, n_threads, [&](std::int64_t block, int) {
       const std::int64_t begin = block * points_per_block, end = std::min(begin + points_per_block, n_points);
       for (std::int64_t i = begin; i < end; ++i) {
         const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
-        write_closest(to, i, found.triangle < 0 ? far : content.describe(points[i], found));
+        if (found.triangle < 0)
+          write_far(to, i, whole.far_distance);
+        else
+          write_closest(to, i, content, points[i], found);
       }
     });
   });

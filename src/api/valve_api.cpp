@@ -63,7 +63,7 @@ riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, 
     const riis::ParameterSpec &spec = specs[static_cast<std::size_t>(parameter_id)];
     const auto &defaults = spec.default_values;
     riis::write_struct<72>(parameter, struct_size, "parameter",
-                           riis_parameter{spec.name,
+                           riis_parameter{spec.name.c_str(),
                                           spec.unit,
                                           spec.description,
                                           spec.n_values,

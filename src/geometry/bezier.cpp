@@ -2,6 +2,7 @@
 #include "geometry/bezier.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "api/errors.hpp"
 
@@ -42,17 +43,43 @@ double adaptive_length(const Bezier &curve, double t0, double t1, double whole, 
 // 2^20 pieces a curve: only reached by requests that no surface of this library could be made from.
 constexpr int max_depth = 20;
 
-void flatten_after_first(const Bezier &curve, double max_flatness, int depth, std::vector<Vec3> &points) {
-  if (flatness(curve) <= max_flatness) {
-    points.push_back(curve.last());
-    return;
+void flatten_after_first(const Bezier &curve, double max_error, int depth, Flattened &flattened) {
+  if (flatness(curve) <= max_error * (curve.degree == 2 ? 2.0 : 4.0 / 3.0)) {
+    const double curve_length = arc_length(curve), error = chord_error(curve, curve_length);
+    if (error <= max_error) {
+      flattened.points.push_back(curve.last());
+      flattened.lengths.push_back(curve_length);
+      flattened.errors.push_back(error);
+      return;
+    }
   }
   if (depth == max_depth)
-    fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than %d points for a flatness of %g: the tolerance is too small",
-         1 << max_depth, max_flatness);
+    fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than %d points to be right to %s: tolerance * half_thickness is too small for it",
+         1 << max_depth, Number(max_error).text);
   const auto [left, right] = split(curve, 0.5);
-  flatten_after_first(left, max_flatness, depth + 1, points);
-  flatten_after_first(right, max_flatness, depth + 1, points);
+  flatten_after_first(left, max_error, depth + 1, flattened);
+  flatten_after_first(right, max_error, depth + 1, flattened);
+}
+
+// A bound on the curvature |B' x B''| / |B'|^3, infinite where the curve may turn on the spot. B' and B'' are Bézier curves of the
+// differences of control points: products of these bound the numerator, and the least component of the former along the
+// chord bounds the denominator from below.
+double largest_curvature(const Bezier &curve) {
+  const std::size_t n = degree_of(curve);
+  const Vec3 chord = curve.last() - curve.first();
+  std::array<Vec3, 3> first{};
+  double least_along = std::numeric_limits<double>::infinity(), largest_product = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    first[i] = static_cast<double>(n) * (curve.control[i + 1] - curve.control[i]);
+    least_along = std::min(least_along, dot(first[i], chord));
+  }
+  if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j + 1 < n; ++j) {
+    const Vec3 second = static_cast<double>(n - 1) * (first[j + 1] - first[j]);
+    for (std::size_t i = 0; i < n; ++i) largest_product = std::max(largest_product, length(cross(first[i], second)));
+  }
+  const double least_speed = least_along / length(chord);
+  return largest_product / (least_speed * least_speed * least_speed);
 }
 
 }  // namespace
@@ -73,10 +100,16 @@ Vec3 derivative(const Bezier &curve, double t) {
 }
 
 double arc_length(const Bezier &curve, double t0, double t1) {
-  double control_length = 0;
-  for (std::size_t i = 0; i < degree_of(curve); ++i) control_length += distance(curve.control[i], curve.control[i + 1]);
+  double control_length = 0, largest = 0;
+  for (std::size_t i = 0; i <= degree_of(curve); ++i) {
+    const Vec3 q = curve.control[i];
+    if (i > 0) control_length += distance(curve.control[i - 1], q);
+    largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+  }
+  // Where the curve is short for its coordinates their rounding is all that two halves differ by.
+  const double tolerance = 1e-13 * control_length + 1e-14 * largest;
   // A cusp (|B'| = 0) inside converges linearly with depth: 40 halvings leave an error of about 1e-12 of the length.
-  return adaptive_length(curve, t0, t1, quadrature_of_speed(curve, t0, t1), 1e-13 * control_length, 40);
+  return adaptive_length(curve, t0, t1, quadrature_of_speed(curve, t0, t1), tolerance, 40);
 }
 
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
@@ -98,10 +131,21 @@ double flatness(const Bezier &curve) {
   return largest;
 }
 
-std::vector<Vec3> flatten(const Bezier &curve, double max_flatness) {
-  std::vector<Vec3> points{curve.first()};
-  flatten_after_first(curve, max_flatness, 0, points);
-  return points;
+double chord_error(const Bezier &curve, double curve_length) {
+  // Curvature from the control points is loose by how much they vary: quarters of the curve vary little.
+  const auto [left, right] = split(curve, 0.5);
+  const auto [first, second] = split(left, 0.5);
+  const auto [third, fourth] = split(right, 0.5);
+  const double curvature = std::max(
+      {largest_curvature(first), largest_curvature(second), largest_curvature(third), largest_curvature(fourth)});
+  return std::min(curve_length, 0.125 * curve_length * curve_length * curvature);
+}
+
+Flattened flatten(const Bezier &curve, double max_error) {
+  Flattened flattened;
+  flattened.points.push_back(curve.first());
+  flatten_after_first(curve, max_error, 0, flattened);
+  return flattened;
 }
 
 }  // namespace riis

@@ -41,9 +41,21 @@ std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 // to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
 double flatness(const Bezier &curve);
 
-// Points on the curve from its first to its last, halved until every piece has flatness <= max_flatness (> 0): paper,
-// algorithm "Recursive de Casteljau subdivision". The largest distance between a piece and its chord is then at most
-// 3/4 max_flatness for cubic and 1/2 max_flatness for quadratic curves. A shared middle point appears once.
-std::vector<Vec3> flatten(const Bezier &curve, double max_flatness);
+// A bound on |P(t) - C(t)| for t in [0,1], where C is the curve and P its chord, both parametrised by the share of their own
+// length: length^2 / 8 times the largest curvature, or the length itself where the curve may turn on the spot.
+double chord_error(const Bezier &curve, double curve_length);
+
+// A curve replaced by chords.
+struct Flattened {
+  std::vector<Vec3> points;     // on the curve, from its first to its last
+  std::vector<double> lengths;  // arc length of the curve along every chord
+  std::vector<double> errors;   // chord_error along every chord
+};
+
+// Halves the curve (paper, algorithm "Recursive de Casteljau subdivision") until every piece has a flatness that keeps it
+// within max_error (> 0) of its chord, and a chord error of at most max_error. A piece lies within 3/4 (cubic) or 1/2
+// (quadratic) of its flatness from its chord. A shared middle point appears once. Fails with RIIS_LIMIT_EXCEEDED for more
+// than 2^20 pieces.
+Flattened flatten(const Bezier &curve, double max_error);
 
 }  // namespace riis

@@ -26,6 +26,25 @@ std::vector<double> middles(const std::vector<GridLine> &lines) {
   return values;
 }
 
+// How far a side may be from its curve between each two grid lines: the error of the segment there, and the shift of shared lines
+// along the side.
+std::vector<double> errors_between(const std::vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
+  std::vector<double> errors(lines.size() - 1, 0.0);
+  if (!(side.length > 0)) return errors;
+  const auto shift = [&](const GridLine &line) { return side.length * std::abs(line.*t - line.middle); };
+  std::size_t segment = 0;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    while (side.t[segment + 1] <= lines[i].*t) ++segment;
+    errors[i] = side.errors[segment] + std::max(shift(lines[i]), shift(lines[i + 1]));
+  }
+  return errors;
+}
+
+// The larger value at two ends of what is linear between them.
+double larger_mix(double at0, double at1, double from, double to) {
+  return std::max((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
+}
+
 // Index of the interval of ascending values that holds x: the last one at the upper end.
 std::size_t interval(const std::vector<double> &values, double x) {
   const auto after = std::upper_bound(values.begin(), values.end(), x);
@@ -68,7 +87,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
   const std::vector<GridLine> u_lines = lines(*sides.side_v0, *sides.side_v1);
   const std::vector<GridLine> v_lines = lines(*sides.side_u0, *sides.side_u1);
 
-  QuadGrid grid{middles(u_lines), middles(v_lines), {}};
+  QuadGrid grid{middles(u_lines), middles(v_lines), {}, {}};
   grid.points.reserve(u_lines.size() * v_lines.size());
   const Vec3 p00 = sides.side_v0->points.front(), p10 = sides.side_v0->points.back();
   const Vec3 p01 = sides.side_v1->points.front(), p11 = sides.side_v1->points.back();
@@ -91,6 +110,16 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
         grid.points.push_back(mix(bottom, top, v) + mix(left, right, u) - mix(mix(p00, p10, u), mix(p01, p11, u), v));
     }
   }
+  // A point of the patch inherits the errors of its four side points with their weights.
+  const std::vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
+  const std::vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
+  const std::vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);
+  const std::vector<double> error_u1 = errors_between(v_lines, *sides.side_u1, &GridLine::t1);
+  grid.errors.reserve(error_v0.size() * error_u0.size());
+  for (std::size_t j = 0; j < error_u0.size(); ++j)
+    for (std::size_t i = 0; i < error_v0.size(); ++i)
+      grid.errors.push_back(larger_mix(error_v0[i], error_v1[i], grid.v[j], grid.v[j + 1]) +
+                            larger_mix(error_u0[j], error_u1[j], grid.u[i], grid.u[i + 1]));
   return grid;
 }
 

@@ -31,8 +31,12 @@ std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &si
 struct QuadGrid {
   std::vector<double> u, v;  // ascending from 0 to 1
   std::vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
+  std::vector<double>
+      errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
+               // may be, at equal (u,v), from the Coons patch of the curves that the sides stand for
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
+  double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }
 };
 
 // The Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged where that

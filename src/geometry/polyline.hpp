@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polylines parametrised by their own length (paper, 3.2.2 "Polyline").
-// In: points. Out: C(t), t in [0,1] the share of the length.
+// Polylines parametrised by length (paper, 3.2.2 "Polyline").
+// In: points or a curve. Out: C(t), t in [0,1] the share of the length.
 #pragma once
 
 #include <vector>
 
+#include "geometry/bezier.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
 
 struct Polyline {
-  std::vector<Vec3> points;  // at least 1
-  std::vector<double> t;     // of every point, ascending from 0 to 1; all 0 where the length is 0
-  double length;
+  std::vector<Vec3> points;    // at least 1
+  std::vector<double> t;       // of every point, ascending from 0 to 1; a single 0 where the length is 0
+  std::vector<double> errors;  // of every segment: how far it may be, at equal t, from the curve that it stands for
+  double length;               // of that curve
 };
 
-// Repeated points are dropped, so that t ascends strictly. At least one point.
+// The polyline through the points, parametrised by its own length and standing for itself. Repeated points are dropped, so
+// that t ascends strictly. At least one point.
 Polyline make_polyline(const std::vector<Vec3> &points);
+
+// The polyline that stands for a Bézier curve, every segment within max_error (> 0) of it. Its t is the share of the
+// curve's length, not of its own as in the paper: a vertex then is where the curve is at that t, whatever the tolerance.
+Polyline make_polyline(const Bezier &curve, double max_error);
 
 // C(t) by linear interpolation, t in [0,1]; a vertex exactly at its own t. C(1) is the last point. (The paper's
 // smallest t_i > t does not exist at t = 1.)

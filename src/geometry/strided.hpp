@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's points where they lie: three pointers and a stride.
+// The caller's points where they lie, three pointers and a stride, and what is demanded of their coordinates.
 #pragma once
+
+#include <riis/riis.h>
 
 #include <cmath>
 #include <cstdint>
@@ -17,9 +19,16 @@ struct StridedPoints {
   Vec3 operator[](std::int64_t i) const { return {x[i * stride], y[i * stride], z[i * stride]}; }
 };
 
-// Coordinates that the kernels can take: finite, and small enough for fourth powers.
-inline bool is_usable(Vec3 p, double max_magnitude) {
-  return std::abs(p.x) <= max_magnitude && std::abs(p.y) <= max_magnitude && std::abs(p.z) <= max_magnitude;
-}
+// Coordinates up to here, and edges of triangles from here, keep the fourth powers that distances need within doubles.
+inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
+
+// Finite and not too large; false for NaN.
+inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_coordinate; }
+inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
+
+// Checks pointers, stride and every coordinate, on the calling thread: starting others would not pay, and they may not be
+// wanted. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate, naming its point as
+// `what` ("node", "point") and number.
+void check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
 
 }  // namespace riis

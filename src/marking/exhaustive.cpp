@@ -20,8 +20,6 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
   const StridedPoints &nodes = request.mesh.nodes;
   const TriangleScene &scene = request.surface.scene();
   const double limit = request.distance_limit;
-  // The bounds' distance is right to rounding: nothing within the limit is left out.
-  const double bounds_limit = limit * (1 + 1e-12);
   const std::int64_t n_blocks = (nodes.n + nodes_per_block - 1) / nodes_per_block;
 
   collection.blocks.resize(static_cast<std::size_t>(n_blocks));
@@ -38,8 +36,8 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
     for (std::int64_t i = begin; i < end; ++i) {
       if (request.node_mask && !request.node_mask[i]) continue;
       const Vec3 p = nodes[i];
-      if (!is_usable(p, max_coordinate)) check_points(nodes, "node", RIIS_INVALID_MESH);
-      if (distance_to_bounds(p, scene.bounds()) > bounds_limit) continue;
+      if (!is_usable(p)) check_points(nodes, "node", RIIS_INVALID_MESH);
+      if (!scene.may_be_within(p, limit)) continue;
       ++n_queries_here;
       const ClosestTriangle closest = scene.closest(p, limit);
       if (closest.triangle >= 0) found.push_back({i, std::sqrt(closest.distance_sq), closest.triangle});

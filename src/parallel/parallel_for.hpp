@@ -12,8 +12,8 @@
 
 namespace riis {
 
-// The processors that this process may use: what n_threads = 0 stands for. (OpenMP's count of processors follows the
-// affinity mask of the process and, unlike the mask of the calling thread, does not shrink when threads are bound.)
+// The processors that the calling thread may use, by its affinity mask: what n_threads = 0 stands for. Where OpenMP itself
+// binds threads to places, the mask is the one that the process started with.
 inline int default_thread_count() noexcept {
   const int n = omp_get_num_procs();
   return n < 1 ? 1 : n;

@@ -86,8 +86,8 @@ Vec3 Pseudonormals::at(std::size_t triangle, const std::array<double, 3> &baryce
     else if (is_zero(previous) && !is_zero(k) && !is_zero(next))
       normal = edge_[3 * triangle + k];
   }
-  // Faces folded onto each other cancel: then the triangle's own normal has to do.
-  return dot(normal, normal) > 0 ? normal : face_[triangle];
+  // Faces folded onto each other cancel up to rounding: then the triangle's own normal has to do.
+  return length(normal) > 1e-9 ? normal : face_[triangle];
 }
 
 }  // namespace riis

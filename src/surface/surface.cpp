@@ -35,19 +35,9 @@ const Pseudonormals &Surface::pseudonormals() const {
   return *pseudonormals_owner_;
 }
 
-riis_closest Surface::describe(Vec3 p, const ClosestTriangle &closest) const {
-  const auto i = static_cast<std::size_t>(closest.triangle);
-  const std::array<Vec3, 3> corners = triangles_.corners(i);
-  const PointOnTriangle on = closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
-  const Vec3 normal = triangle_normal(corners);
-  const double height = dot(p - on.point, pseudonormals().at(i, on.barycentric));
-  return {std::sqrt(on.distance_sq),
-          {on.point.x, on.point.y, on.point.z},
-          {on.barycentric[0], on.barycentric[1], on.barycentric[2]},
-          {normal.x, normal.y, normal.z},
-          triangles_.triangle_id[i],
-          triangles_.leaflet_id[i],
-          (height > 0) - (height < 0)};
+int Surface::side(Vec3 p, std::size_t triangle, const PointOnTriangle &closest) const {
+  const double height = dot(p - closest.point, pseudonormals().at(triangle, closest.barycentric));
+  return (height > 0) - (height < 0);
 }
 
 }  // namespace riis

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A surface that can be asked: triangles, their scene, the half thickness.
-// In: triangles. Out: closest points in full.
+// In: triangles. Out: closest triangles, sides.
 #pragma once
-
-#include <riis/riis.h>
 
 #include <atomic>
 #include <memory>
@@ -24,8 +22,12 @@ class Surface {
   double half_thickness() const { return half_thickness_; }
   double area() const { return area_; }
 
-  // All of riis_closest for the triangle that a query found.
-  riis_closest describe(Vec3 p, const ClosestTriangle &closest) const;
+  // +1, -1 or 0: the side of the surface that p is on, seen from its closest point, which lies on that triangle. May be asked by
+  // several threads at once.
+  int side(Vec3 p, std::size_t triangle, const PointOnTriangle &closest) const;
+
+  // Makes what sides need, once; otherwise the first side does.
+  void prepare_sides() const { pseudonormals(); }
 
  private:
   const Pseudonormals &pseudonormals() const;

@@ -73,14 +73,14 @@ struct Frame {
 // Beyond this many half extents from the centre single precision separates nothing: all triangles are asked.
 constexpr double far_away = 1e6;
 
-// The radius, in the frame's units, that makes Embree visit every triangle whose distance from q is at most `distance`.
-// Embree compares float sums of squares of the float point to outward-rounded boxes with the radius' square. With unit
-// roundoff e = 2^-24 the point is off by at most sqrt(3) e max|q|; the subtractions, squares and sums are right to a
-// factor 1 + 6 e, the radius' square to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and 4 e max|q| cover these, with the
-// rounding of this function itself; 2^-60 keeps the radius' square a normal float.
-float inflated_radius(double distance, Vec3 q) {
+// The radius, in the frame's units, that makes Embree visit every triangle whose distance from q, as the kernel computes it, is at
+// most `distance`. Embree compares float sums of squares of the float point to outward-rounded boxes with the radius'
+// square. With unit roundoff e = 2^-24 the point is off by at most sqrt(3) e max|q|; the subtractions, squares and sums are
+// right to a factor 1 + 6 e, the radius' square to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and 4 e max|q| cover these, with
+// the rounding of this function itself; `rounding` covers the kernel's; 2^-60 keeps the radius' square a normal float.
+float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + 0x1p-60);
+  return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
 }
 
 struct Corners {
@@ -92,6 +92,7 @@ struct Corners {
 struct TriangleScene::Implementation {
   std::vector<Corners> triangles;
   Frame frame;
+  double rounding;  // the scene's rounding_ in the frame's units
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device;
   Scene scene;
 };
@@ -130,7 +131,8 @@ void bounds_of_triangle(const RTCBoundsFunctionArguments *arguments) {
 bool visit_triangle(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);
   if (!ask(query, arguments->primID)) return false;
-  const float radius = inflated_radius(std::sqrt(query.best.distance_sq) * query.in->frame.scale, query.q);
+  const float radius =
+      inflated_radius(std::sqrt(query.best.distance_sq) * query.in->frame.scale, query.q, query.in->rounding);
   if (!(radius < arguments->query->radius)) return false;
   arguments->query->radius = radius;
   return true;
@@ -146,16 +148,20 @@ Bounds bounds_of(const TriangleSet &set) {
   return bounds;
 }
 
-}  // namespace
-
-double distance_to_bounds(Vec3 p, const Bounds &bounds) {
-  const auto outside = [](double x, double lower, double upper) { return std::max({lower - x, x - upper, 0.0}); };
-  return length(Vec3{outside(p.x, bounds.lower.x, bounds.upper.x), outside(p.y, bounds.lower.y, bounds.upper.y),
-                     outside(p.z, bounds.lower.z, bounds.upper.z)});
+// The kernel computes a point of the triangle, each coordinate right to a few units of rounding of the largest coordinate,
+// and from it a distance right to rounding of its own: 16 units cover the former with room.
+double rounding_of_distances(const Bounds &bounds) {
+  const Vec3 a = bounds.lower, b = bounds.upper;
+  return 0x1p-49 * std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
 }
 
-TriangleScene::TriangleScene(const TriangleSet &set) : bounds_(bounds_of(set)) {
-  implementation_ = std::make_unique<Implementation>(Implementation{{}, Frame(bounds_), shared_device(), nullptr});
+}  // namespace
+
+TriangleScene::TriangleScene(const TriangleSet &set)
+    : bounds_(bounds_of(set)), rounding_(rounding_of_distances(bounds_)) {
+  const Frame frame(bounds_);
+  implementation_ =
+      std::make_unique<Implementation>(Implementation{{}, frame, rounding_ * frame.scale, shared_device(), nullptr});
   Implementation &in = *implementation_;
   in.triangles.reserve(set.n_triangles());
   for (std::size_t i = 0; i < set.n_triangles(); ++i) {
@@ -185,12 +191,20 @@ TriangleScene::TriangleScene(const TriangleSet &set) : bounds_(bounds_of(set)) {
 
 TriangleScene::~TriangleScene() = default;
 
+bool TriangleScene::may_be_within(Vec3 p, double limit) const {
+  const auto outside = [](double x, double lower, double upper) { return std::max({lower - x, x - upper, 0.0}); };
+  const Vec3 &lower = bounds_.lower, &upper = bounds_.upper;
+  const double distance =
+      length(Vec3{outside(p.x, lower.x, upper.x), outside(p.y, lower.y, upper.y), outside(p.z, lower.z, upper.z)});
+  return distance <= limit * (1 + 1e-12) + rounding_;
+}
+
 ClosestTriangle TriangleScene::closest(Vec3 p, double limit) const {
   const Implementation &in = *implementation_;
   Query query{&in, p, in.frame(p), {infinity, -1}};
   if (!(std::max({std::abs(query.q.x), std::abs(query.q.y), std::abs(query.q.z)}) <= far_away)) {
     // Also where the frame's units overflow. The surface is farther than its own size: most limits end here.
-    if (distance_to_bounds(p, bounds_) > limit * (1 + 1e-12)) return {infinity, -1};
+    if (!may_be_within(p, limit)) return {infinity, -1};
     for (std::size_t i = 0; i < in.triangles.size(); ++i) ask(query, static_cast<std::int64_t>(i));
   } else {
     double reach = limit;
@@ -204,7 +218,7 @@ ClosestTriangle TriangleScene::closest(Vec3 p, double limit) const {
     sphere.y = static_cast<float>(query.q.y);
     sphere.z = static_cast<float>(query.q.z);
     sphere.time = 0;
-    sphere.radius = inflated_radius(reach * in.frame.scale, query.q);
+    sphere.radius = inflated_radius(reach * in.frame.scale, query.q, in.rounding);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(in.scene.get(), &sphere, &context, visit_triangle, &query);

@@ -30,16 +30,17 @@ class TriangleScene {
   // p is finite with coordinates up to max_coordinate. May be called by several threads at once.
   ClosestTriangle closest(Vec3 p, double limit) const;
 
+  // False only where no triangle is within the limit of p: a cheap question to the bounds, in double.
+  bool may_be_within(Vec3 p, double limit) const;
+
   const Bounds &bounds() const { return bounds_; }
 
   struct Implementation;  // public for Embree's callbacks
 
  private:
   Bounds bounds_;
+  double rounding_;  // of any distance to any point of the surface, beyond what is relative to the distance
   std::unique_ptr<Implementation> implementation_;
 };
-
-// A lower bound on the distance from p to anything inside the bounds, 0 inside them.
-double distance_to_bounds(Vec3 p, const Bounds &bounds);
 
 }  // namespace riis

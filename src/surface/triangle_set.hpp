@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/vec3.hpp"
+#include "geometry/strided.hpp"
 
 namespace riis {
 
@@ -33,8 +33,6 @@ struct TriangleSet {
 
 // The library takes on this many triangles: four-byte ids and a few hundred bytes each, with room.
 inline constexpr std::int64_t max_triangles = 16'777'216;
-// Coordinates up to here and edges from here keep the fourth powers that distances need within doubles.
-inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 
 // Height over the longest edge at most 1e-12 of that edge, or nothing longer than min_edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {

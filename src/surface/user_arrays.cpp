@@ -24,8 +24,13 @@ void check_fields(const riis_surface_arrays &arrays) {
   if (arrays.corners_per_face != 3 && arrays.corners_per_face != 4)
     fail(RIIS_INVALID_ARGUMENT, "arrays.corners_per_face is %d; it must be 3 or 4", arrays.corners_per_face);
   if (arrays.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "arrays.reserved is %d; it must be 0", arrays.reserved);
-  if (arrays.n_vertices < 1 || arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
-    fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is %lld; it must be from 1 to 2147483647", ll{arrays.n_vertices});
+  if (arrays.n_vertices < 1)
+    fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is %lld; it must be at least 1", ll{arrays.n_vertices});
+  if (arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
+    fail(RIIS_LIMIT_EXCEEDED, "arrays.n_vertices is %lld; it must be at most 2147483647", ll{arrays.n_vertices});
+  if (arrays.stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.stride is %lld: %lld vertices apart by it are more than memory can hold",
+         ll{arrays.stride}, ll{arrays.n_vertices});
   const std::int64_t max_faces = max_triangles / (arrays.corners_per_face - 2);
   if (arrays.n_faces < 1)
     fail(RIIS_INVALID_SURFACE, "arrays.n_faces is %lld; it must be at least 1", ll{arrays.n_faces});
@@ -44,17 +49,22 @@ std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
   return number - base;
 }
 
+Vec3 given(const riis_surface_arrays &arrays, std::int64_t vertex) {
+  return StridedPoints{arrays.n_vertices, arrays.x, arrays.y, arrays.z, arrays.stride}[vertex];
+}
+
 void place_vertices(const riis_surface_arrays &arrays, const Placement &placement, TriangleSet &set) {
   set.xyz.reserve(static_cast<std::size_t>(3 * arrays.n_vertices));
   for (std::int64_t i = 0; i < arrays.n_vertices; ++i) {
-    const Vec3 p{arrays.x[i * arrays.stride], arrays.y[i * arrays.stride], arrays.z[i * arrays.stride]};
+    const Vec3 p = given(arrays, i);
     const Vec3 placed = place(placement, p);
-    const double coordinates[6] = {p.x, p.y, p.z, placed.x, placed.y, placed.z};
-    for (int c = 0; c < 6; ++c)
-      if (!(std::abs(coordinates[c]) <= max_coordinate))
-        fail(RIIS_INVALID_SURFACE, "%s of vertex %lld%s is %g; it must be finite and at most %g in magnitude",
-             c % 3 == 0 ? "x" : (c % 3 == 1 ? "y" : "z"), ll{i}, c < 3 ? "" : ", placed,", coordinates[c],
-             max_coordinate);
+    const auto check = [&](const char *axis, double value, const char *when) {
+      if (!is_usable(value))
+        fail(RIIS_INVALID_SURFACE, "%s of vertex %lld%s is %s; it must be finite and at most %s in magnitude", axis,
+             ll{i}, when, Number(value).text, Number(max_coordinate).text);
+    };
+    check("x", p.x, ""), check("y", p.y, ""), check("z", p.z, "");
+    check("x", placed.x, ", placed,"), check("y", placed.y, ", placed,"), check("z", placed.z, ", placed,");
     set.xyz.insert(set.xyz.end(), {placed.x, placed.y, placed.z});
   }
 }
@@ -81,9 +91,10 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
       std::int64_t c = vertex_id_at(arrays, face * corners + half + 2);
       if (has_zero_area(set.vertex(a), set.vertex(b), set.vertex(c))) {
         if (!skip_zero_area)
-          fail(RIIS_INVALID_SURFACE, "face %lld (vertices %lld, %lld, %lld%s) has zero area", ll{face},
+          fail(RIIS_INVALID_SURFACE, "face %lld (vertices %lld, %lld, %lld%s) has zero area%s", ll{face},
                ll{a + arrays.index_base}, ll{b + arrays.index_base}, ll{c + arrays.index_base},
-               corners == 4 ? ", one half of a quad" : "");
+               corners == 4 ? ", one half of a quad" : "",
+               has_zero_area(given(arrays, a), given(arrays, b), given(arrays, c)) ? "" : " once it is placed");
         ++set.n_zero_area;
         continue;
       }

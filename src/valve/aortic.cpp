@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "valve/aortic.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -12,122 +13,65 @@ namespace riis {
 namespace {
 
 // Positions in the list of specs below: those of the whole valve, then those of each cusp.
+// clang-format off
 enum General {
-  root_height,
-  root_radius,
-  leaflet_height,
-  bending_height,
-  t3_leaflet,
-  t3_bending,
-  t0_leaflet,
-  t0_bending,
-  xq,
-  zq,
+  root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq,
   n_general
 };
 enum OfCusp {
-  leaflet_radius_in,
-  leaflet_radius_out,
-  leaflet_angle,
-  leaflet_power,
-  bending_radius_in,
-  bending_radius_out,
-  bending_angle,
-  bending_power,
-  rotation,
-  translation,
+  leaflet_radius_in, leaflet_radius_out, leaflet_angle, leaflet_power,
+  bending_radius_in, bending_radius_out, bending_angle, bending_power,
+  rotation, translation,
   n_of_cusp
 };
+// clang-format on
 constexpr std::size_t n_cusps = 3;
-
-// Ranges that keep every length between what a valve can be in micrometres and in kilometres; absurd ratios are refused
-// when the patches are made.
-constexpr double shortest = 1e-9, longest = 1e9;
-
-#define RIIS_CUSP(cusp, r_li, r_lo, a_l, p_l, r_bi, r_bo, a_b, p_b, turn)                                                \
-  {cusp ".leaflet_radius_in", "length", "radius of the free edge at the symmetry plane", 1, {r_li}, 0, longest},         \
-      {cusp ".leaflet_radius_out",                                                                                       \
-       "length",                                                                                                         \
-       "radius of the end of the free edge, at the commissure",                                                          \
-       1,                                                                                                                \
-       {r_lo},                                                                                                           \
-       shortest,                                                                                                         \
-       longest},                                                                                                         \
-      {cusp ".leaflet_angle", "degree", "angle from the symmetry plane to the end of the free edge", 1, {a_l}, 1, 179},  \
-      {cusp ".leaflet_power", "1", "exponent of the free edge's profile", 1, {p_l}, 1, 100},                             \
-      {cusp ".bending_radius_in", "length", "radius of the bending curve at the symmetry plane", 1, {r_bi}, 0, longest}, \
-      {cusp ".bending_radius_out",                                                                                       \
-       "length",                                                                                                         \
-       "radius of the end of the bending curve, at the sinus",                                                           \
-       1,                                                                                                                \
-       {r_bo},                                                                                                           \
-       shortest,                                                                                                         \
-       longest},                                                                                                         \
-      {cusp ".bending_angle",                                                                                            \
-       "degree",                                                                                                         \
-       "angle from the symmetry plane to the end of the bending curve",                                                  \
-       1,                                                                                                                \
-       {a_b},                                                                                                            \
-       1,                                                                                                                \
-       179},                                                                                                             \
-      {cusp ".bending_power", "1", "exponent of the bending curve's profile", 1, {p_b}, 1, 100},                         \
-      {cusp ".rotation", "degree", "turns of the cusp about x, then y, then z", 3, {0, 0, turn}, -360, 360}, {           \
-    cusp ".translation", "length", "shift of the cusp after its rotation", 3, {0, 0, -1}, -longest, longest              \
-  }
+const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
 
 PatchSet make_patches(const ParameterValues &values);
 
-const ValveKind kind = {
-    "aortic",
-    {{"root_height",
-      "length",
-      "height of the root; does not enter the cusps: the translation does",
-      1,
-      {1},
-      0,
-      longest},
-     {"root_radius", "length", "radius of the root, where the cusps are attached", 1, {1.29}, shortest, longest},
-     {"leaflet_height", "length", "height of the free edge above the root", 1, {1.02}, shortest, longest},
-     {"bending_height", "length", "height of the bending curve above the root", 1, {0.71}, shortest, longest},
-     {"t3_leaflet",
-      "length",
-      "end tangent of the free edge: right, left, non-coronary",
-      3,
-      {0.5, 0.5, 0.65},
-      0,
-      longest},
-     {"t3_bending",
-      "length",
-      "end tangent of the bending curve: right, left, non-coronary",
-      3,
-      {0.55, 0.23, 0.4},
-      0,
-      longest},
-     {"t0_leaflet",
-      "length",
-      "start tangent of the free edge: right, left, non-coronary",
-      3,
-      {0.025, 0.1, 0.1},
-      0,
-      longest},
-     {"t0_bending",
-      "length",
-      "start tangent of the bending curve: right, left, non-coronary",
-      3,
-      {0.1, 0.1, 0.1},
-      0,
-      longest},
-     {"xq", "1", "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-     {"zq", "1", "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-     RIIS_CUSP("right", 0.24, 1.365, 61, 1.58, 0.4, 1.39, 47.3, 1.82, 0),
-     RIIS_CUSP("left", 0.49, 1.495, 58.5, 2.77, 0.74, 1.355, 43, 4.12, 119.5),
-     RIIS_CUSP("non_coronary", 0.2, 1.38, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5)},
-    make_patches};
-#undef RIIS_CUSP
-
-const char *name_of(std::size_t cusp, OfCusp parameter) {
-  return kind.parameters[n_general + cusp * n_of_cusp + parameter].name;
+// clang-format off
+ValveKind make_kind() {
+  // Lengths from what a valve can be in micrometres to what it can be in kilometres; check_together looks at their ratios.
+  constexpr double shortest = 1e-9, longest = 1e9;
+  const char *length = "length", *degree = "degree", *number = "1";
+  ValveKind kind{"aortic", {
+    {"root_height", length, "height of the root; does not enter the cusps: the translation does", 1, {1}, 0, longest},
+    {"root_radius", length, "radius of the root, where the cusps are attached", 1, {1.29}, shortest, longest},
+    {"leaflet_height", length, "height of the free edge above the root", 1, {1.02}, shortest, longest},
+    {"bending_height", length, "height of the bending curve above the root", 1, {0.71}, shortest, longest},
+    {"t3_leaflet", length, "end tangent of the free edge: right, left, non-coronary", 3, {0.5, 0.5, 0.65}, 0, longest},
+    {"t3_bending", length, "end tangent of the bending curve: right, left, non-coronary", 3, {0.55, 0.23, 0.4}, 0, longest},
+    {"t0_leaflet", length, "start tangent of the free edge: right, left, non-coronary", 3, {0.025, 0.1, 0.1}, 0, longest},
+    {"t0_bending", length, "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
+    {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
+    {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
+  }, make_patches};
+  const double table[n_cusps][n_of_cusp] = {
+    {0.24, 1.365, 61.0, 1.58,   0.40, 1.390, 47.30, 1.82,      0.0, -1},
+    {0.49, 1.495, 58.5, 2.77,   0.74, 1.355, 43.00, 4.12,    119.5, -1},
+    {0.20, 1.380, 60.5, 1.19,   0.67, 1.435, 42.75, 2.54,   -121.5, -1}};
+  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
+    const std::string of = std::string(cusp_names[cusp]) + ".";
+    const double *value = table[cusp];
+    kind.parameters.insert(kind.parameters.end(), {
+      {of + "leaflet_radius_in", length, "radius of the free edge at the symmetry plane", 1, {value[leaflet_radius_in]}, 0, longest},
+      {of + "leaflet_radius_out", length, "radius of the free edge's end, at the commissure", 1, {value[leaflet_radius_out]}, shortest, longest},
+      {of + "leaflet_angle", degree, "angle from the symmetry plane to the free edge's end", 1, {value[leaflet_angle]}, 5, 175},
+      {of + "leaflet_power", number, "exponent of the free edge's profile", 1, {value[leaflet_power]}, 1, 20},
+      {of + "bending_radius_in", length, "radius of the bending curve at the symmetry plane", 1, {value[bending_radius_in]}, 0, longest},
+      {of + "bending_radius_out", length, "radius of the bending curve's end, at the sinus", 1, {value[bending_radius_out]}, shortest, longest},
+      {of + "bending_angle", degree, "angle from the symmetry plane to the bending curve's end", 1, {value[bending_angle]}, 5, 175},
+      {of + "bending_power", number, "exponent of the bending curve's profile", 1, {value[bending_power]}, 1, 20},
+      {of + "rotation", degree, "turns of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360},
+      {of + "translation", length, "shift of the cusp after its rotation", 3, {0, 0, value[translation]}, -longest, longest},
+    });
+  }
+  return kind;
 }
+// clang-format on
+
+std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
 // The free edge or the bending curve of half a cusp, y >= 0, in the cusp's frame: from the symmetry plane to the end at
 // radius_out and angle, along the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power.
@@ -155,7 +99,7 @@ struct HalfCusp {
 
 HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
   const auto general = [&](General parameter, std::size_t i = 0) { return values[parameter][i]; };
-  const auto own = [&](OfCusp parameter) { return values[n_general + cusp * n_of_cusp + parameter][0]; };
+  const auto own = [&](OfCusp parameter) { return values[position_of(cusp, parameter)][0]; };
   const double R = general(root_radius), h_l = general(leaflet_height), h_b = general(bending_height), s = h_b / h_l;
 
   HalfCusp half;
@@ -178,61 +122,95 @@ HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
   return half;
 }
 
+// Lengths against the root radius, R; heights against each other.
 void check_together(const ParameterValues &values) {
+  const std::vector<ParameterSpec> &specs = aortic_valve_kind().parameters;
   const double R = values[root_radius][0], h_l = values[leaflet_height][0], h_b = values[bending_height][0];
-  if (!(h_b <= 0.99 * h_l && h_b >= 0.01 * h_l))
-    fail(RIIS_INVALID_PARAMETER, "bending_height is %g; it must be from 0.01 to 0.99 of leaflet_height, which is %g",
-         h_b, h_l);
-  const auto check_ratio = [R](const char *name, double value) {
-    if (value > 100 * R)
-      fail(RIIS_INVALID_PARAMETER, "%s is %g; it must be at most 100 times root_radius, which is %g", name, value, R);
+  const auto check_ratio = [&](std::size_t position, double least, double most) {
+    for (int i = 0; i < specs[position].n_values; ++i) {
+      const double value = values[position][static_cast<std::size_t>(i)];
+      if (!(std::abs(value) >= least * R && std::abs(value) <= most * R))
+        fail(RIIS_INVALID_PARAMETER, "%s is %s; it must be from %s to %s times root_radius, which is %s",
+             specs[position].name.c_str(), Number(value).text, Number(least).text, Number(most).text, Number(R).text);
+    }
   };
-  check_ratio("leaflet_height", h_l);
-  for (const General parameter : {t3_leaflet, t3_bending, t0_leaflet, t0_bending})
-    for (const double value : values[parameter]) check_ratio(kind.parameters[parameter].name, value);
-  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp)
-    for (const OfCusp parameter : {leaflet_radius_in, leaflet_radius_out, bending_radius_in, bending_radius_out})
-      check_ratio(name_of(cusp, parameter), values[n_general + cusp * n_of_cusp + parameter][0]);
-  // The other way round: a root that is huge for its leaflets collapses them to rounding.
-  if (h_l < 0.01 * R)
-    fail(RIIS_INVALID_PARAMETER, "leaflet_height is %g; it must be at least 0.01 of root_radius, which is %g", h_l, R);
+  check_ratio(leaflet_height, 0.05, 10);
+  if (!(h_b >= 0.05 * h_l && h_b <= 0.95 * h_l))
+    fail(RIIS_INVALID_PARAMETER, "bending_height is %s; it must be from 0.05 to 0.95 times leaflet_height, which is %s",
+         Number(h_b).text, Number(h_l).text);
+  for (const General parameter : {t3_leaflet, t3_bending, t0_leaflet, t0_bending}) check_ratio(parameter, 0, 10);
+  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
+    for (const OfCusp parameter : {leaflet_radius_in, bending_radius_in})
+      check_ratio(position_of(cusp, parameter), 0, 10);
+    for (const OfCusp parameter : {leaflet_radius_out, bending_radius_out})
+      check_ratio(position_of(cusp, parameter), 0.05, 10);
+    check_ratio(position_of(cusp, translation), 0, 100);
+  }
+}
+
+// Values that are sound one by one can still throw a curve far away: a high power with a long tangent, a bending curve near
+// the root. Such a curve is refused with the parameters that made it.
+void check_reach(const Bezier &curve, const char *what, const char *parameters, std::size_t cusp, double size) {
+  for (int i = 0; i <= curve.degree; ++i) {
+    const double reach = length(curve.control[static_cast<std::size_t>(i)]);
+    if (!(reach <= 5 * size))
+      fail(RIIS_INVALID_PARAMETER,
+           "the %s cusp's %s curve reaches %s from the root's middle, more than 5 times %s, the larger of root_radius "
+           "and leaflet_height: look at %s",
+           cusp_names[cusp], what, Number(reach).text, Number(size).text, parameters);
+  }
 }
 
 PatchSet make_patches(const ParameterValues &values) {
   check_together(values);
+  const double size = std::max(values[root_radius][0], values[leaflet_height][0]);
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const auto vector_of = [&](OfCusp parameter) {
-      const auto &value = values[n_general + cusp * n_of_cusp + parameter];
-      return Vec3{value[0], value[1], value[2]};
-    };
-    const Rotation turn = rotation_xyz(vector_of(rotation));
-    const Vec3 shift = vector_of(translation);
     const HalfCusp half = half_cusp(values, cusp);
-    const auto add = [&](Bezier curve, double mirror) {
-      for (Vec3 &q : curve.control) q = turn * Vec3{q.x, mirror * q.y, q.z} + shift;
+    const char *of_symmetry = "bending_height, leaflet_height, xq, zq, *_radius_in";
+    const char *of_sinus = "bending_height, leaflet_height, *_radius_out, *_angle";
+    check_reach(half.leaflet, "leaflet", "leaflet_power, leaflet_angle, t0_leaflet, t3_leaflet, leaflet_radius_*", cusp,
+                size);
+    check_reach(half.bending, "bending", "bending_power, bending_angle, t0_bending, t3_bending, bending_radius_*", cusp,
+                size);
+    for (const Bezier *curve : {&half.symmetry_below, &half.symmetry_above})
+      check_reach(*curve, "symmetry", of_symmetry, cusp, size);
+    for (const Bezier *curve : {&half.sinus_below, &half.sinus_above})
+      check_reach(*curve, "sinus", of_sinus, cusp, size);
+
+    const auto add = [&](const Bezier &curve) {
       set.curves.push_back(curve);
       return set.curves.size() - 1;
     };
-    // The mirrored half shares the curves of the symmetry plane and the root point.
-    const std::size_t root = add(Bezier::point(half.symmetry_below.first()), 1);
-    const std::size_t symmetry_below = add(half.symmetry_below, 1), symmetry_above = add(half.symmetry_above, 1);
-    const auto leaflet_id = static_cast<std::int32_t>(cusp);
-    for (const bool mirrored : {false, true}) {
-      const double mirror = mirrored ? -1 : 1;
-      const std::size_t bending = add(half.bending, mirror), leaflet = add(half.leaflet, mirror);
-      const std::size_t sinus_below = add(half.sinus_below, mirror), sinus_above = add(half.sinus_above, mirror);
-      const std::int32_t patch_id = 4 * leaflet_id + (mirrored ? 2 : 0);
-      // u runs from the symmetry plane to the sinus and v upwards, so S_u x S_v points to the sinus face: downstream.
-      set.patches.push_back({root, bending, symmetry_below, sinus_below, leaflet_id, patch_id, mirrored});
-      set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, leaflet_id, patch_id + 1, mirrored});
-    }
+    const std::size_t root = add(Bezier::point(half.symmetry_below.first()));
+    const std::size_t symmetry_below = add(half.symmetry_below), symmetry_above = add(half.symmetry_above);
+    const std::size_t bending = add(half.bending), leaflet = add(half.leaflet);
+    const std::size_t sinus_below = add(half.sinus_below), sinus_above = add(half.sinus_above);
+
+    const auto vector_of = [&](OfCusp parameter) {
+      const auto &value = values[position_of(cusp, parameter)];
+      return Vec3{value[0], value[1], value[2]};
+    };
+    const auto images = [&](std::int32_t part) {
+      const auto leaflet_id = static_cast<std::int32_t>(cusp);
+      const Rotation turn = rotation_xyz(vector_of(rotation));
+      const Vec3 shift = vector_of(translation);
+      return std::vector<PatchImage>{{false, turn, shift, leaflet_id, 4 * leaflet_id + part},
+                                     {true, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
+    };
+    // u runs from the symmetry plane to the sinus and v upwards, so S_u x S_v points to the sinus face: downstream.
+    set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0)});
+    set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1)});
   }
   return set;
 }
 
 }  // namespace
 
-const ValveKind &aortic_valve_kind() { return kind; }
+const ValveKind &aortic_valve_kind() {
+  // Made at the first use and never destroyed: usable from the first to the last instruction of the process.
+  static const ValveKind &kind = *new ValveKind(make_kind());
+  return kind;
+}
 
 }  // namespace riis

@@ -37,8 +37,8 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
          spec.n_values == 1 ? "" : "s", static_cast<long long>(n_values));
   for (int i = 0; i < spec.n_values; ++i)
     if (!(values[i] >= spec.minimum && values[i] <= spec.maximum))
-      fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' is %g; it must be from %g to %g", shown.size, shown.data,
-           values[i], spec.minimum, spec.maximum);
+      fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' is %s; it must be from %s to %s", shown.size, shown.data,
+           Number(values[i]).text, Number(spec.minimum).text, Number(spec.maximum).text);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (specs[i].name != name) continue;
     if (n_values != specs[i].n_values)
-      fail(RIIS_INVALID_PARAMETER, "parameter '%s' has %d value%s, not %lld", specs[i].name, specs[i].n_values,
+      fail(RIIS_INVALID_PARAMETER, "parameter '%s' has %d value%s, not %lld", specs[i].name.c_str(), specs[i].n_values,
            specs[i].n_values == 1 ? "" : "s", static_cast<long long>(n_values));
     std::copy_n(values_[i].begin(), n_values, out);
     return;
@@ -77,7 +77,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec, name))
       fail(RIIS_INVALID_PARAMETER, "parameter '%s' belongs to one leaflet each: ask for '%s'",
-           spec.name + (std::string_view(spec.name).size() - name.size()), spec.name);
+           spec.name.c_str() + (spec.name.size() - name.size()), spec.name.c_str());
   fail_unknown(*kind_, name);
 }
 

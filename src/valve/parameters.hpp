@@ -5,13 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace riis {
 
 struct ParameterSpec {
-  const char *name;  // "root_radius", or "right.leaflet_angle" for a parameter of one leaflet
+  std::string name;  // "root_radius", or "right.leaflet_angle" for a parameter of one leaflet
   const char *unit;
   const char *description;
   int n_values;  // 1 or 3

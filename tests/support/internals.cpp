@@ -77,12 +77,17 @@ void bezier_split(int degree, const double *control, double t, double *left, dou
 
 double bezier_flatness(int degree, const double *control) { return flatness(curve(degree, control)); }
 
-riis_status bezier_flatten(int degree, const double *control, double max_flatness, int64_t *n_points, double **points) {
+riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
+                           double **lengths, double **errors) {
   return guarded([&] {
-    const std::vector<Vec3> made = flatten(curve(degree, control), max_flatness);
-    *n_points = static_cast<int64_t>(made.size());
-    *points = room<double>(3 * made.size());
-    for (std::size_t i = 0; i < made.size(); ++i) put(made[i], *points + 3 * i);
+    const Flattened made = flatten(curve(degree, control), max_error);
+    *n_points = static_cast<int64_t>(made.points.size());
+    *points = room<double>(3 * made.points.size());
+    *lengths = room<double>(made.lengths.size());
+    *errors = room<double>(made.errors.size());
+    for (std::size_t i = 0; i < made.points.size(); ++i) put(made.points[i], *points + 3 * i);
+    std::copy(made.lengths.begin(), made.lengths.end(), *lengths);
+    std::copy(made.errors.begin(), made.errors.end(), *errors);
   });
 }
 
@@ -134,29 +139,46 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
     if (name) valve.set(name, 1, &value);
     const PatchSet made = valve.kind().make_patches(valve.values());
     const std::size_t n_curves = made.curves.size(), n_patches = made.patches.size();
-    *set = {static_cast<int64_t>(n_curves), static_cast<int64_t>(n_patches), room<int32_t>(n_curves),
-            room<double>(12 * n_curves),    room<int64_t>(4 * n_patches),    room<int32_t>(n_patches),
-            room<int32_t>(n_patches)};
+    std::size_t n_images = 0;
+    for (const Patch &patch : made.patches) n_images += patch.images.size();
+    *set = {static_cast<int64_t>(n_curves), static_cast<int64_t>(n_patches), static_cast<int64_t>(n_images),
+            room<int32_t>(n_curves),        room<double>(12 * n_curves),     room<int64_t>(4 * n_patches),
+            room<int64_t>(n_images),        room<int32_t>(n_images),         room<int32_t>(n_images),
+            room<int32_t>(n_images),        room<double>(12 * n_images)};
     for (std::size_t i = 0; i < n_curves; ++i) {
       set->degree[i] = made.curves[i].degree;
       for (std::size_t k = 0; k < 4; ++k) put(made.curves[i].control[k], set->control + 12 * i + 3 * k);
     }
+    std::size_t at = 0;
     for (std::size_t i = 0; i < n_patches; ++i) {
       const Patch &patch = made.patches[i];
       const std::size_t sides[4] = {patch.side_v0, patch.side_v1, patch.side_u0, patch.side_u1};
       for (std::size_t k = 0; k < 4; ++k) set->sides[4 * i + k] = static_cast<int64_t>(sides[k]);
-      set->leaflet_id[i] = patch.leaflet_id;
-      set->flip[i] = patch.flip;
+      for (const PatchImage &image : patch.images) {
+        set->patch[at] = static_cast<int64_t>(i);
+        set->leaflet_id[at] = image.leaflet_id;
+        set->patch_id[at] = image.patch_id;
+        set->mirrored[at] = image.mirrored;
+        double *frame = set->frame + 12 * at++;
+        put(image.rotation.row_x, frame), put(image.rotation.row_y, frame + 3), put(image.rotation.row_z, frame + 6);
+        put(image.translation, frame + 9);
+      }
     }
   });
 }
 
+void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed) {
+  const double *frame = set->frame + 12 * image;
+  const PatchImage at{set->mirrored[image] != 0, {vec(frame), vec(frame + 3), vec(frame + 6)}, vec(frame + 9), 0, 0};
+  put(place(at, vec(p)), placed);
+}
+
 void patch_set_free(patch_set *set) {
-  std::free(set->degree);
-  std::free(set->control);
-  std::free(set->sides);
-  std::free(set->leaflet_id);
-  std::free(set->flip);
+  for (void *memory :
+       {static_cast<void *>(set->degree), static_cast<void *>(set->control), static_cast<void *>(set->sides),
+        static_cast<void *>(set->patch), static_cast<void *>(set->leaflet_id), static_cast<void *>(set->patch_id),
+        static_cast<void *>(set->mirrored), static_cast<void *>(set->frame)})
+    std::free(memory);
 }
 
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,

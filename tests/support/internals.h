@@ -16,7 +16,9 @@ void bezier_derivative(int degree, const double *control, double t, double *vect
 double bezier_arc_length(int degree, const double *control, double t0, double t1);
 void bezier_split(int degree, const double *control, double t, double *left, double *right);
 double bezier_flatness(int degree, const double *control);
-riis_status bezier_flatten(int degree, const double *control, double max_flatness, int64_t *n_points, double **points);
+/* lengths and errors: one fewer than points. */
+riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
+                           double **lengths, double **errors);
 
 /* Polylines. */
 double polyline_make(int64_t n, const double *points, int64_t *n_kept,
@@ -38,14 +40,17 @@ double kernel_point_triangle(const double *p, const double *abc, double *point, 
 
 /* The aortic valve's curves and patches at its default parameters, changed by one (name may be NULL). */
 typedef struct patch_set {
-  int64_t n_curves, n_patches;
-  int32_t *degree;     /* a curve */
-  double *control;     /* 12 a curve */
-  int64_t *sides;      /* 4 a patch: v0, v1, u0, u1 */
-  int32_t *leaflet_id; /* a patch */
-  int32_t *flip;       /* a patch */
+  int64_t n_curves, n_patches, n_images;
+  int32_t *degree;                           /* a curve */
+  double *control;                           /* 12 a curve, in the cusp's frame */
+  int64_t *sides;                            /* 4 a patch: v0, v1, u0, u1 */
+  int64_t *patch;                            /* an image: which patch it is of */
+  int32_t *leaflet_id, *patch_id, *mirrored; /* an image */
+  double *frame;                             /* 12 an image: rows of its rotation, translation */
 } patch_set;
 riis_status aortic_patches(const char *name, double value, patch_set *set);
+/* Where an image puts a point of the cusp's frame. */
+void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed);
 void patch_set_free(patch_set *set);
 
 /* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the
