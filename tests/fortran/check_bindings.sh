@@ -24,7 +24,9 @@ if [ "$(wc -l <<<"$functions")" -ne "$(grep -v '^#define' "$header" | grep -c '\
   exit 1
 fi
 # Name and arguments, such as "riis_mesh_destroy(mesh)", from either language, and the name that Fortran binds to.
-signatures=$(sed -E '/^#/d; s,/\*.*,,' "$header" | tr '\n' ' ' | grep -o -E 'RIIS_API [^;]*;' |
+# The header without its comments, however many lines they have.
+code=$(sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' "$header")
+signatures=$(sed '/^#/d' <<<"$code" | tr '\n' ' ' | grep -o -E 'RIIS_API [^;]*;' |
   sed -E 's/^[^(]*(riis_[a-z0-9_]*)\(/\1(/; s/[^(,]*[ *]([a-z_]+)([,)])/\1\2 /g; s/void\)/)/; s/ *;//; s/ *$//')
 bindings=$(sed 's/!.*//' "$module" | sed -n '/^ *interface$/,/^ *end interface$/p' | tr '\n' ' ' | sed 's/& *//g' |
   grep -o -E '(function|subroutine) riis_[a-z0-9_]*\([^)]*\)( result\([a-z]*\))? *bind\(c, name='\''[a-z0-9_]*'\''\)' |
@@ -36,7 +38,7 @@ types=$(grep -o -E '^ *type, bind\(c\) :: riis_[a-z_]*' "$module" | sed 's/.*:: 
 compare structs "$structs" "$types"
 
 # "struct field type", such as "riis_closest point real(c_double)(3)", from either language. Pointers point to anything.
-c_fields=$(sed -E 's,/\*.*,,; s,^.*\*/,,' "$header" | awk '
+c_fields=$(awk '
   /^typedef struct riis_[a-z_]* \{/ { struct = $3; next }
   /^\}/ { struct = "" }
   struct != "" && /;/ {
@@ -52,7 +54,7 @@ c_fields=$(sed -E 's,/\*.*,,; s,^.*\*/,,' "$header" | awk '
       }
       print struct, name, type extent
     }
-  }')
+  }' <<<"$code")
 fortran_fields=$(sed 's/!.*//' "$module" | awk '
   /^ *type, bind\(c\) :: / { struct = $4; next }
   /^ *end type/ { struct = "" }

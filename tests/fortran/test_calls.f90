@@ -122,7 +122,7 @@ contains
 
     ! Surfaces of the default valve, before it is changed.
     call check_ok(riis_surface_create(valve, surface=surface), 'create a surface with default options')
-    call check_area(6.986d0, 0.01d0)
+    call check_area(6.986d0, 0.02d0)
 
     call check_ok(riis_valve_set_scalar(valve, riis_c_string('root_radius'), 1.3d0), 'set a scalar')
     call check_ok(riis_valve_set(valve, riis_c_string(rotation), 3_c_int64_t, [0d0, 0d0, 120d0]), 'set a vector')
