@@ -4,7 +4,8 @@
  * (riis_vtk), so that the core never links VTK. Conventions as in riis.h; errors come through riis_last_error() too.
  *
  * VTK keeps process-wide state: call these functions from one thread at a time. What VTK would print while a function
- * runs is caught and becomes the error text.
+ * runs is caught and becomes the error text. Files that are cut short or of another kind are refused; VTK's own readers can
+ * still crash on a .vtu whose bytes were damaged, so do not read what you do not trust in a process you cannot lose.
  */
 /* clang-format off: as riis.h */
 #ifndef RIIS_RIIS_VTK_H
@@ -49,13 +50,14 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 /* Triangles or quads read from a file. */
 typedef struct riis_vtk_surface riis_vtk_surface;
 
-/* Reads a surface: .vtp, .vtu (its triangles, quads; another cell is an error naming it) or .stl. Polygons and strips are cut into
- * triangles; a file of quads only keeps its quads. An Int32-convertible cell array riis_leaflet gives the leaflet ids.
+/* Reads a surface, by the file's ending: .vtp (faces only), .vtu (triangles, quads, polygons, strips; another cell is an
+ * error naming it) or .stl. Polygons and strips are cut into triangles; a file of quads only keeps its quads. A cell array
+ * riis_leaflet of whole numbers >= 0 gives the leaflet ids.
  * Errors: RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface);
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
-/* Points *arrays, which its init function has filled, at the arrays of the surface, for riis_surface_create_from_arrays. They are owned by
- * the surface, valid until its destruction. */
+/* Points *arrays, which its init function has filled, at the arrays of the surface, for riis_surface_create_from_arrays.
+ * They are owned by the surface, valid until its destruction. */
 RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays);
 
 /* Writes exactly the triangles that are queried, after placement, to a .vtp file: points Float64; cell arrays riis_leaflet,
@@ -79,7 +81,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
 /* Draws two panels into a .png file: the surface with its leaflets in different colours, and the cells all of whose nodes
  * are marked, coloured by leaflet, in the faint outline of the mesh.
  *   mesh  with marks set; NULL draws the surface alone, in one panel
- * Errors: RIIS_UNAVAILABLE without a usable X display (VTK itself would abort the process); RIIS_FILE_ERROR naming the file. */
+ * Errors: RIIS_UNAVAILABLE without a usable X display (VTK itself would abort the process), after trying for about half a
+ * second; RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 
