@@ -43,22 +43,26 @@ double adaptive_length(const Bezier &curve, double t0, double t1, double whole, 
 // 2^20 pieces a curve: only reached by requests that no surface of this library could be made from.
 constexpr int max_depth = 20;
 
-void flatten_after_first(const Bezier &curve, double max_error, int depth, Flattened &flattened) {
-  if (flatness(curve) <= max_error * (curve.degree == 2 ? 2.0 : 4.0 / 3.0)) {
-    const double curve_length = arc_length(curve), error = chord_error(curve, curve_length);
+// The piece from share t0 to t1 of the whole curve.
+void flatten_after_first(const Bezier &piece, double piece_length, double t0, double t1, double max_error, int depth,
+                         Flattened &flattened) {
+  if (flatness(piece) <= max_error * (piece.degree == 2 ? 2.0 : 4.0 / 3.0)) {
+    const double error = chord_error(piece, piece_length);
     if (error <= max_error) {
-      flattened.points.push_back(curve.last());
-      flattened.lengths.push_back(curve_length);
+      flattened.points.push_back(piece.last());
+      flattened.t.push_back(t1);
       flattened.errors.push_back(error);
       return;
     }
   }
   if (depth == max_depth)
-    fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than %d points to be right to %s: tolerance * half_thickness is too small for it",
+    fail(RIIS_LIMIT_EXCEEDED,
+         "a curve needs more than %d points to be right to %s: tolerance * half_thickness is too small for it",
          1 << max_depth, Number(max_error).text);
-  const auto [left, right] = split(curve, 0.5);
-  flatten_after_first(left, max_error, depth + 1, flattened);
-  flatten_after_first(right, max_error, depth + 1, flattened);
+  const auto [left, right] = split(piece, halfway(piece, piece_length));
+  const double middle = 0.5 * (t0 + t1);
+  flatten_after_first(left, 0.5 * piece_length, t0, middle, max_error, depth + 1, flattened);
+  flatten_after_first(right, 0.5 * piece_length, middle, t1, max_error, depth + 1, flattened);
 }
 
 // A bound on the curvature |B' x B''| / |B'|^3, infinite where the curve may turn on the spot. B' and B'' are Bézier curves of the
@@ -141,10 +145,23 @@ double chord_error(const Bezier &curve, double curve_length) {
   return std::min(curve_length, 0.125 * curve_length * curve_length * curvature);
 }
 
+double halfway(const Bezier &curve, double curve_length) {
+  // Newton's method on the length from 0 to t, kept inside a shrinking bracket.
+  const double half = 0.5 * curve_length;
+  double below = 0, above = 1, t = 0.5;
+  for (int i = 0; i < 60; ++i) {
+    const double excess = arc_length(curve, 0, t) - half;
+    if (std::abs(excess) <= 1e-14 * curve_length) break;
+    (excess > 0 ? above : below) = t;
+    const double next = t - excess / length(derivative(curve, t));
+    t = next > below && next < above ? next : 0.5 * (below + above);
+  }
+  return t;
+}
+
 Flattened flatten(const Bezier &curve, double max_error) {
-  Flattened flattened;
-  flattened.points.push_back(curve.first());
-  flatten_after_first(curve, max_error, 0, flattened);
+  Flattened flattened{{curve.first()}, {0.0}, {}, arc_length(curve)};
+  if (flattened.length > 0) flatten_after_first(curve, flattened.length, 0, 1, max_error, 0, flattened);
   return flattened;
 }
 

@@ -37,6 +37,9 @@ double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 // The two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
+// The t in [0,1] at which the curve, of the given length > 0, has half of it behind it.
+double halfway(const Bezier &curve, double curve_length);
+
 // kappa: the largest distance of an inner control point to the segment from the first to the last. (The paper measures
 // to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
 double flatness(const Bezier &curve);
@@ -47,15 +50,17 @@ double chord_error(const Bezier &curve, double curve_length);
 
 // A curve replaced by chords.
 struct Flattened {
-  std::vector<Vec3> points;     // on the curve, from its first to its last
-  std::vector<double> lengths;  // arc length of the curve along every chord
-  std::vector<double> errors;   // chord_error along every chord
+  std::vector<Vec3> points;    // on the curve, from its first to its last; the first alone where the length is 0
+  std::vector<double> t;       // of every point: share of the curve's length, binary fractions from 0 to 1
+  std::vector<double> errors;  // chord_error along every chord
+  double length;               // of the curve
 };
 
-// Halves the curve (paper, algorithm "Recursive de Casteljau subdivision") until every piece has a flatness that keeps it
-// within max_error (> 0) of its chord, and a chord error of at most max_error. A piece lies within 3/4 (cubic) or 1/2
-// (quadratic) of its flatness from its chord. A shared middle point appears once. Fails with RIIS_LIMIT_EXCEEDED for more
-// than 2^20 pieces.
+// Halves the curve until every piece has a flatness that keeps it within max_error (> 0) of its chord, and a chord error of at most
+// max_error. A piece lies within 3/4 (cubic) or 1/2 (quadratic) of its flatness from its chord. Pieces are halved by length,
+// where the paper (algorithm "Recursive de Casteljau subdivision") halves the parameter: shares of two curves then either
+// agree to the last bit or differ by at least a piece, so patches have no slivers between them. A shared middle point
+// appears once. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20 pieces.
 Flattened flatten(const Bezier &curve, double max_error);
 
 }  // namespace riis

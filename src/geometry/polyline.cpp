@@ -2,42 +2,32 @@
 #include "geometry/polyline.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace riis {
 
-namespace {
-
-// The polyline of consecutive points with the lengths and errors of the pieces between them.
-Polyline from_pieces(const std::vector<Vec3> &points, const std::vector<double> &lengths,
-                     const std::vector<double> &errors) {
+Polyline make_polyline(const std::vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
+  for (const Vec3 &point : points) {
+    const double step = distance(polyline.points.back(), point);
     // A step too short to change the sum would repeat a t.
-    if (!(polyline.length + lengths[i] > polyline.length)) continue;
-    polyline.length += lengths[i];
-    polyline.points.push_back(points[i + 1]);
+    if (!(polyline.length + step > polyline.length)) continue;
+    polyline.length += step;
+    polyline.points.push_back(point);
     polyline.t.push_back(polyline.length);
-    polyline.errors.push_back(errors[i]);
+    polyline.errors.push_back(0.0);
   }
   if (polyline.length > 0) {
-    // The end point is the curve's, whatever step was dropped before it: neighbours share it.
+    // The end point is the given one, whatever step was dropped before it: neighbours share it.
     polyline.points.back() = points.back();
     for (double &t : polyline.t) t /= polyline.length;
   }
   return polyline;
 }
 
-}  // namespace
-
-Polyline make_polyline(const std::vector<Vec3> &points) {
-  std::vector<double> lengths;
-  for (std::size_t i = 1; i < points.size(); ++i) lengths.push_back(distance(points[i - 1], points[i]));
-  return from_pieces(points, lengths, std::vector<double>(lengths.size(), 0.0));
-}
-
 Polyline make_polyline(const Bezier &curve, double max_error) {
-  const Flattened flattened = flatten(curve, max_error);
-  return from_pieces(flattened.points, flattened.lengths, flattened.errors);
+  Flattened flattened = flatten(curve, max_error);
+  return {std::move(flattened.points), std::move(flattened.t), std::move(flattened.errors), flattened.length};
 }
 
 Vec3 evaluate(const Polyline &polyline, double t) {

@@ -13,7 +13,7 @@ namespace {
 // How the allowed error is shared out; docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a u and of
 // a v curve and of merged grid lines, each bounded as below; what they leave in a quad is for its split into triangles:
 // at least 1 - 2 * (curve_share + merge_share).
-constexpr double curve_share = 0.45, merge_share = 0.02;
+constexpr double curve_share = 0.38, merge_share = 0.01;
 
 // Halvings of a quad's sides until its flatness, which falls by exactly 4 each time, is small enough. No quad that the
 // library takes on needs more than 12; the loop ends there.

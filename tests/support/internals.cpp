@@ -78,15 +78,15 @@ void bezier_split(int degree, const double *control, double t, double *left, dou
 double bezier_flatness(int degree, const double *control) { return flatness(curve(degree, control)); }
 
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
-                           double **lengths, double **errors) {
+                           double **t, double **errors) {
   return guarded([&] {
     const Flattened made = flatten(curve(degree, control), max_error);
     *n_points = static_cast<int64_t>(made.points.size());
     *points = room<double>(3 * made.points.size());
-    *lengths = room<double>(made.lengths.size());
+    *t = room<double>(made.t.size());
     *errors = room<double>(made.errors.size());
     for (std::size_t i = 0; i < made.points.size(); ++i) put(made.points[i], *points + 3 * i);
-    std::copy(made.lengths.begin(), made.lengths.end(), *lengths);
+    std::copy(made.t.begin(), made.t.end(), *t);
     std::copy(made.errors.begin(), made.errors.end(), *errors);
   });
 }

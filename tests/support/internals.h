@@ -16,9 +16,9 @@ void bezier_derivative(int degree, const double *control, double t, double *vect
 double bezier_arc_length(int degree, const double *control, double t0, double t1);
 void bezier_split(int degree, const double *control, double t, double *left, double *right);
 double bezier_flatness(int degree, const double *control);
-/* lengths and errors: one fewer than points. */
+/* t: one a point; errors: one fewer. */
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
-                           double **lengths, double **errors);
+                           double **t, double **errors);
 
 /* Polylines. */
 double polyline_make(int64_t n, const double *points, int64_t *n_kept,
