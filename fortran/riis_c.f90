@@ -24,7 +24,8 @@
 ! - Ids count from 0, also here: node_id + 1 is the column of xyz(3, n).
 ! - Structs: have the init function fill them, with c_sizeof(the variable) as struct_size, then set what differs:
 !     status = riis_mark_options_init(options, c_sizeof(options))
-! - Texts go in through riis_c_string and come out through riis_c_text.
+! - Texts go in through riis_c_string and come out through riis_c_text. A bare literal compiles, too, and is wrong: it
+!   has no end.
 module riis_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, &
     c_ptr, c_size_t, c_associated, c_f_pointer

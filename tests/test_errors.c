@@ -116,6 +116,39 @@ static void null_arguments_are_named(void **state) {
   }
 }
 
+/* Fortran's handles are all of one type: swapped ones compile. */
+static void swapped_handles_are_refused(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_OK(riis_mark_result_create(&result));
+  riis_surface *no_surface = (void *)mesh;
+  riis_mesh *no_mesh = (void *)surface;
+  riis_valve *no_valve = (void *)surface;
+  riis_mark_result *no_result = (void *)mesh;
+#define IS_OF_ANOTHER_KIND(name, call) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, name " is a handle of another kind", call)
+  IS_OF_ANOTHER_KIND("surface", riis_mark_nodes(no_surface, no_mesh, NULL, result));
+  IS_OF_ANOTHER_KIND("mesh", riis_mark_nodes(surface, no_mesh, NULL, result));
+  IS_OF_ANOTHER_KIND("result", riis_mark_nodes(surface, mesh, NULL, no_result));
+  IS_OF_ANOTHER_KIND("valve", riis_surface_create(no_valve, NULL, &no_surface));
+  IS_OF_ANOTHER_KIND("valve", riis_valve_set_scalar(no_valve, "xq", 0));
+  IS_OF_ANOTHER_KIND("surface", riis_surface_update(no_surface, valve, NULL));
+  IS_OF_ANOTHER_KIND("surface", riis_surface_get_info(no_surface, NULL, 104));
+  IS_OF_ANOTHER_KIND("result", riis_mark_result_marked(no_result, NULL, NULL, NULL, NULL, NULL));
+  IS_OF_ANOTHER_KIND("mesh", riis_mesh_update(no_mesh, 4, xyz, xyz, xyz, 1));
+  riis_surface_destroy(&no_surface);
+  assert_true((void *)no_surface == (void *)mesh); /* left alone */
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
 static void parameters_are_refused_by_name(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -124,7 +157,8 @@ static void parameters_are_refused_by_name(void **state) {
   assert_null(valve);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "''", riis_valve_create("", &valve));
   CHECK_OK(riis_valve_create("aortic", &valve));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radios'|aortic", riis_valve_set_scalar(valve, "root_radios", 1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radios'|aortic|riis_valve_parameter",
+                riis_valve_set_scalar(valve, "root_radios", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'.leaflet_angle'", riis_valve_set_scalar(valve, ".leaflet_angle", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.'", riis_valve_set_scalar(valve, "right.", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'angle'", riis_valve_set_scalar(valve, "angle", 1));
@@ -227,7 +261,8 @@ static void surface_arrays_are_refused_by_name(void **state) {
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_faces = 0, "arrays.n_faces is 0");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.n_faces = -7, "arrays.n_faces is -7");
   ARRAYS_ARE_REFUSED(RIIS_LIMIT_EXCEEDED, arrays.n_faces = 16777217, "arrays.n_faces is 16777217|16777216");
-  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.vertex_ids = bad_ids, "corner 2 of face 0 is 4|0 to 3");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.vertex_ids = bad_ids,
+                     "corner 2 of face 0 is 4|0 to 3, counting from arrays.index_base = 0");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.index_base = 1, "corner 0 of face 0 is 0|1 to 4");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.leaflet_id = negative, "leaflet_id of face 0 is -3");
   memcpy(bad, xyz, sizeof bad);
@@ -259,7 +294,8 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   CHECK_OK(riis_closest_arrays_init(&out, sizeof out));
   out.distance = distance;
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is 0", riis_mesh_create(0, xyz, xyz, xyz, 1, &mesh));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold", riis_mesh_create(INT64_MAX / 16, xyz, xyz, xyz, 3, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold",
+                riis_mesh_create(INT64_MAX / 16, xyz, xyz, xyz, 3, &mesh));
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -5", riis_mesh_create(-5, xyz, xyz, xyz, 1, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is 0", riis_mesh_create(4, xyz, xyz, xyz, 0, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is -3", riis_mesh_create(4, xyz, xyz, xyz, -3, &mesh));
@@ -284,7 +320,8 @@ static void points_and_meshes_are_refused_by_name(void **state) {
                 riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.n_threads = 0;
   options.reserved = 7;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reserved is 7", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reserved is 7",
+                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.reserved = 0;
   options.distance_limit = -2;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is -2",
@@ -359,6 +396,7 @@ int main(void) {
       cmocka_unit_test(statuses_have_names),
       cmocka_unit_test(version_is_the_headers),
       cmocka_unit_test(null_arguments_are_named),
+      cmocka_unit_test(swapped_handles_are_refused),
       cmocka_unit_test(parameters_are_refused_by_name),
       cmocka_unit_test(surface_options_are_refused_by_name),
       cmocka_unit_test(surface_arrays_are_refused_by_name),

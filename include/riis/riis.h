@@ -24,7 +24,8 @@
  *   changed; < 0 means that an object passed for writing is only fit to be destroyed. riis_last_error() has the text.
  *   No function aborts, prints, throws, or lets an exception out.
  * - New objects are the last argument, written only on success. Destroying takes the address of the handle, sets it to
- *   NULL, and accepts NULL.
+ *   NULL, and accepts NULL. A handle of another kind in a handle's place is refused, also by destroying, which then leaves
+ *   it alone.
  * - Option structs begin with struct_size and are filled by their init function, which takes the size that the caller
  *   compiled with; a NULL options pointer means all defaults. Fields are only ever appended.
  * - A handle may be read (const) by any number of threads at once; it is written by one thread with no reader beside

@@ -8,6 +8,7 @@
 
 using riis::guarded;
 using riis::require;
+using riis::require_handle;
 
 namespace {
 
@@ -60,20 +61,16 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
                              riis_mesh **mesh) {
   return guarded([&] {
     require(mesh, "mesh");
-    *mesh = new riis_mesh{checked_mesh({n_nodes, x, y, z, stride})};
+    *mesh = new riis_mesh{riis_mesh::own_kind, checked_mesh({n_nodes, x, y, z, stride})};
   });
 }
 
 riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                              int64_t stride) {
-  return guarded([&] { require(mesh, "mesh")->mesh = checked_mesh({n_nodes, x, y, z, stride}); });
+  return guarded([&] { require_handle(mesh, "mesh")->mesh = checked_mesh({n_nodes, x, y, z, stride}); });
 }
 
-void riis_mesh_destroy(riis_mesh **mesh) {
-  if (!mesh) return;
-  delete *mesh;
-  *mesh = nullptr;
-}
+void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
 
 riis_status riis_mark_result_create(riis_mark_result **result) {
   return guarded([&] {
@@ -82,11 +79,7 @@ riis_status riis_mark_result_create(riis_mark_result **result) {
   });
 }
 
-void riis_mark_result_destroy(riis_mark_result **result) {
-  if (!result) return;
-  delete *result;
-  *result = nullptr;
-}
+void riis_mark_result_destroy(riis_mark_result **result) { riis::destroy_handle(result, "result"); }
 
 riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size) {
   return guarded([&] { riis::init_struct<options_size>(options, struct_size, "options", default_options); });
@@ -95,9 +88,9 @@ riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_si
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_mark_result *result) {
   return guarded([&] {
-    const riis::Surface &content = *require(surface, "surface")->surface;
-    require(mesh, "mesh");
-    require(result, "result");
+    const riis::Surface &content = *require_handle(surface, "surface")->surface;
+    require_handle(mesh, "mesh");
+    require_handle(result, "result");
     const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
     const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
                                       threads_of(whole)};
@@ -108,7 +101,8 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
 riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked, const int64_t **node_id,
                                     const double **distance, const int64_t **triangle_id, const int32_t **leaflet_id) {
   return guarded([&] {
-    get_list(require(result, "result")->result.marked_nodes(), n_marked, node_id, distance, triangle_id, leaflet_id);
+    get_list(require_handle(result, "result")->result.marked_nodes(), n_marked, node_id, distance, triangle_id,
+             leaflet_id);
   });
 }
 
@@ -116,14 +110,14 @@ riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_
                                           const double **distance, const int64_t **triangle_id,
                                           const int32_t **leaflet_id) {
   return guarded([&] {
-    get_list(require(result, "result")->result.within, n_within, node_id, distance, triangle_id, leaflet_id);
+    get_list(require_handle(result, "result")->result.within, n_within, node_id, distance, triangle_id, leaflet_id);
   });
 }
 
 riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance, uint8_t *mark,
                                    double *distance, int64_t *triangle_id, int32_t *leaflet_id) {
   return guarded([&] {
-    const riis::MarkResult &content = require(result, "result")->result;
+    const riis::MarkResult &content = require_handle(result, "result")->result;
     if (n_nodes != content.stats.n_nodes)
       riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is %lld; the result is of a mesh with %lld nodes",
                  static_cast<long long>(n_nodes), static_cast<long long>(content.stats.n_nodes));
@@ -134,7 +128,7 @@ riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nod
 
 riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size) {
   return guarded([&] {
-    const riis_mark_stats &of_last_marking = require(result, "result")->result.stats;
+    const riis_mark_stats &of_last_marking = require_handle(result, "result")->result.stats;
     riis::write_struct<stats_size>(stats, struct_size, "stats", of_last_marking);
   });
 }

@@ -19,6 +19,7 @@
 
 using riis::guarded;
 using riis::require;
+using riis::require_handle;
 
 namespace {
 
@@ -112,7 +113,7 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
 }
 
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options) {
-  require(valve, "valve");
+  require_handle(valve, "valve");
   check_options(options);
   fill(surface, options, [&](const riis::Placement &placement) {
     const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
@@ -142,7 +143,7 @@ void create(const riis_surface_options *options, riis_surface **surface, const F
   *surface = made.release();
 }
 
-const riis::Surface &content_of(const riis_surface *surface) { return *require(surface, "surface")->surface; }
+const riis::Surface &content_of(const riis_surface *surface) { return *require_handle(surface, "surface")->surface; }
 
 void put_vector(double *to, std::int64_t i, double x, double y, double z) {
   if (!to) return;
@@ -223,7 +224,7 @@ riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, c
 
 riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
   return guarded([&] {
-    require(surface, "surface");
+    require_handle(surface, "surface");
     fill_from_valve(*surface, valve,
                     riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
@@ -232,17 +233,13 @@ riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, 
 riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                             const riis_surface_options *options) {
   return guarded([&] {
-    require(surface, "surface");
+    require_handle(surface, "surface");
     fill_from_arrays(*surface, arrays,
                      riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 
-void riis_surface_destroy(riis_surface **surface) {
-  if (!surface) return;
-  delete *surface;
-  *surface = nullptr;
-}
+void riis_surface_destroy(riis_surface **surface) { riis::destroy_handle(surface, "surface"); }
 
 riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size) {
   return guarded([&] {

@@ -6,25 +6,22 @@
 
 using riis::guarded;
 using riis::require;
+using riis::require_handle;
 
 extern "C" {
 
 riis_status riis_valve_create(const char *kind, riis_valve **valve) {
   return guarded([&] {
     require(valve, "valve");
-    *valve = new riis_valve{riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
+    *valve = new riis_valve{riis_valve::own_kind, riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
   });
 }
 
-void riis_valve_destroy(riis_valve **valve) {
-  if (!valve) return;
-  delete *valve;
-  *valve = nullptr;
-}
+void riis_valve_destroy(riis_valve **valve) { riis::destroy_handle(valve, "valve"); }
 
 riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values) {
   return guarded([&] {
-    require(valve, "valve");
+    require_handle(valve, "valve");
     require(name, "name");
     require(values, "values");
     valve->valve.set(name, n_values, values);
@@ -37,7 +34,7 @@ riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double va
 
 riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values, double *values) {
   return guarded([&] {
-    require(valve, "valve");
+    require_handle(valve, "valve");
     require(name, "name");
     require(values, "values");
     valve->valve.get(name, n_values, values);
@@ -46,7 +43,7 @@ riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_
 
 riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
   return guarded([&] {
-    require(valve, "valve");
+    require_handle(valve, "valve");
     *require(n_parameters, "n_parameters") = static_cast<int64_t>(valve->valve.kind().parameters.size());
   });
 }
@@ -54,7 +51,7 @@ riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_paramete
 riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
                                  int64_t struct_size) {
   return guarded([&] {
-    require(valve, "valve");
+    require_handle(valve, "valve");
     const auto &specs = valve->valve.kind().parameters;
     if (parameter_id < 0 || parameter_id >= static_cast<int64_t>(specs.size()))
       riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is %lld; the %s valve has parameters 0 to %lld",

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run.hpp"
 
+#include <algorithm>
+#include <cstdio>
+
 #include "cli/handles.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
@@ -60,6 +63,25 @@ Mesh borrow_nodes(const Options &options, const riis_vtk_mesh *file, Report &rep
   return Mesh(mesh);
 }
 
+// Mostly the units: one line that shows them.
+void explain_no_marks(const riis_surface_info &surface, const riis_vtk_mesh *file) {
+  int64_t n_nodes = 0;
+  const double *xyz = nullptr;
+  check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, &xyz));
+  double lower[3], upper[3];
+  for (int64_t i = 0; i < 3 * n_nodes; ++i) {
+    const auto axis = i % 3;
+    lower[axis] = i < 3 ? xyz[i] : std::min(lower[axis], xyz[i]);
+    upper[axis] = i < 3 ? xyz[i] : std::max(upper[axis], xyz[i]);
+  }
+  std::fprintf(stderr,
+               "riis-mark: no node is marked: the mesh is in x %g %g, y %g %g, z %g %g, the surface in x %g %g, y %g "
+               "%g, z %g %g; "
+               "see --scale, --translate\n",
+               lower[0], upper[0], lower[1], upper[1], lower[2], upper[2], surface.lower[0], surface.upper[0],
+               surface.lower[1], surface.upper[1], surface.lower[2], surface.upper[2]);
+}
+
 void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
   const Mesh mesh = borrow_nodes(options, file, report);
   riis_mark_result *handle = nullptr;
@@ -70,6 +92,7 @@ void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *fi
   report.seconds.search = stage.seconds();
   check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
   check(riis_vtk_mesh_set_marks(file, result.get(), options.far_distance));
+  if (report.marks.n_marked == 0 && !options.quiet) explain_no_marks(report.surface, file);
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.mesh_name = options.mesh;

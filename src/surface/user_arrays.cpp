@@ -43,9 +43,11 @@ std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
                                                           : static_cast<const std::int64_t *>(arrays.vertex_ids)[i];
   const std::int64_t base = arrays.index_base;
   if (number < base || number - base >= arrays.n_vertices)
-    fail(RIIS_INVALID_SURFACE, "arrays.vertex_ids: corner %lld of face %lld is %lld; it must be from %lld to %lld",
+    fail(RIIS_INVALID_SURFACE,
+         "arrays.vertex_ids: corner %lld of face %lld is %lld; it must be from %lld to %lld, counting from "
+         "arrays.index_base = %lld",
          ll{i % arrays.corners_per_face}, ll{i / arrays.corners_per_face}, ll{number}, ll{base},
-         ll{arrays.n_vertices - 1 + base});
+         ll{arrays.n_vertices - 1 + base}, ll{base});
   return number - base;
 }
 

@@ -20,7 +20,9 @@ struct Shown {
 
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
   const Shown shown(name);
-  fail(RIIS_INVALID_PARAMETER, "'%.*s' is not a parameter of the %s valve", shown.size, shown.data, kind.name);
+  fail(RIIS_INVALID_PARAMETER,
+       "'%.*s' is not a parameter of the %s valve; riis_valve_parameter and riis-mark --print-params list them",
+       shown.size, shown.data, kind.name);
 }
 
 // Whether the spec's name is a leaflet's name, a dot, and the given name.

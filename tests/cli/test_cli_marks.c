@@ -193,6 +193,18 @@ static void test_surface_from_file(void **state) {
   assert_non_null(strstr(program_out, "out.vtp: "));
 }
 
+/* Wrong units are no error, but the two sizes are shown. */
+static void test_no_marks(void **state) {
+  (void)state;
+  run_program(scratch_path("in.vtu"), "--scale", "0.001", "--translate", "9,9,9", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_err, "riis-mark: no node is marked: the mesh is in x"));
+  assert_non_null(strstr(program_err, "--scale"));
+  assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
+  RUN_FINE(scratch_path("in.vtu"), "--scale", "0.001", "--translate", "9,9,9", "--quiet", "--stats",
+           scratch_path("stats.json"));
+}
+
 static void test_legacy_mesh(void **state) {
   (void)state;
   const double lower[3] = {-1.5, -1.5, -1}, upper[3] = {1.5, 1.5, 0};
@@ -212,7 +224,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_defaults),        cmocka_unit_test(test_every_number),
       cmocka_unit_test(test_stats_on_stdout), cmocka_unit_test(test_surface_from_file),
-      cmocka_unit_test(test_legacy_mesh),
+      cmocka_unit_test(test_no_marks),        cmocka_unit_test(test_legacy_mesh),
   };
   return cmocka_run_group_tests(tests, make_box, destroy_all);
 }
