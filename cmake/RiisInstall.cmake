@@ -64,6 +64,7 @@ function(riis_linked_components target prefix result)
   set(${result} ${linked} PARENT_SCOPE)
 endfunction()
 
+get_target_property(riis_library_type riis TYPE)
 riis_linked_components(riis TBB:: riis_tbb_components)
 set(riis_vtk_components "")
 set(riis_x11_components "")
