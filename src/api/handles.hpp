@@ -68,3 +68,9 @@ struct riis_mark_result {
   riis::HandleKind kind = own_kind;
   riis::MarkResult result;
 };
+
+namespace riis {
+
+inline const Surface &content_of(const riis_surface *surface) { return *require_handle(surface, "surface")->surface; }
+
+}  // namespace riis

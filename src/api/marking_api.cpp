@@ -88,7 +88,7 @@ riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_si
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_mark_result *result) {
   return guarded([&] {
-    const riis::Surface &content = *require_handle(surface, "surface")->surface;
+    const riis::Surface &content = riis::content_of(surface);
     require_handle(mesh, "mesh");
     require_handle(result, "result");
     const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_surface_* and riis_closest_*: argument checks around the stages from parameters to closest points.
+// riis_surface_*: argument checks around the stages from parameters to the Embree scene.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -11,8 +10,6 @@
 #include "api/handles.hpp"
 #include "api/log.hpp"
 #include "api/structs.hpp"
-#include "distance/point_triangle.hpp"
-#include "parallel/parallel_for.hpp"
 #include "surface/triangulate.hpp"
 #include "surface/user_arrays.hpp"
 #include "valve/patches.hpp"
@@ -24,16 +21,12 @@ using riis::require_handle;
 namespace {
 
 // Sizes of the first release.
-constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104, closest_size = 96,
-                      closest_options_size = 32, closest_arrays_size = 64;
+constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 
 const riis_surface_options default_options{sizeof(riis_surface_options), RIIS_AUTO, 0.05, 1.0, {0, 0, 1}, 0, {0, 0, 0},
                                            RIIS_ZERO_AREA_REFUSE,        0};
 const riis_surface_arrays default_arrays{
     sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr};
-const riis_closest_options default_closest_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0};
-const riis_closest_arrays default_closest_arrays{
-    sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
 class Stopwatch {
  public:
@@ -143,58 +136,6 @@ void create(const riis_surface_options *options, riis_surface **surface, const F
   *surface = made.release();
 }
 
-const riis::Surface &content_of(const riis_surface *surface) { return *require_handle(surface, "surface")->surface; }
-
-void put_vector(double *to, std::int64_t i, double x, double y, double z) {
-  if (!to) return;
-  to[3 * i] = x;
-  to[3 * i + 1] = y;
-  to[3 * i + 2] = z;
-}
-
-// Entry i of the arrays that are wanted, for a triangle that was found.
-void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
-                   const riis::ClosestTriangle &found) {
-  const riis::TriangleSet &set = content.triangles();
-  const auto triangle = static_cast<std::size_t>(found.triangle);
-  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
-  if (to.triangle_id) to.triangle_id[i] = set.triangle_id[triangle];
-  if (to.leaflet_id) to.leaflet_id[i] = set.leaflet_id[triangle];
-  const std::array<riis::Vec3, 3> corners = set.corners(triangle);
-  if (to.normal) {
-    const riis::Vec3 normal = riis::triangle_normal(corners);
-    put_vector(to.normal, i, normal.x, normal.y, normal.z);
-  }
-  if (to.point || to.barycentric || to.side) {
-    const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
-    put_vector(to.point, i, on.point.x, on.point.y, on.point.z);
-    put_vector(to.barycentric, i, on.barycentric[0], on.barycentric[1], on.barycentric[2]);
-    if (to.side) to.side[i] = content.side(p, triangle, on);
-  }
-}
-
-void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
-  if (to.distance) to.distance[i] = far_distance;
-  if (to.triangle_id) to.triangle_id[i] = -1;
-  if (to.leaflet_id) to.leaflet_id[i] = -1;
-  if (to.side) to.side[i] = 0;
-  put_vector(to.normal, i, 0, 0, 0);
-  put_vector(to.point, i, 0, 0, 0);
-  put_vector(to.barycentric, i, 0, 0, 0);
-}
-
-// Infinity where there is none.
-double limit_of(const riis_closest_options &options) {
-  if (options.distance_limit == RIIS_AUTO) return std::numeric_limits<double>::infinity();
-  if (!(options.distance_limit >= 0))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %s; it must be at least 0",
-               riis::Number(options.distance_limit).text);
-  // Without a limit no point is far, whatever far points get.
-  if (std::isfinite(options.distance_limit))
-    riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
-  return options.distance_limit;
-}
-
 }  // namespace
 
 extern "C" {
@@ -243,7 +184,7 @@ void riis_surface_destroy(riis_surface **surface) { riis::destroy_handle(surface
 
 riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size) {
   return guarded([&] {
-    const riis::Surface &content = content_of(surface);
+    const riis::Surface &content = riis::content_of(surface);
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
     riis::write_struct<info_size>(info, struct_size, "info",
@@ -261,7 +202,7 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
 
 riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices, const double **xyz) {
   return guarded([&] {
-    const riis::TriangleSet &set = content_of(surface).triangles();
+    const riis::TriangleSet &set = riis::content_of(surface).triangles();
     riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
     riis::put(xyz, set.xyz.data());
   });
@@ -269,7 +210,7 @@ riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertic
 
 riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv) {
   return guarded([&] {
-    const riis::TriangleSet &set = content_of(surface).triangles();
+    const riis::TriangleSet &set = riis::content_of(surface).triangles();
     riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
     riis::put(uv, set.uv.empty() ? nullptr : set.uv.data());
   });
@@ -278,73 +219,12 @@ riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t 
 riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles, const int64_t **vertex_id,
                                    const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id) {
   return guarded([&] {
-    const riis::TriangleSet &set = content_of(surface).triangles();
+    const riis::TriangleSet &set = riis::content_of(surface).triangles();
     riis::put(n_triangles, static_cast<int64_t>(set.n_triangles()));
     riis::put(vertex_id, set.vertex_id.data());
     riis::put(triangle_id, set.triangle_id.data());
     riis::put(leaflet_id, set.leaflet_id.data());
     riis::put(patch_id, set.patch_id.data());
-  });
-}
-
-riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
-                               int64_t struct_size) {
-  return guarded([&] {
-    const riis::Surface &content = content_of(surface);
-    require(point, "point");
-    riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
-    const riis::Vec3 p{point[0], point[1], point[2]};
-    const riis::ClosestTriangle found = content.scene().closest(p, std::numeric_limits<double>::infinity());
-    riis_closest answer{};
-    const riis_closest_arrays to{sizeof to,     &answer.distance,    answer.point,       answer.barycentric,
-                                 answer.normal, &answer.triangle_id, &answer.leaflet_id, &answer.side};
-    write_closest(to, 0, content, p, found);
-    riis::write_struct<closest_size>(closest, struct_size, "closest", answer);
-  });
-}
-
-riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
-  return guarded(
-      [&] { riis::init_struct<closest_options_size>(options, struct_size, "options", default_closest_options); });
-}
-
-riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
-  return guarded(
-      [&] { riis::init_struct<closest_arrays_size>(arrays, struct_size, "arrays", default_closest_arrays); });
-}
-
-riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y,
-                                const double *z, int64_t stride, const riis_closest_options *options,
-                                const riis_closest_arrays *arrays) {
-  return guarded([&] {
-    const riis::Surface &content = content_of(surface);
-    const riis_closest_options whole =
-        riis::completed<closest_options_size>(options, "options", default_closest_options);
-    const riis_closest_arrays to =
-        riis::completed<closest_arrays_size>(require(arrays, "arrays"), "arrays", default_closest_arrays);
-    if (n_points < 0)
-      riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
-    riis::check_n_threads(whole.n_threads, "options.n_threads");
-    if (whole.reserved != 0) riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is %d; it must be 0", whole.reserved);
-    const double limit = limit_of(whole);
-    if (n_points == 0) return;
-    const riis::StridedPoints points{n_points, x, y, z, stride};
-    riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
-
-    // Here, so that memory that runs out leaves the arrays alone.
-    if (to.side) content.prepare_sides();
-    constexpr std::int64_t points_per_block = 512;
-    const int n_threads = whole.n_threads ? whole.n_threads : riis::default_thread_count();
-    riis::parallel_for((n_points + points_per_block - 1) / points_per_block, n_threads, [&](std::int64_t block, int) {
-      const std::int64_t begin = block * points_per_block, end = std::min(begin + points_per_block, n_points);
-      for (std::int64_t i = begin; i < end; ++i) {
-        const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
-        if (found.triangle < 0)
-          write_far(to, i, whole.far_distance);
-        else
-          write_closest(to, i, content, points[i], found);
-      }
-    });
   });
 }
 }

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_closest_*: argument checks around closest points.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "api/errors.hpp"
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "distance/point_triangle.hpp"
+#include "parallel/parallel_for.hpp"
+
+using riis::guarded;
+using riis::require;
+
+namespace {
+
+// Sizes of the first release.
+constexpr std::size_t closest_size = 96, options_size = 32, arrays_size = 64;
+
+const riis_closest_options default_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0};
+const riis_closest_arrays default_arrays{
+    sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
+
+void put_vector(double *to, std::int64_t i, double x, double y, double z) {
+  if (!to) return;
+  to[3 * i] = x;
+  to[3 * i + 1] = y;
+  to[3 * i + 2] = z;
+}
+
+// Entry i of the arrays that are wanted, for a triangle that was found.
+void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
+                   const riis::ClosestTriangle &found) {
+  const riis::TriangleSet &set = content.triangles();
+  const auto triangle = static_cast<std::size_t>(found.triangle);
+  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
+  if (to.triangle_id) to.triangle_id[i] = set.triangle_id[triangle];
+  if (to.leaflet_id) to.leaflet_id[i] = set.leaflet_id[triangle];
+  const std::array<riis::Vec3, 3> corners = set.corners(triangle);
+  if (to.normal) {
+    const riis::Vec3 normal = riis::triangle_normal(corners);
+    put_vector(to.normal, i, normal.x, normal.y, normal.z);
+  }
+  if (to.point || to.barycentric || to.side) {
+    const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
+    put_vector(to.point, i, on.point.x, on.point.y, on.point.z);
+    put_vector(to.barycentric, i, on.barycentric[0], on.barycentric[1], on.barycentric[2]);
+    if (to.side) to.side[i] = content.side(p, triangle, on);
+  }
+}
+
+void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
+  if (to.distance) to.distance[i] = far_distance;
+  if (to.triangle_id) to.triangle_id[i] = -1;
+  if (to.leaflet_id) to.leaflet_id[i] = -1;
+  if (to.side) to.side[i] = 0;
+  put_vector(to.normal, i, 0, 0, 0);
+  put_vector(to.point, i, 0, 0, 0);
+  put_vector(to.barycentric, i, 0, 0, 0);
+}
+
+// Infinity where there is none.
+double limit_of(const riis_closest_options &options) {
+  if (options.distance_limit == RIIS_AUTO) return std::numeric_limits<double>::infinity();
+  if (!(options.distance_limit >= 0))
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %s; it must be at least 0",
+               riis::Number(options.distance_limit).text);
+  // Without a limit no point is far, whatever far points get.
+  if (std::isfinite(options.distance_limit))
+    riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
+  return options.distance_limit;
+}
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
+                               int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    require(point, "point");
+    riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
+    const riis::Vec3 p{point[0], point[1], point[2]};
+    const riis::ClosestTriangle found = content.scene().closest(p, std::numeric_limits<double>::infinity());
+    riis_closest answer{};
+    const riis_closest_arrays to{sizeof to,     &answer.distance,    answer.point,       answer.barycentric,
+                                 answer.normal, &answer.triangle_id, &answer.leaflet_id, &answer.side};
+    write_closest(to, 0, content, p, found);
+    riis::write_struct<closest_size>(closest, struct_size, "closest", answer);
+  });
+}
+
+riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct<options_size>(options, struct_size, "options", default_options); });
+}
+
+riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
+  return guarded([&] { riis::init_struct<arrays_size>(arrays, struct_size, "arrays", default_arrays); });
+}
+
+riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y,
+                                const double *z, int64_t stride, const riis_closest_options *options,
+                                const riis_closest_arrays *arrays) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis_closest_options whole = riis::completed<options_size>(options, "options", default_options);
+    const riis_closest_arrays to = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
+    if (n_points < 0)
+      riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
+    riis::check_n_threads(whole.n_threads, "options.n_threads");
+    if (whole.reserved != 0) riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is %d; it must be 0", whole.reserved);
+    const double limit = limit_of(whole);
+    if (n_points == 0) return;
+    const riis::StridedPoints points{n_points, x, y, z, stride};
+    riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
+
+    // Here, so that memory that runs out leaves the arrays alone.
+    if (to.side) content.prepare_sides();
+    constexpr std::int64_t points_per_block = 512;
+    const int n_threads = whole.n_threads ? whole.n_threads : riis::default_thread_count();
+    riis::parallel_for((n_points + points_per_block - 1) / points_per_block, n_threads, [&](std::int64_t block, int) {
+      const std::int64_t begin = block * points_per_block, end = std::min(begin + points_per_block, n_points);
+      for (std::int64_t i = begin; i < end; ++i) {
+        const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
+        if (found.triangle < 0)
+          write_far(to, i, whole.far_distance);
+        else
+          write_closest(to, i, content, points[i], found);
+      }
+    });
+  });
+}
+}
