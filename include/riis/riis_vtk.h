@@ -5,7 +5,8 @@
  *
  * VTK keeps process-wide state: call these functions from one thread at a time. What VTK would print while a function
  * runs is caught and becomes the error text. Files that are cut short or of another kind are refused; VTK's own readers can
- * still crash on a .vtu whose bytes were damaged, so do not read what you do not trust in a process you cannot lose.
+ * still crash on a .vtu whose bytes were damaged, so do not read what you do not trust in a process you cannot lose. The
+ * caller's locale does not matter and is the same afterwards.
  */
 /* clang-format off: as riis.h */
 #ifndef RIIS_RIIS_VTK_H
@@ -24,7 +25,8 @@ extern "C" {
 /* An unstructured grid as it was in the file, its points as doubles. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
-/* Reads an unstructured grid, .vtu (XML) or .vtk (legacy), chosen by the file's ending.
+/* Reads an unstructured grid, .vtu (XML) or .vtk (legacy), chosen by the file's ending. A mesh may have no cells; a legacy
+ * file must then say so (CELLS 0 0, CELL_TYPES 0), since without these it may be cut short.
  * Errors: RIIS_FILE_ERROR naming the file: missing, unreadable, another data set, truncated, no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
@@ -39,7 +41,8 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance);
 
 /* Writes the mesh with all its arrays to a .vtu file, points as Float64. The file is complete or not there: it is written
- * beside its place and then moved.
+ * beside its place and then moved. Where the path is a link, the file it points to is replaced or made and the link stays.
+ * A file that is replaced leaves its permissions to the new one.
  * Errors: RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
@@ -52,7 +55,8 @@ typedef struct riis_vtk_surface riis_vtk_surface;
 
 /* Reads a surface, by the file's ending: .vtp (faces only), .vtu (triangles, quads, polygons, strips; another cell is an
  * error naming it) or .stl. Polygons and strips are cut into triangles; a file of quads only keeps its quads. A cell array
- * riis_leaflet of whole numbers >= 0 gives the leaflet ids.
+ * riis_leaflet of whole numbers >= 0 gives the leaflet ids. A quad is cut from its first corner to its third; the corners
+ * of a concave quad move on by one, the winding kept, where that line would run outside it.
  * Errors: RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface);
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);

@@ -3,8 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
 
 #include "cli/numbers.hpp"
+#include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
 
 namespace riis::cli {
@@ -12,8 +16,7 @@ namespace {
 
 constexpr const char *description =
     "Marks the nodes of a mesh that lie near a heart valve: those whose distance to the valve's surface is at most its "
-    "half "
-    "thickness.";
+    "half thickness.";
 
 constexpr const char *footer = R"(Examples:
   riis-mark mesh.vtu --output marked.vtu --picture valve.png
@@ -29,7 +32,13 @@ Parameters are those of the valve (right.leaflet_angle) or, without a cusp's nam
 file sets the latter first, whatever their order in the file; --set comes after the file, from left to right.
 
 On a terminal, what takes longer than a second is announced on stderr, unless --quiet.
-Exit status: 0 fine, 1 bad data (a file, an array, a parameter, no display), 2 wrong usage; one line on stderr says what.)";
+While a file is written, Ctrl-C waits until it is whole; the second one does not wait.
+Exit status; one line on stderr says what was wrong:
+  0  fine
+  1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
+     value (in a file or by --set), no display for a picture, no memory
+  2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
+     that would replace an input or another output)";
 
 const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at the position of their RIIS_VTK_VIEW_*
 const std::vector<std::string> search_names = {"auto", "exhaustive"};    // at the position of their RIIS_SEARCH_*
@@ -174,13 +183,42 @@ std::vector<Picture> pair_pictures(const Texts &texts) {
   return pictures;
 }
 
+[[noreturn]] void refuse_empty(const std::string &name) {
+  throw Refusal{exit_wrong_usage, name + ": the value is empty"};
+}
+
+// Of "--output= mesh.vtu" CLI11 would make "--output=mesh.vtu".
+void check_equals_signs(int argc, char **argv) {
+  for (int i = 1; i < argc && argv[i] != std::string("--"); ++i) {
+    const std::string argument = argv[i];
+    if (argument.rfind("--", 0) == 0 && argument.find('=') == argument.size() - 1) {
+      refuse_empty(argument.substr(0, argument.size() - 1));
+    }
+  }
+}
+
+// An empty value would pass for an option that was not given.
+void check_values(const std::vector<const CLI::Option *> &given) {
+  for (const CLI::Option *option : given) {
+    for (const std::string &value : option->results()) {
+      if (value.empty()) refuse_empty(option->get_name());
+    }
+  }
+}
+
 // Refuses what would have no effect.
-void check_purpose(const Options &options) {
-  if (options.print_params) return;
+void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
+  static const std::set<std::string> of_parameters = {"--print-params", "--valve", "--params", "--set", "--quiet"};
+  static const std::set<std::string> of_mesh = {"--output",  "--stats",          "--search",
+                                                "--threads", "--distance-limit", "--far-distance"};
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
+  for (const CLI::Option *option : given) {
+    const std::string name = option->get_name();
+    if (options.print_params && of_parameters.count(name) == 0) refuse(name + " has no effect with --print-params");
+    if (options.mesh.empty() && of_mesh.count(name) != 0) refuse(name + " needs a MESH");
+  }
+  if (options.print_params) return;
   if (options.mesh.empty()) {
-    if (!options.output.empty()) refuse("--output needs a MESH");
-    if (!options.stats.empty()) refuse("--stats needs a MESH");
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
              options.stats.empty()) {
@@ -188,9 +226,22 @@ void check_purpose(const Options &options) {
   }
 }
 
-std::string in_one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+// For what is left over on the command line: mostly a value in several words, of an option that takes one.
+std::string hint_of(const CLI::App &app) {
+  const struct {
+    const char *name;
+    char mark;
+    int n_marks;  // in a whole value
+  } forms[] = {{"--set", '=', 1}, {"--rotate", ',', 3}, {"--translate", ',', 2}};
+  for (const auto &form : forms) {
+    const CLI::Option *option = app.get_option(form.name);
+    for (const std::string &value : option->results()) {
+      if (std::count(value.begin(), value.end(), form.mark) < form.n_marks) {
+        return std::string(form.name) + " takes " + option->get_type_name();
+      }
+    }
+  }
+  return "riis-mark --help lists the options";
 }
 
 }  // namespace
@@ -209,20 +260,28 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   declare_placement(app, texts);
   declare_marking(app, texts);
   declare_output(app, options, texts);
+  check_equals_signs(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success &request) {
-    app.exit(request);
+    std::ostringstream text;
+    app.exit(request, text, text);
+    write_text("-", text.str());
     return std::nullopt;
+  } catch (const CLI::ExtrasError &error) {
+    throw Refusal{exit_wrong_usage, std::string(error.what()) + " (" + hint_of(app) + ")"};
   } catch (const CLI::ParseError &error) {
-    throw Refusal{exit_wrong_usage, in_one_line(error.what()) + " (riis-mark --help lists the options)"};
+    throw Refusal{exit_wrong_usage, std::string(error.what()) + " (riis-mark --help lists the options)"};
   }
+  const std::vector<const CLI::Option *> given =
+      std::as_const(app).get_options([](const CLI::Option *option) { return option->count() > 0; });
+  check_values(given);
   if (options.valve.empty()) options.valve = "aortic";
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
   parse_surface_options(texts, options.surface_options);
   parse_mark_options(texts, options.mark_options);
   options.pictures = pair_pictures(texts);
-  check_purpose(options);
+  check_purpose(options, given);
   return options;
 }
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis-mark: from the command line to an exit status. Whatever goes wrong ends in one line on stderr.
+#include <fcntl.h>
+
+#include <algorithm>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -10,14 +14,28 @@
 
 namespace {
 
-int give_up(int exit_code, const std::string &text) {
+// Names of files and parameters may hold line breaks: one line stays one line.
+int give_up(int exit_code, std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
   std::cerr << "riis-mark: " << text << std::endl;
   return exit_code;
+}
+
+// The number of a stream that is closed would go to the next file opened, and what is printed into it. Opened for
+// reading, it still refuses what is printed.
+void occupy_closed_streams() {
+  for (const int stream : {0, 1, 2}) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
+  occupy_closed_streams();
+  // A file that grows over the limit of its size is then an error of its write, not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     if (const auto options = riis::cli::parse_command_line(argc, argv)) riis::cli::run(*options);
     return riis::cli::exit_fine;

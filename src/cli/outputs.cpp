@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <system_error>
+#include <vector>
 
+#include "cli/interruption.hpp"
 #include "cli/refusal.hpp"
 
 namespace riis::cli {
@@ -22,23 +25,115 @@ void check_ending(const std::string &path, const std::string &ending, const std:
   if (found != ending) throw Refusal{exit_wrong_usage, option + ": " + path + " must end in " + ending};
 }
 
+std::string system_text(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void cannot_be_written(const std::string &path, const std::string &reason) {
+  throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
+}
+
+// Where the file itself is: links to existing files are followed.
+fs::path place_of(const std::string &path) {
+  std::error_code error;
+  const fs::path place = fs::canonical(path, error);
+  return error ? fs::path(path) : place;
+}
+
+fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
+
+// A device or a pipe is written into; any other file is replaced as a whole.
+bool is_special(const std::string &path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
 void check_place(const std::string &path) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
-  fs::path folder = fs::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  if (!fs::is_directory(folder, error)) {
-    throw Refusal{exit_bad_data, path + ": cannot be written: the folder " + folder.string() + " does not exist"};
+  const fs::path folder = folder_of(place_of(path));
+  if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
+  // A file is replaced by one that is written beside it.
+  if (!is_special(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
+    cannot_be_written(path, "the folder " + folder.string() + ": " + system_text(errno));
   }
-  const bool exists = fs::exists(path, error);
-  if (access((exists ? path : folder.string()).c_str(), W_OK) != 0) {
-    throw Refusal{exit_bad_data, path + ": cannot be written: " + std::generic_category().message(errno)};
+  if (fs::exists(path, error) && access(path.c_str(), W_OK) != 0) cannot_be_written(path, system_text(errno));
+}
+
+struct NamedFile {
+  std::string option, path;
+};
+
+std::vector<NamedFile> inputs_of(const Options &options) {
+  return {{"MESH", options.mesh}, {"--surface", options.surface}, {"--params", options.params}};
+}
+
+std::vector<NamedFile> outputs_of(const Options &options) {
+  std::vector<NamedFile> outputs = {{"--output", options.output}, {"--surface-output", options.surface_output}};
+  for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
+  if (options.stats != "-") outputs.push_back({"--stats", options.stats});
+  return outputs;
+}
+
+bool is_same_file(const std::string &a, const std::string &b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  // Of files that are not there yet only the names can be compared.
+  const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
+  return !error && place == fs::weakly_canonical(fs::absolute(b), error) && !error;
+}
+
+// An input is replaced only by what was made of it, and only where the user names it twice.
+bool may_replace(const NamedFile &output, const NamedFile &input) {
+  return (output.option == "--output" && input.option == "MESH") ||
+         (output.option == "--surface-output" && input.option == "--surface");
+}
+
+void check_distinct(const Options &options) {
+  std::vector<NamedFile> others = inputs_of(options);
+  for (const NamedFile &output : outputs_of(options)) {
+    for (const NamedFile &other : others) {
+      if (is_same_file(output.path, other.path) && !may_replace(output, other)) {
+        throw Refusal{exit_wrong_usage,
+                      output.option + ": " + output.path + " is the file of " + other.option + " too"};
+      }
+    }
+    others.push_back(output);
   }
+}
+
+// The component says the same, but only when it comes to draw, after all other work.
+void check_display() {
+  const char *display = std::getenv("DISPLAY");
+  if (display && *display) return;
+  throw Refusal{exit_bad_data,
+                "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
+                "xvfb-run -a PROGRAM"};
+}
+
+// Returns the system's error, 0 for none.
+int write_through(const std::string &path, const char *mode, const std::string &text) {
+  std::FILE *file = std::fopen(path.c_str(), mode);
+  if (!file) return errno;
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
+  const int error = written ? 0 : errno;
+  return std::fclose(file) == 0 || error ? error : errno;
+}
+
+int replace_file(const std::string &path, const std::string &text) {
+  const UnbrokenWrite unbroken;
+  const fs::path place = place_of(path);
+  const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-text.tmp")).string();
+  std::remove(temporary.c_str());  // a file of this name is of a process that has ended
+  int error = write_through(temporary, "wx", text);
+  if (!error && std::rename(temporary.c_str(), place.c_str()) != 0) error = errno;
+  if (error) std::remove(temporary.c_str());
+  return error;
 }
 
 }  // namespace
 
 void check_outputs(const Options &options) {
+  check_distinct(options);
   const auto check_file = [](const std::string &path, const char *ending, const char *option) {
     if (path.empty()) return;
     check_ending(path, ending, option);
@@ -48,6 +143,7 @@ void check_outputs(const Options &options) {
   check_file(options.surface_output, ".vtp", "--surface-output");
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
+  if (!options.pictures.empty()) check_display();
 }
 
 void write_text(const std::string &path, const std::string &text) {
@@ -55,10 +151,8 @@ void write_text(const std::string &path, const std::string &text) {
     if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};
     return;
   }
-  errno = 0;
-  std::ofstream file(path);
-  if (!(file << text << std::flush)) {
-    throw Refusal{exit_bad_data, path + ": cannot be written: " + std::generic_category().message(errno)};
+  if (const int error = is_special(path) ? write_through(path, "w", text) : replace_file(path, text)) {
+    cannot_be_written(path, system_text(error));
   }
 }
 

@@ -8,10 +8,11 @@
 
 namespace riis::cli {
 
-// Throws a Refusal for the first output whose ending is wrong or whose folder is missing or not writable.
+// Throws a Refusal for an output that would replace an input or another output, whose ending is wrong or whose folder is
+// missing or not writable, and for a picture without a display.
 void check_outputs(const Options &options);
 
-// "-" is stdout.
+// "-" is stdout. A file is complete or as it was before.
 void write_text(const std::string &path, const std::string &text);
 
 }  // namespace riis::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/parameters.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <map>
@@ -18,8 +19,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// The reason may hold pieces of the file, of any length.
 [[noreturn]] void refuse(const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, path + ": " + reason};
+  constexpr std::size_t longest = 300;
+  throw Refusal{exit_bad_data, path + ": " + (reason.size() > longest ? reason.substr(0, longest) + " ..." : reason)};
 }
 
 std::string text_of(const std::string &path) {
@@ -33,29 +36,41 @@ std::string text_of(const std::string &path) {
   return text.str();
 }
 
-// The parser keeps the last of several equal keys; here they are refused, as the user cannot have meant both.
-class RepeatedKeys {
+// Watches the parser for what it lets pass.
+class Guard {
  public:
-  explicit RepeatedKeys(const std::string &path) : path_(path) {}
-  void operator()(Json::parse_event_t event, const Json &parsed) {
+  explicit Guard(const std::string &path) : path_(path) {}
+
+  void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
+    // Parameters need two levels below the root; what handles a value recursively must not meet a bottomless one.
+    constexpr int deepest = 8;
+    if (depth > deepest) refuse(path_, "is nested deeper than parameters can be");
     if (event == Json::parse_event_t::object_start) {
       keys_.emplace_back();
     } else if (event == Json::parse_event_t::object_end) {
       keys_.pop_back();
-    } else if (event == Json::parse_event_t::key && !keys_.back().insert(parsed.get<std::string>()).second) {
-      refuse(path_, parsed.get<std::string>() + " is given twice");
+    } else if (event == Json::parse_event_t::key) {
+      check_key(parsed.get_ref<const std::string &>());
     }
   }
 
  private:
+  void check_key(const std::string &key) {
+    // The library takes names up to a 0 byte.
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+    if (std::any_of(key.begin(), key.end(), is_control)) refuse(path_, "a name holds a control character: " + key);
+    // The parser keeps the last of several equal keys; here they are refused, as the user cannot have meant both.
+    if (!keys_.back().insert(key).second) refuse(path_, key + " is given twice");
+  }
+
   const std::string &path_;
   std::vector<std::set<std::string>> keys_;
 };
 
 Json parse_file(const std::string &path) {
-  RepeatedKeys repeated(path);
-  const auto observe = [&](int, Json::parse_event_t event, Json &parsed) {
-    repeated(event, parsed);
+  Guard guard(path);
+  const auto observe = [&](int depth, Json::parse_event_t event, Json &parsed) {
+    guard(depth, event, parsed);
     return true;
   };
   try {
@@ -69,11 +84,14 @@ Json parse_file(const std::string &path) {
 }
 
 std::vector<double> numbers_of(const std::string &path, const std::string &name, const Json &value) {
+  const auto number_of = [&](const Json &item) {
+    if (item.is_number()) return item.get<double>();
+    refuse(path, name + " must be a number or an array of numbers, not of type " + item.type_name());
+  };
+  if (!value.is_array()) return {number_of(value)};
+  if (value.empty()) refuse(path, name + " must be a number or an array of numbers, not an empty array");
   std::vector<double> numbers;
-  for (const Json &item : value.is_array() ? value : Json::array({value})) {
-    if (!item.is_number()) refuse(path, name + " must be a number or an array of numbers, not " + item.dump());
-    numbers.push_back(item.get<double>());
-  }
+  for (const Json &item : value) numbers.push_back(number_of(item));
   return numbers;
 }
 

@@ -5,6 +5,7 @@
 #include <riis/riis.h>
 
 #include <string>
+#include <utility>
 
 namespace riis::cli {
 
@@ -15,14 +16,31 @@ struct Refusal {
   std::string text;
 };
 
+// The library's text with the option of the command line in the place of the struct field that it begins with.
+inline std::string with_option_named(const std::string &text) {
+  static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
+                                                                {"options.rotation_axis ", "--rotate: the axis "},
+                                                                {"options.rotation_angle ", "--rotate: the angle "},
+                                                                {"options.translation ", "--translate "},
+                                                                {"options.half_thickness ", "--half-thickness "},
+                                                                {"options.tolerance ", "--tolerance "},
+                                                                {"options.distance_limit ", "--distance-limit "},
+                                                                {"options.n_threads ", "--threads "},
+                                                                {"far_distance ", "--far-distance "}};
+  for (const auto &[field, option] : options) {
+    if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
+  }
+  return text;
+}
+
 // Throws the library's own text. Files, arrays and parameters are data; an argument that the library refuses is an
 // option of the command line that is out of range. subject, such as a file's name, goes before texts that do not name
 // it themselves.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER;
-  throw Refusal{status == RIIS_INVALID_ARGUMENT ? exit_wrong_usage : exit_bad_data,
-                (data && !subject.empty() ? subject + ": " : "") + riis_last_error()};
+  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_wrong_usage, with_option_named(riis_last_error())};
+  throw Refusal{exit_bad_data, (data && !subject.empty() ? subject + ": " : "") + riis_last_error()};
 }
 
 }  // namespace riis::cli

@@ -17,6 +17,8 @@ std::string grouped(int64_t n) {
   return digits;
 }
 
+std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
+
 std::ostringstream table_stream() {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -25,15 +27,15 @@ std::ostringstream table_stream() {
 
 void add_marks(const Report &report, std::ostringstream &out) {
   const riis_mark_stats &marks = report.marks;
-  out << "mesh      " << report.mesh_name << ": " << grouped(marks.n_nodes) << " nodes, " << grouped(report.n_cells)
-      << " cells\n";
-  out << "marked    " << grouped(marks.n_marked) << " nodes within the half thickness "
+  out << "mesh      " << report.mesh_name << ": " << counted(marks.n_nodes, "node") << ", "
+      << counted(report.n_cells, "cell") << "\n";
+  out << "marked    " << counted(marks.n_marked, "node") << " within the half thickness "
       << report.surface.half_thickness;
   if (report.distance_limit > report.surface.half_thickness) {
     out << ", " << grouped(marks.n_within_limit) << " within " << report.distance_limit;
   }
-  out << "\nsearch    " << search_name(marks.search) << ", " << marks.n_threads
-      << (marks.n_threads == 1 ? " thread" : " threads") << (marks.complete ? "" : ", may be incomplete") << "\n";
+  out << "\nsearch    " << search_name(marks.search) << ", " << counted(marks.n_threads, "thread")
+      << (marks.complete ? "" : ", may be incomplete") << "\n";
 }
 
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
@@ -73,7 +75,7 @@ std::string json_of(const Report &report) {
 
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
-  out << "surface   " << report.surface_name << ": " << grouped(report.surface.n_triangles) << " triangles, area "
+  out << "surface   " << report.surface_name << ": " << counted(report.surface.n_triangles, "triangle") << ", area "
       << report.surface.area;
   if (report.from_file && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";

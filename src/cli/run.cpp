@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/handles.hpp"
+#include "cli/interruption.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
 #include "cli/progress.hpp"
@@ -42,6 +43,19 @@ Surface surface_of_file(const Options &options, Seconds &seconds) {
   riis_surface *surface = nullptr;
   check(riis_surface_create_from_arrays(&arrays, &options.surface_options, &surface), options.surface);
   return Surface(surface);
+}
+
+// Marks a single node: what the library refuses of the options is then refused before a large mesh is read and marked.
+void rehearse_marking(const Options &options, const riis_surface *surface) {
+  const double origin[3] = {0, 0, 0};
+  riis_mesh *mesh_handle = nullptr;
+  check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
+  const Mesh mesh(mesh_handle);
+  riis_mark_result *result_handle = nullptr;
+  check(riis_mark_result_create(&result_handle));
+  const MarkResult result(result_handle);
+  check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()));
+  check(riis_mark_result_dense(result.get(), 1, options.far_distance, nullptr, nullptr, nullptr, nullptr));
 }
 
 MeshFile read_mesh(const Options &options, Seconds &seconds) {
@@ -101,10 +115,12 @@ void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *fi
 void write_files(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
   const Stage stage("writing", options.quiet);
   if (!options.surface_output.empty()) {
+    const UnbrokenWrite unbroken;
     check(riis_vtk_surface_write(surface, options.surface_output.c_str()));
     report.written.push_back(options.surface_output);
   }
   if (!options.output.empty()) {
+    const UnbrokenWrite unbroken;
     check(riis_vtk_mesh_write(mesh, options.output.c_str()));
     report.written.push_back(options.output);
   }
@@ -114,6 +130,7 @@ void write_files(const Options &options, const riis_surface *surface, const riis
 void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
   for (const Picture &picture : options.pictures) {
     const Stage stage("drawing " + picture.path, options.quiet);
+    const UnbrokenWrite unbroken;
     riis_vtk_picture_options how;
     check(riis_vtk_picture_options_init(&how, sizeof how));
     how.view = picture.view;
@@ -123,8 +140,11 @@ void draw_pictures(const Options &options, const riis_surface *surface, const ri
   }
 }
 
-void print_report(const Options &options, const Report &report) {
+void write_stats(const Options &options, const Report &report) {
   if (!options.stats.empty()) write_text(options.stats, json_of(report));
+}
+
+void print_table(const Options &options, const Report &report) {
   if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
 }
 
@@ -144,11 +164,19 @@ void run(const Options &options) {
   report.from_file = !valve;
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;
+  if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) mark(options, surface.get(), mesh.get(), report);
   write_files(options, surface.get(), mesh.get(), report);
-  draw_pictures(options, surface.get(), mesh.get(), report);
-  print_report(options, report);
+  try {
+    draw_pictures(options, surface.get(), mesh.get(), report);
+  } catch (const Refusal &) {
+    // The marks are good all the same.
+    write_stats(options, report);
+    throw;
+  }
+  write_stats(options, report);
+  print_table(options, report);
 }
 
 }  // namespace riis::cli

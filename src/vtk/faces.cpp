@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtk/faces.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +11,7 @@
 #include <vtkCellTypes.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
@@ -57,6 +60,34 @@ void cut_polygon(const std::string &path, vtkPointSet *data, vtkIdType cell_id, 
   }
 }
 
+// Twice the vector area of the triangle of three corners.
+std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
+  auto *list = const_cast<vtkIdList *>(ids);
+  double p[3], q[3], r[3], area[3];
+  data->GetPoint(list->GetId(a), p);
+  data->GetPoint(list->GetId(b), q);
+  data->GetPoint(list->GetId(c), r);
+  vtkMath::Subtract(q, p, q);
+  vtkMath::Subtract(r, p, r);
+  vtkMath::Cross(q, r, area);
+  return {area[0], area[1], area[2]};
+}
+
+// Whether the diagonal from corner i to the opposite one cuts a quad into two triangles that face the same way.
+bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
+  const std::array<double, 3> one = area_of(data, ids, i, i + 1, i + 2);
+  const std::array<double, 3> other = area_of(data, ids, i, i + 2, (i + 3) % 4);
+  return vtkMath::Dot(one.data(), other.data()) > 0;
+}
+
+// Quads are cut from their first corner to their third, here and in the core. Where that line runs outside a concave
+// quad, and the other diagonal inside, the corners move on by one.
+void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
+  if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
+    std::rotate(ids->begin(), ids->begin() + 1, ids->end());
+  }
+}
+
 // Appends the triangles of one cell.
 void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtkIdList *ids,
               std::vector<std::int64_t> &triangles) {
@@ -67,6 +98,7 @@ void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtk
   } else if (type == VTK_TRIANGLE || (type == VTK_POLYGON && n == 3)) {
     add_triangle(triangles, ids, 0, 1, 2);
   } else if (type == VTK_QUAD || (type == VTK_POLYGON && n == 4)) {
+    put_inner_diagonal_first(data, ids);
     add_triangle(triangles, ids, 0, 1, 2);
     add_triangle(triangles, ids, 0, 2, 3);
   } else if (type == VTK_POLYGON && n > 4) {
@@ -120,6 +152,7 @@ Faces faces_of(const std::string &path, vtkPointSet *data) {
   for (vtkIdType cell_id = 0; cell_id < data->GetNumberOfCells(); ++cell_id) {
     data->GetCellPoints(cell_id, ids);
     if (faces.corners_per_face == 4) {
+      put_inner_diagonal_first(data, ids);
       faces.vertex_ids.insert(faces.vertex_ids.end(), ids->begin(), ids->end());
     } else {
       cut_cell(path, data, cell_id, ids, faces.vertex_ids);

@@ -13,7 +13,7 @@ namespace riis::vtk {
 
 struct Faces {
   std::vector<double> xyz;               // (3, n_vertices): all points, used or not
-  std::vector<std::int64_t> vertex_ids;  // (corners_per_face, n_faces)
+  std::vector<std::int64_t> vertex_ids;  // (corners_per_face, n_faces); a quad's first and third end an inner diagonal
   std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set names none
   std::int32_t corners_per_face = 3;
 };

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "vtk/text.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
@@ -20,15 +21,19 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-// The file itself where the path is a link to an existing file.
+// The file itself where the path is a link, be the file there or not.
 std::string resolved(const std::string &path) {
-  std::error_code error;
-  const std::filesystem::path target = std::filesystem::canonical(path, error);
-  return error ? path : target.string();
+  std::filesystem::path place = path;
+  for (int n_links_left = 40; std::filesystem::is_symlink(place); --n_links_left) {
+    if (n_links_left == 0) throw std::system_error(ELOOP, std::generic_category());
+    place = place.parent_path() / std::filesystem::read_symlink(place);
+  }
+  return place.string();
 }
 
-// Creates an empty file with a name of its own beside the place and returns the name.
-std::string create_beside(const std::string &place) {
+// Creates an empty file with a name of its own beside the place and returns the name. replaced is the file that stands
+// in the place, or NULL: its permissions go over, before there is anything to read.
+std::string create_beside(const std::string &place, const struct stat *replaced) {
   static int n_created = 0;
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
   for (;;) {
@@ -36,6 +41,8 @@ std::string create_beside(const std::string &place) {
     const std::string path = (folder / name).string();
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
+      // The writer has to open it again. A file system without permissions may refuse, and then loses none.
+      if (replaced) static_cast<void>(fchmod(file, (replaced->st_mode & 0777) | S_IRUSR | S_IWUSR));
       close(file);
       return path;
     }
@@ -57,9 +64,7 @@ int synchronise(const std::string &path) {
 std::string ending_of(const std::string &path) {
   std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty()) ending.erase(0, 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
+  return lower_case(ending);
 }
 
 std::int64_t check_readable(const std::string &path) {
@@ -91,15 +96,17 @@ MappedFile::MappedFile(const std::string &path, std::int64_t size) : size_(stati
 
 MappedFile::~MappedFile() { munmap(bytes_, size_); }
 
-ReplacingFile::ReplacingFile(const std::string &path) : path_(path), place_(resolved(path)) {
+ReplacingFile::ReplacingFile(const std::string &path) : path_(path) {
   struct stat status;
-  if (stat(place_.c_str(), &status) == 0) {
+  const bool exists = stat(path.c_str(), &status) == 0;
+  if (exists) {
     if (S_ISDIR(status.st_mode)) fail_file(path, "is a directory");
     if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
-    if (access(place_.c_str(), W_OK) != 0) fail_file(path, "cannot be written: " + system_text(errno));
+    if (access(path.c_str(), W_OK) != 0) fail_file(path, "cannot be written: " + system_text(errno));
   }
   try {
-    temporary_ = create_beside(place_);
+    place_ = resolved(path);
+    temporary_ = create_beside(place_, exists ? &status : nullptr);
   } catch (const std::system_error &error) {
     fail_file(path, "cannot be written: " + system_text(error.code().value()));
   }

@@ -36,10 +36,11 @@ class MappedFile {
 };
 
 // A file that is complete or not there: written under temporary(), a name in the same folder, and moved by commit().
-// Without a commit the temporary file is removed and whatever stood in the final place is untouched.
+// A file that it replaces leaves it its permissions. Without a commit the temporary file is removed and whatever stood
+// in the final place is untouched.
 class ReplacingFile {
  public:
-  // Fails when the place cannot be written to: no such folder, no permission, not a regular file.
+  // Fails when the place cannot be written to: no such folder, no permission, not a regular file, a circle of links.
   explicit ReplacingFile(const std::string &path);
   ~ReplacingFile();
   ReplacingFile(const ReplacingFile &) = delete;
@@ -54,7 +55,7 @@ class ReplacingFile {
 
  private:
   std::string path_;   // as the caller gave it
-  std::string place_;  // with links resolved: the file that a link points to is replaced, not the link
+  std::string place_;  // with links resolved: the file that a link points to is replaced or made, the link stays
   std::string temporary_;
 };
 

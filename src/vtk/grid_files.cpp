@@ -184,7 +184,7 @@ vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &c
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const CaughtOutput &caught) {
-  check_legacy(path);
+  const std::int64_t n_cells = check_legacy(path);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
   // Left to itself the reader keeps one array of a kind.
@@ -199,9 +199,10 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   caught.check(path);
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
   if (!grid) fail_file(path, "could not be read");
-  // The legacy format has no end mark: a file cut after its points would pass for a grid without cells.
-  if (grid->GetNumberOfPoints() > 0 && grid->GetNumberOfCells() == 0)
-    fail_file(path, "holds no cells (is it truncated?)");
+  if (grid->GetNumberOfCells() != n_cells) {
+    fail_file(path, "gives " + std::to_string(grid->GetNumberOfCells()) + " of the " + std::to_string(n_cells) +
+                        " cells that it promises");
+  }
   return grid;
 }
 

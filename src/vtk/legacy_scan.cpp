@@ -8,18 +8,11 @@
 #include <string_view>
 
 #include "vtk/files.hpp"
+#include "vtk/text.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
 namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char &c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
 
 // Bytes of one value in a binary file; 0 for types of varying size.
 int size_of_type(const std::string &type) {
@@ -49,35 +42,27 @@ class Scan {
  public:
   Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
 
-  void file() {
+  // Returns the number of cells.
+  std::int64_t file() {
     header();
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
-    if (n_types_ != n_cells_)
-      refuse("has " + std::to_string(n_types_) + " types for " + std::to_string(n_cells_) + " cells");
+    // The format has no end mark: a file cut after its points would pass for a grid without cells.
+    if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
+    if (n_types_ != n_cells_) {
+      refuse("has " + std::to_string(std::max<std::int64_t>(n_types_, 0)) + " types for " + std::to_string(n_cells_) +
+             " cells" + (n_types_ < 0 ? " (is it truncated?)" : ""));
+    }
+    return n_cells_;
   }
 
  private:
   [[noreturn]] void refuse(const std::string &reason) const { fail_file(path_, reason); }
   [[noreturn]] void refuse_end() const { refuse("is truncated"); }
 
-  std::string_view line() {
-    const std::size_t length = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view text = rest_.substr(0, length);
-    rest_.remove_prefix(std::min(length + 1, rest_.size()));
-    return text;
-  }
-
-  std::string_view raw_word() {
-    const auto begin = std::find_if_not(rest_.begin(), rest_.end(), is_blank);
-    const auto end = std::find_if(begin, rest_.end(), is_blank);
-    const std::string_view text =
-        rest_.substr(static_cast<std::size_t>(begin - rest_.begin()), static_cast<std::size_t>(end - begin));
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.begin()));
-    return text;
-  }
+  std::string_view line() { return take_line(rest_); }
 
   // In lower case, since the format does not distinguish; empty at the end.
-  std::string word() { return lower_case(raw_word()); }
+  std::string word() { return lower_case(take_word(rest_)); }
 
   // A word that must be there.
   std::string next() {
@@ -94,13 +79,15 @@ class Scan {
     return n;
   }
 
-  // A count: what it counts takes some room in the file, so that one beyond the file's size is wrong.
+  // A count: what it counts takes room in the file, at least a bit each, so that one beyond the file's size is wrong.
   std::int64_t count() {
     const std::int64_t n = number_of(next());
     if (n < 0) refuse("has the count " + std::to_string(n));
-    if (n > static_cast<std::int64_t>(rest_.size())) refuse_end();
+    if (n > n_bits_left()) refuse_end();
     return n;
   }
+
+  std::int64_t n_bits_left() const { return 8 * static_cast<std::int64_t>(rest_.size()); }
 
   void header() {
     const std::string magic = "# vtk datafile version ";
@@ -129,7 +116,7 @@ class Scan {
 
   void skip_words(std::int64_t n) {
     for (std::int64_t i = 0; i < n; ++i) {
-      if (raw_word().empty()) refuse_end();
+      if (take_word(rest_).empty()) refuse_end();
     }
   }
 
@@ -158,7 +145,7 @@ class Scan {
     }
   }
 
-  // n values that begin on the next line.
+  // n values that begin on the next line; n is not larger than the number of bits left.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
     const int size = size_of_type(type);
@@ -173,10 +160,26 @@ class Scan {
     }
   }
 
-  // n tuples of a width that is written in the file.
+  // An array: n tuples of a width that is written in the file, and what VTK's writer may put behind them.
   void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
-    if (width > 0 && n > 8 * static_cast<std::int64_t>(rest_.size()) / width) refuse_end();
+    if (width > 0 && n > n_bits_left() / width) refuse_end();
     skip_values(n * width, type);
+    std::string_view behind = rest_;
+    if (lower_case(take_word(behind)) != "metadata") return;
+    rest_ = behind;
+    skip_metadata(width);
+  }
+
+  // A block of METADATA behind its keyword: it ends with a blank line. Names of components, though, have a line each, a
+  // blank one where a component has no name.
+  void skip_metadata(std::int64_t n_components) {
+    line();
+    while (!rest_.empty()) {
+      std::string_view text = line();
+      const std::string keyword = lower_case(take_word(text));
+      if (keyword.empty()) return;
+      for (std::int64_t i = 0; keyword == "component_names" && i < n_components && !rest_.empty(); ++i) line();
+    }
   }
 
   void section(const std::string &keyword) {
@@ -193,8 +196,7 @@ class Scan {
     } else if (keyword == "point_data" || keyword == "cell_data") {
       n_tuples_ = count();
     } else if (keyword == "metadata") {
-      while (!rest_.empty() && !line().empty()) {
-      }
+      skip_metadata(0);
     } else if (!attribute(keyword)) {
       refuse("has the unknown keyword '" + keyword.substr(0, 40) + "'");
     }
@@ -204,12 +206,7 @@ class Scan {
     next();
     const std::int64_t n_arrays = count();
     for (std::int64_t i = 0; i < n_arrays; ++i) {
-      std::string name = next();
-      if (name == "metadata") {
-        section(name);
-        name = next();
-      }
-      if (name == "null_array") continue;
+      if (next() == "null_array") continue;
       const std::int64_t width = count();
       const std::int64_t n = count();
       skip_tuples(n, width, next());
@@ -221,11 +218,12 @@ class Scan {
     const std::int64_t second = count();
     if (version_ >= 5) {
       // Numbers of offsets and of corners.
-      if (next() != "offsets") refuse("has CELLS without OFFSETS");
       n_cells_ = std::max<std::int64_t>(first - 1, 0);
-      skip_values(first, next());
+      if (first == 0) return;
+      if (next() != "offsets") refuse("has CELLS without OFFSETS");
+      skip_tuples(first, 1, next());
       if (next() != "connectivity") refuse("has cell offsets without CONNECTIVITY");
-      skip_values(second, next());
+      skip_tuples(second, 1, next());
     } else {
       n_cells_ = first;
       counted_cells(first, second);
@@ -288,8 +286,7 @@ class Scan {
     std::int64_t width = 1;
     if (after != "lookup_table") {
       width = number_of(after);
-      if (width < 1 || width > static_cast<std::int64_t>(rest_.size()))
-        refuse("has SCALARS of " + after + " components");
+      if (width < 1 || width > n_bits_left()) refuse("has SCALARS of " + after + " components");
       after = next();
     }
     if (after != "lookup_table") refuse("has SCALARS without LOOKUP_TABLE");
@@ -301,16 +298,16 @@ class Scan {
   std::string_view rest_;
   std::int64_t version_ = 0;  // major
   bool binary_ = false;
-  std::int64_t n_cells_ = 0;
-  std::int64_t n_types_ = 0;
+  std::int64_t n_cells_ = -1;  // unknown
+  std::int64_t n_types_ = -1;
   std::int64_t n_tuples_ = 0;  // of the arrays of the POINT_DATA or CELL_DATA that the scan is in
 };
 
 }  // namespace
 
-void check_legacy(const std::string &path) {
+std::int64_t check_legacy(const std::string &path) {
   const MappedFile file(path, check_readable(path));
-  Scan(path, file.bytes()).file();
+  return Scan(path, file.bytes()).file();
 }
 
 }  // namespace riis::vtk

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtk/stl_files.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <fstream>
+#include <string_view>
 
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
 
 #include "vtk/files.hpp"
+#include "vtk/text.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -17,43 +17,50 @@ constexpr std::int64_t binary_header_size = 84;  // 80 bytes of anything, then t
 constexpr std::int64_t binary_triangle_size = 50;
 
 // The number of triangles in the header of a binary file, little endian; 0 for files too short to have one.
-std::int64_t binary_count(const std::string &path) {
-  unsigned char header[binary_header_size] = {};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char *>(header), sizeof header);
-  return header[80] | header[81] << 8 | header[82] << 16 | static_cast<std::int64_t>(header[83]) << 24;
+std::int64_t binary_count(std::string_view bytes) {
+  if (bytes.size() < static_cast<std::size_t>(binary_header_size)) return 0;
+  const auto byte = [&](std::size_t i) { return static_cast<std::int64_t>(static_cast<unsigned char>(bytes[i])); };
+  return byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
 }
 
-bool begins_with_solid(const std::string &path) {
-  char word[5] = {};
-  std::ifstream(path, std::ios::binary).read(word, sizeof word);
-  return std::equal(word, word + sizeof word, "solid");
-}
-
-std::int64_t count_words(const std::string &path, const std::string &word) {
-  std::ifstream file(path);
+// The number of triangles in an ASCII file, which has a keyword at the beginning of each line: in "solid endfacet part"
+// the second word is a name. Blank lines may follow the last endsolid.
+std::int64_t ascii_count(const std::string &path, std::string_view text) {
   std::int64_t n = 0;
-  for (std::string text; file >> text;) n += text == word;
+  std::string keyword;
+  while (!text.empty()) {
+    std::string_view line = take_line(text);
+    const std::string_view word = take_word(line);
+    if (word.empty()) continue;
+    keyword = lower_case(word);
+    n += keyword == "endfacet";
+  }
+  if (keyword != "endsolid") fail_file(path, "is truncated: endsolid is missing");
   return n;
 }
 
 // How many triangles the file must give. VTK ignores the count in a binary file and the end mark of an ASCII one, and
 // so reads a truncated file as a smaller surface.
-std::int64_t promised_triangles(const std::string &path, std::int64_t size) {
-  const std::int64_t n = binary_count(path);
-  if (size == binary_header_size + n * binary_triangle_size) return n;
-  if (!begins_with_solid(path)) {
-    fail_file(path, "is truncated or not an STL file: " + std::to_string(size) + " bytes, " + std::to_string(n) +
-                        " triangles in its header");
+std::int64_t promised_triangles(const std::string &path, std::string_view bytes) {
+  const std::int64_t n = binary_count(bytes);
+  const std::int64_t n_behind =
+      static_cast<std::int64_t>(bytes.size()) - (binary_header_size + n * binary_triangle_size);
+  if (n_behind == 0) return n;
+  std::string_view begin = bytes;
+  if (lower_case(take_word(begin)) == "solid") return ascii_count(path, bytes);
+  if (n_behind > 0) {
+    fail_file(path, "has " + std::to_string(n_behind) + " bytes behind the " + std::to_string(n) +
+                        " triangles that its header promises");
   }
-  if (tail_of(path, 4096).find("endsolid") == std::string::npos) fail_file(path, "is truncated: endsolid is missing");
-  return count_words(path, "endfacet");
+  fail_file(path, "is truncated or not an STL file: " + std::to_string(bytes.size()) + " bytes, " + std::to_string(n) +
+                      " triangles in its header");
 }
 
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_stl(const std::string &path, const CaughtOutput &caught) {
-  const std::int64_t n_promised = promised_triangles(path, check_readable(path));
+  const std::int64_t n_promised = promised_triangles(path, MappedFile(path, check_readable(path)).bytes());
+  if (n_promised == 0) fail_file(path, "holds no faces");
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
   reader->MergingOff();

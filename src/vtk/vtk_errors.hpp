@@ -10,6 +10,7 @@
 #include <vtkSmartPointer.h>
 
 #include "parallel/float_environment.hpp"
+#include "vtk/numeric_locale.hpp"
 
 class vtkOutputWindow;
 
@@ -64,6 +65,7 @@ template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;
   try {
+    const NumericLocale locale;
     const CaughtOutput caught;
     body(caught);
     return RIIS_OK;

@@ -2,47 +2,91 @@
 #include "vtk/xml_scan.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <string_view>
 
 #include "vtk/files.hpp"
+#include "vtk/text.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
 namespace {
 
-// The value of an attribute of an XML element; "" if it is not there.
-std::string_view attribute_of(std::string_view element, std::string_view attribute) {
-  constexpr std::string_view blanks = " \t\r\n";
-  for (std::size_t at = 0; (at = element.find(attribute, at)) != std::string_view::npos; ++at) {
-    const std::size_t equals = element.find_first_not_of(blanks, at + attribute.size());
-    if (at == 0 || blanks.find(element[at - 1]) == std::string_view::npos) continue;
-    if (equals == std::string_view::npos || element[equals] != '=') continue;
-    const std::size_t quote = element.find_first_not_of(blanks, equals + 1);
-    const std::size_t end = quote == std::string_view::npos ? quote : element.find(element[quote], quote + 1);
-    return end == std::string_view::npos ? "" : element.substr(quote + 1, end - quote - 1);
+// A start tag: the element's name and the value of its attribute "type", "" if it has none.
+struct Tag {
+  std::string_view name, type;
+};
+
+// Walks the start tags of an XML text. Comments, instructions and end tags are passed over; a '>' in an attribute's
+// value ends no tag, and a word in it is no attribute.
+class Tags {
+ public:
+  explicit Tags(std::string_view text) : rest_(text) {}
+
+  // False at the end.
+  bool next(Tag &tag) {
+    for (;;) {
+      rest_.remove_prefix(std::min(rest_.find('<'), rest_.size()));
+      if (rest_.empty()) return false;
+      if (rest_.substr(0, 4) == "<!--") {
+        rest_.remove_prefix(std::min(rest_.find("-->", 4), rest_.size()));
+        continue;
+      }
+      rest_.remove_prefix(1);
+      tag = {take_until(" \t\r\n/>"), ""};
+      if (!tag.name.empty() && tag.name[0] != '?' && tag.name[0] != '!') break;
+    }
+    while (const char quote = next_attribute()) {
+      const std::string_view name = attribute_;
+      rest_.remove_prefix(1);
+      const std::string_view value = take_until(std::string_view(&quote, 1));
+      rest_.remove_prefix(std::min<std::size_t>(1, rest_.size()));
+      if (name == "type") tag.type = value;
+    }
+    return true;
   }
-  return "";
-}
+
+ private:
+  // What stands before the first of these characters.
+  std::string_view take_until(std::string_view characters) {
+    const std::string_view text = rest_.substr(0, rest_.find_first_of(characters));
+    rest_.remove_prefix(text.size());
+    return text;
+  }
+
+  // Goes on to the value of the next attribute in the tag: its name to attribute_, its quotation mark returned; 0 where
+  // the tag ends.
+  char next_attribute() {
+    attribute_ = take_until("=\"'<>");
+    if (rest_.empty() || rest_[0] == '<' || rest_[0] == '>') return 0;
+    take_until("\"'<>");
+    attribute_ = take_word(attribute_);
+    return rest_.empty() || rest_[0] == '<' || rest_[0] == '>' ? '\0' : rest_[0];
+  }
+
+  std::string_view rest_;
+  std::string_view attribute_;
+};
 
 void check_array_types(const std::string &path, std::string_view text) {
   static const std::set<std::string_view> known = {"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32",  "UInt32",
                                                    "Int64", "UInt64", "Float32", "Float64", "String", "Bit"};
-  for (std::size_t at = 0; (at = text.find("Array", at)) != std::string_view::npos; ++at) {
-    if (at + 5 >= text.size() || !std::isspace(static_cast<unsigned char>(text[at + 5]))) continue;
-    const std::string_view element = text.substr(at, text.find('>', at) - at);
-    const std::string_view type = attribute_of(element, "type");
-    if (known.count(type) == 0) {
-      fail_file(path, "has an array of the unknown type '" + std::string(type.substr(0, 40)) + "'");
+  Tag tag;
+  for (Tags tags(text); tags.next(tag) && tag.name != "AppendedData";) {
+    const bool is_array = tag.name == "DataArray" || tag.name == "Array";
+    if (is_array && known.count(tag.type) == 0) {
+      fail_file(path, "has an array of the unknown type '" + std::string(tag.type.substr(0, 40)) + "'");
     }
   }
 }
 
 // What the VTKFile element at the beginning of an XML file says that the file holds; "" if there is none.
 std::string xml_type(std::string_view head) {
-  const std::size_t element = head.find("<VTKFile");
-  return element == std::string_view::npos ? "" : std::string(attribute_of(head.substr(element), "type"));
+  Tag tag;
+  for (Tags tags(head); tags.next(tag);) {
+    if (tag.name == "VTKFile") return std::string(tag.type);
+  }
+  return "";
 }
 
 }  // namespace
@@ -57,7 +101,7 @@ void check_xml(const std::string &path, const std::string &wanted_type) {
       std::string_view::npos) {
     fail_file(path, "is truncated: </VTKFile> is missing");
   }
-  check_array_types(path, bytes.substr(0, bytes.find("<AppendedData")));
+  check_array_types(path, bytes);
 }
 
 }  // namespace riis::vtk

@@ -13,6 +13,8 @@
 
 int program_exit_code;
 char program_out[longest_output], program_err[longest_output];
+const char *program_stdout;
+static int out, err; /* of the run in progress */
 
 static void give_up(const char *what) {
   perror(what);
@@ -35,29 +37,48 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-void run_program(const char *argument, ...) {
+static pid_t start(const char *argument, va_list rest) {
   const char *arguments[64] = {RIIS_MARK_PROGRAM};
   int n = 1;
-  va_list rest;
-  va_start(rest, argument);
   for (const char *next = argument; next; next = va_arg(rest, const char *)) arguments[n++] = next;
-  va_end(rest);
-
-  const int out = temporary_file(), err = temporary_file();
+  out = temporary_file();
+  err = temporary_file();
   fflush(NULL);
   const pid_t process = fork();
   if (process < 0) give_up("fork");
   if (process == 0) {
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
+    if (program_stdout) close(STDOUT_FILENO);
+    if (program_stdout && *program_stdout) open(program_stdout, O_WRONLY); /* takes the lowest number: stdout's */
     execv(RIIS_MARK_PROGRAM, (char *const *)(uintptr_t)arguments);
     _exit(127);
   }
+  return process;
+}
+
+pid_t start_program(const char *argument, ...) {
+  va_list rest;
+  va_start(rest, argument);
+  const pid_t process = start(argument, rest);
+  va_end(rest);
+  return process;
+}
+
+void finish_program(pid_t process) {
   int status = 0;
   if (waitpid(process, &status, 0) != process) give_up("waitpid");
   program_exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   take_text(out, program_out);
   take_text(err, program_err);
+}
+
+void run_program(const char *argument, ...) {
+  va_list rest;
+  va_start(rest, argument);
+  const pid_t process = start(argument, rest);
+  va_end(rest);
+  finish_program(process);
 }
 
 void expect_run_fine(const char *file, int line) {

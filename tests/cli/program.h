@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <sys/types.h>
 
 enum { longest_output = 65536 };
 
@@ -17,8 +18,15 @@ enum { longest_output = 65536 };
 extern int program_exit_code; /* 128 + N where signal N ended it */
 extern char program_out[longest_output], program_err[longest_output];
 
+/* Where the program's stdout goes instead of to program_out: the path of a file, or "" for a stdout that is closed. NULL
+ * at first. */
+extern const char *program_stdout;
+
 /* Runs the program with these arguments; the last one is NULL. */
 void run_program(const char *argument, ...);
+/* The same in two steps; one run at a time. */
+pid_t start_program(const char *argument, ...);
+void finish_program(pid_t process);
 
 /* Runs it, and fails the test unless it went well with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))

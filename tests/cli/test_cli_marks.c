@@ -193,6 +193,21 @@ static void test_surface_from_file(void **state) {
   assert_non_null(strstr(program_out, "out.vtp: "));
 }
 
+static void test_one_of_each(void **state) {
+  (void)state;
+  scratch_write_text("one.vtk",
+                     "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\n"
+                     "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n");
+  scratch_write_text("one.stl",
+                     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                     "endloop\nendfacet\nendsolid\n");
+  RUN_FINE(scratch_path("one.vtk"), "--surface", scratch_path("one.stl"), "--threads", "1");
+  assert_non_null(strstr(program_out, "one.stl: 1 triangle, area 0.5\n"));
+  assert_non_null(strstr(program_out, "one.vtk: 1 node, 1 cell\n"));
+  assert_non_null(strstr(program_out, "1 node within the half thickness 0.1\n"));
+  assert_non_null(strstr(program_out, "1 thread\n"));
+}
+
 /* Wrong units are no error, but the two sizes are shown. */
 static void test_no_marks(void **state) {
   (void)state;
@@ -224,7 +239,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_defaults),        cmocka_unit_test(test_every_number),
       cmocka_unit_test(test_stats_on_stdout), cmocka_unit_test(test_surface_from_file),
-      cmocka_unit_test(test_no_marks),        cmocka_unit_test(test_legacy_mesh),
+      cmocka_unit_test(test_one_of_each),     cmocka_unit_test(test_no_marks),
+      cmocka_unit_test(test_legacy_mesh),
   };
   return cmocka_run_group_tests(tests, make_box, destroy_all);
 }

@@ -22,14 +22,29 @@ static void test_version(void **state) {
 static void test_help(void **state) {
   (void)state;
   RUN_FINE("--help");
-  const char *names[] = {"MESH",           "--surface",   "--valve",          "--params",         "--set",
-                         "--print-params", "--tolerance", "--skip-zero-area", "--flip-normals",   "--scale",
-                         "--rotate",       "--translate", "--half-thickness", "--distance-limit", "--far-distance",
-                         "--search",       "--threads",   "--output",         "--surface-output", "--picture",
-                         "--view",         "--stats",     "--quiet",          "--version",        "Exit status"};
+  const char *names[] = {"MESH",           "--surface",       "--valve",          "--params",         "--set",
+                         "--print-params", "--tolerance",     "--skip-zero-area", "--flip-normals",   "--scale",
+                         "--rotate",       "--translate",     "--half-thickness", "--distance-limit", "--far-distance",
+                         "--search",       "--threads",       "--output",         "--surface-output", "--picture",
+                         "--view",         "--stats",         "--quiet",          "--version",        "Exit status",
+                         "  1  bad data",  "  2  wrong usage"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
     if (!strstr(program_out, names[i])) fail_msg("%s is not in the help", names[i]);
   }
+}
+
+/* What cannot be printed is no success. */
+static void test_no_stdout(void **state) {
+  (void)state;
+  const char *places[] = {"/dev/full", ""};
+  for (int i = 0; i < 2; ++i) {
+    program_stdout = places[i];
+    RUN_REFUSED(1, "standard output: cannot be written", "--help");
+    RUN_REFUSED(1, "standard output: cannot be written", "--version");
+    RUN_REFUSED(1, "standard output: cannot be written", "--print-params");
+    RUN_REFUSED(1, "standard output: cannot be written", scratch_path("in.vtu"), "--stats", "-");
+  }
+  program_stdout = NULL;
 }
 
 /* An option takes one value: what follows it is the mesh. */
@@ -66,8 +81,8 @@ static void test_locale(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_version),        cmocka_unit_test(test_help),   cmocka_unit_test(test_order),
-      cmocka_unit_test(test_skip_zero_area), cmocka_unit_test(test_locale),
+      cmocka_unit_test(test_version),   cmocka_unit_test(test_help),           cmocka_unit_test(test_order),
+      cmocka_unit_test(test_no_stdout), cmocka_unit_test(test_skip_zero_area), cmocka_unit_test(test_locale),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

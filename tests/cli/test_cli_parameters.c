@@ -123,9 +123,13 @@ static void test_json_refusals(void **state) {
       {"{\"middle.leaflet_angle\": 1}", "middle"},
       {"{\"right\": {\"leaflet_angel\": 1}}", "leaflet_angel"},
       {"{\"right\": 3}", "right"},
-      {"{\"root_radius\": \"1.3\"}", "p.json: root_radius must be a number or an array of numbers, not \"1.3\""},
+      {"{\"root_radius\": \"1.3\"}", "p.json: root_radius must be a number or an array of numbers, not of type string"},
       {"{\"root_radius\": null}", "p.json: root_radius must be a number"},
       {"{\"root_radius\": true}", "p.json: root_radius must be a number"},
+      {"{\"root_radius\": []}", "p.json: root_radius must be a number or an array of numbers, not an empty array"},
+      {"{\"right\": {\"translation\": []}}", "p.json: right.translation must be a number"},
+      {"{\"root_radius\\u0000x\": 1}", "p.json: a name holds a control character"},
+      {"{\"root_radius\\n\": 1}", "p.json: a name holds a control character"},
       {"{\"root_radius\": [1.3, 1.4]}", "root_radius"},
       {"{\"right\": {\"translation\": [1, 2]}}", "right.translation"},
       {"{\"right\": {\"translation\": [1, [2], 3]}}", "p.json: right.translation must be a number"},
@@ -146,6 +150,35 @@ static void test_json_refusals(void **state) {
   RUN_REFUSED(1, ": cannot be read", scratch_path("in.vtu"), "--params", scratch_path("."));
 }
 
+/* What is deep or long is refused in a line like any other. */
+static void test_json_sizes(void **state) {
+  (void)state;
+  enum { depth = 1000000, length = 100000 };
+  static char text[2 * depth + 64];
+  const char *opening[] = {"[", "{\"a\":"}, *closing[] = {"]", "}"};
+  for (int i = 0; i < 2; ++i) {
+    const int n = i == 0 ? depth : depth / 5;
+    char *end = text + sprintf(text, "{\"root_radius\": ");
+    for (int k = 0; k < n; ++k) end = stpcpy(end, opening[i]);
+    end = stpcpy(end, "1");
+    for (int k = 0; k < n; ++k) end = stpcpy(end, closing[i]);
+    strcpy(end, "}");
+    scratch_write_text("p.json", text);
+    RUN_REFUSED(1, "p.json: is nested deeper", "--print-params", "--params", scratch_path("p.json"));
+  }
+  /* A value, a name, and a string that does not end. */
+  const char *before[] = {"{\"root_radius\": \"", "{\"", "{\"root_radius\": \""};
+  const char *after[] = {"\"}", "\": null}", ""};
+  for (int i = 0; i < 3; ++i) {
+    char *end = stpcpy(text, before[i]);
+    memset(end, 'x', length);
+    strcpy(end + length, after[i]);
+    scratch_write_text("p.json", text);
+    RUN_REFUSED(1, "p.json: ", "--print-params", "--params", scratch_path("p.json"));
+    assert_true(strlen(program_err) < 500);
+  }
+}
+
 static void test_set_refusals(void **state) {
   (void)state;
   RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "--print-params", "--set", "root_radius");
@@ -161,9 +194,9 @@ static void test_set_refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_template),     cmocka_unit_test(test_json_forms),      cmocka_unit_test(test_json_order),
-      cmocka_unit_test(test_set_order),    cmocka_unit_test(test_surface_changes), cmocka_unit_test(test_json_refusals),
-      cmocka_unit_test(test_set_refusals),
+      cmocka_unit_test(test_template),   cmocka_unit_test(test_json_forms),      cmocka_unit_test(test_json_order),
+      cmocka_unit_test(test_set_order),  cmocka_unit_test(test_surface_changes), cmocka_unit_test(test_json_refusals),
+      cmocka_unit_test(test_json_sizes), cmocka_unit_test(test_set_refusals),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

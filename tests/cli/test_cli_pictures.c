@@ -18,9 +18,18 @@ static void test_without_display(void **state) {
   unsetenv("DISPLAY");
   RUN_REFUSED(1, "DISPLAY is not set", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
+  /* Before any work: the mesh is missing too, and is not what is named. */
+  RUN_REFUSED(1, "DISPLAY is not set", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
   setenv("DISPLAY", ":7654", 1);
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
+  /* The marks are good: what else was asked for is there. */
+  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"),
+              "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
+  assert_true(scratch_exists("out.vtu"));
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_number(json, "n_nodes") == n_box);
+  free(json);
   if (before) {
     setenv("DISPLAY", display, 1);
   } else {

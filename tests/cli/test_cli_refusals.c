@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Every refusal: its exit code and one line on stderr that names what was wrong; and no output is left behind. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -17,6 +18,13 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "nothing to do: --quiet", mesh, "--quiet");
   RUN_REFUSED(2, "--output needs a MESH", "--output", "a.vtu");
   RUN_REFUSED(2, "--stats needs a MESH", "--stats", "-");
+  RUN_REFUSED(2, "--threads needs a MESH", "--surface-output", "a.vtp", "--threads", "2");
+  RUN_REFUSED(2, "--search needs a MESH", "--surface-output", "a.vtp", "--search", "auto");
+  RUN_REFUSED(2, "--distance-limit needs a MESH", "--surface-output", "a.vtp", "--distance-limit", "2");
+  RUN_REFUSED(2, "--far-distance needs a MESH", "--surface-output", "a.vtp", "--far-distance", "-1");
+  RUN_REFUSED(2, "MESH has no effect with --print-params", mesh, "--print-params");
+  RUN_REFUSED(2, "--output has no effect with --print-params", "--print-params", "--output", "a.vtu");
+  RUN_REFUSED(2, "--scale has no effect with --print-params", "--print-params", "--scale", "2");
   RUN_REFUSED(2, "--frobnicate", mesh, "--frobnicate");
   RUN_REFUSED(2, "second.vtu", mesh, "second.vtu");
   RUN_REFUSED(2, "--valve", mesh, "--valve", "aortic", "--surface", "a.vtp");
@@ -30,6 +38,46 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "--view: more views than pictures", mesh, "--picture", "a.png", "--view", "top", "--view", "side");
   RUN_REFUSED(2, "--output", mesh, "--output", "a.vtu", "--output", "b.vtu");
   RUN_REFUSED(2, "--output", mesh, "--output");
+}
+
+static void test_empty_values(void **state) {
+  (void)state;
+  const char *options[] = {"--surface",   "--valve",          "--params",         "--set",
+                           "--tolerance", "--scale",          "--rotate",         "--translate",
+                           "--threads",   "--half-thickness", "--distance-limit", "--far-distance",
+                           "--output",    "--picture",        "--stats",          "--surface-output"};
+  for (size_t i = 0; i < sizeof options / sizeof options[0]; ++i) {
+    char text[64];
+    snprintf(text, sizeof text, "%s: the value is empty", options[i]);
+    RUN_REFUSED(2, text, scratch_path("in.vtu"), options[i], "");
+  }
+  RUN_REFUSED(2, "MESH: the value is empty", "");
+  RUN_REFUSED(2, "--output: the value is empty", "--output=", scratch_path("in.vtu"), "--quiet");
+}
+
+/* A value in several words. */
+static void test_hints(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "--set takes NAME=VALUE", mesh, "--set", "root_radius", "1.3");
+  RUN_REFUSED(2, "--set takes NAME=VALUE", "--set", "root_radius", "1.3", mesh);
+  RUN_REFUSED(2, "--rotate takes X,Y,Z,DEG", mesh, "--rotate", "0", "0", "1", "90");
+  RUN_REFUSED(2, "--rotate takes X,Y,Z,DEG", "--rotate", "0,", "0,", "1,", "90", mesh);
+  RUN_REFUSED(2, "--translate takes X,Y,Z", mesh, "--translate", "0", "0", "-1");
+  RUN_REFUSED(2, "--help lists the options", mesh, "second.vtu", "--set", "root_radius=1.3", "--rotate", "0,0,1,90");
+}
+
+/* One line, whatever the names hold. */
+static void test_control_characters(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(1, "no?such?.vtu: cannot be read", scratch_path("no\nsuch\t.vtu"));
+  RUN_REFUSED(1, "no?such?.json: cannot be read", mesh, "--params", scratch_path("no\nsuch\r.json"));
+  RUN_REFUSED(1, "no??folder", mesh, "--output", scratch_path("no\n\033folder/a.vtu"));
+  RUN_REFUSED(2, "--scale: '1?2' is not", mesh, "--scale", "1\n2");
+  RUN_REFUSED(2, "more?things", mesh, "more\nthings");
+  RUN_REFUSED(1, "root?radius", mesh, "--set", "root\nradius=1");
+  RUN_REFUSED(1, "mit?ral", mesh, "--valve", "mit\nral");
 }
 
 static void test_numbers(void **state) {
@@ -54,16 +102,23 @@ static void test_numbers(void **state) {
 static void test_values(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
-  RUN_REFUSED(2, "scale", mesh, "--scale", "0");
-  RUN_REFUSED(2, "scale", mesh, "--scale", "-1");
-  RUN_REFUSED(2, "rotation_axis", mesh, "--rotate", "0,0,0,90");
-  RUN_REFUSED(2, "tolerance", mesh, "--tolerance", "0");
-  RUN_REFUSED(2, "tolerance", mesh, "--tolerance", "-1");
-  RUN_REFUSED(2, "half_thickness", mesh, "--half-thickness", "inf");
-  RUN_REFUSED(2, "distance_limit", mesh, "--distance-limit", "0.05");
-  RUN_REFUSED(2, "n_threads", mesh, "--threads", "-2");
-  RUN_REFUSED(2, "n_threads", mesh, "--threads", "1025");
-  RUN_REFUSED(2, "far_distance", mesh, "--far-distance", "0.05", "--output", scratch_path("a.vtu"));
+  RUN_REFUSED(2, "riis-mark: --scale is 0; ", mesh, "--scale", "0");
+  RUN_REFUSED(2, "riis-mark: --scale is -1; ", mesh, "--scale", "-1");
+  RUN_REFUSED(2, "riis-mark: --rotate: the axis is (0, 0, 0); ", mesh, "--rotate", "0,0,0,90");
+  RUN_REFUSED(2, "riis-mark: --rotate: the angle is 1e+07; ", mesh, "--rotate", "0,0,1,1e7");
+  RUN_REFUSED(2, "riis-mark: --translate ", mesh, "--translate", "1e60,0,0");
+  RUN_REFUSED(2, "riis-mark: --translate moves the valve ", mesh, "--translate", "1e30,0,0");
+  RUN_REFUSED(2, "riis-mark: --tolerance is 0; ", mesh, "--tolerance", "0");
+  RUN_REFUSED(2, "riis-mark: --tolerance is -1; ", mesh, "--tolerance", "-1");
+  RUN_REFUSED(2, "riis-mark: --half-thickness is inf; ", mesh, "--half-thickness", "inf");
+  /* These before the mesh is read: it is missing too. */
+  mesh = scratch_path("missing.vtu");
+  RUN_REFUSED(2, "riis-mark: --distance-limit is 0.05; ", mesh, "--distance-limit", "0.05");
+  RUN_REFUSED(2, "riis-mark: --threads is -2; ", mesh, "--threads", "-2");
+  RUN_REFUSED(2, "riis-mark: --threads is 1025; ", mesh, "--threads", "1025");
+  RUN_REFUSED(2, "riis-mark: --far-distance is 0.05; ", mesh, "--far-distance", "0.05", "--output",
+              scratch_path("a.vtu"));
+  mesh = scratch_path("in.vtu");
   RUN_REFUSED(1, "mitre", mesh, "--valve", "mitre");
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
@@ -116,6 +171,7 @@ static void test_outputs(void **state) {
   RUN_REFUSED(1, "a.png: cannot be written: the folder", mesh, "--picture", scratch_path("no_folder/a.png"));
   RUN_REFUSED(1, "a.json: cannot be written: the folder", mesh, "--stats", scratch_path("no_folder/a.json"));
   assert_int_equal(mkdir(scratch_path("folder.vtu"), 0700), 0);
+  RUN_REFUSED(1, "folder.vtu: is a directory", mesh, "--stats", scratch_path("folder.vtu"));
   RUN_REFUSED(1, "folder.vtu: is a directory", mesh, "--output", scratch_path("folder.vtu"));
   RUN_REFUSED(1, "/dev/full: cannot be written: No space left", mesh, "--stats", "/dev/full", "--quiet");
 }
@@ -128,9 +184,11 @@ static void test_outputs_first(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_usage),         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_values),
-      cmocka_unit_test(test_input_files),   cmocka_unit_test(test_bad_data), cmocka_unit_test(test_outputs),
-      cmocka_unit_test(test_outputs_first),
+      cmocka_unit_test(test_usage),         cmocka_unit_test(test_numbers),
+      cmocka_unit_test(test_values),        cmocka_unit_test(test_input_files),
+      cmocka_unit_test(test_bad_data),      cmocka_unit_test(test_outputs),
+      cmocka_unit_test(test_outputs_first), cmocka_unit_test(test_empty_values),
+      cmocka_unit_test(test_hints),         cmocka_unit_test(test_control_characters),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

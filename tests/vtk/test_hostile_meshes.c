@@ -146,6 +146,14 @@ static void test_broken_cells(void **state) {
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                      "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n9 0 1 2 3\nCELL_TYPES 1\n10\n");
   expect_file_error("sizes.vtk", "cell 0 has 9 points");
+  scratch_write_text("types.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                     "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 0 0\n");
+  expect_file_error("types.vtk", "has 0 types for 0 cells (is it truncated?)");
+  scratch_write_text("types.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                     "0 0 0 1 0 0 0 1 0 0 0 1\n");
+  expect_file_error("types.vtk", "holds no cells (is it truncated?)");
 }
 
 /* Coordinates are the core's to judge. */

@@ -136,6 +136,67 @@ static void test_legacy_keywords(void **state) {
   assert_true(rank[0] == 7 && rank[1] == 8);
 }
 
+/* Blocks of METADATA, which VTK's writer puts behind arrays whose range was asked for, and bits. */
+static void test_legacy_metadata(void **state) {
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    int64_t n = 0, n_read_cells = 0;
+    assert_int_equal(shim_write_legacy(scratch_path("range.vtk"), i % 2, i < 2 ? 42 : 51), 1);
+    char *bytes = scratch_read(scratch_path("range.vtk"), NULL);
+    if (i % 2 == 0) assert_non_null(strstr(bytes, "METADATA\nINFORMATION"));
+    if (i % 2 == 0) assert_non_null(strstr(bytes, "COMPONENT_NAMES\nalong%20x\n\n\n"));
+    free(bytes);
+    riis_vtk_mesh *mesh = read_mesh("range.vtk");
+    expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, NULL));
+    assert_int_equal(n, 40);
+    assert_int_equal(n_read_cells, 1);
+    expect_fine(riis_vtk_mesh_write(mesh, scratch_path("range.vtu")));
+    riis_vtk_mesh_destroy(&mesh);
+    const char *const names[] = {"flow", "p", "bits"};
+    for (int k = 0; k < 3; ++k)
+      expect_same_array(scratch_path("range.vtk"), scratch_path("range.vtu"), 'p', names[k], 1);
+  }
+}
+
+#define LEGACY(version) "# vtk DataFile Version " version "\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+
+/* Lines that end with a carriage return, a mesh without cells, METADATA where VTK puts none. */
+static void test_legacy_layouts(void **state) {
+  (void)state;
+  const char *texts[] = {
+      LEGACY("2.0") "0 0 0 1 0 0 0 1 0 0 0 1\r\nMETADATA\r\nINFORMATION 0\r\n\r\nCELLS 1 5\r\n4 0 1 2 3\r\n"
+                    "CELL_TYPES 1\r\n10\r\n",
+      LEGACY("2.0") "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nFIELD f 2\n"
+                    "a 1 1 int\n1\nMETADATA\nINFORMATION 0\n\nb 1 1 int\n1\n",
+      LEGACY("3.0") "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 0 0\nCELL_TYPES 0\n"};
+  for (int i = 0; i < 3; ++i) {
+    int64_t n = 0, n_read_cells = -1;
+    scratch_write_text("layout.vtk", texts[i]);
+    riis_vtk_mesh *mesh = read_mesh("layout.vtk");
+    expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, NULL));
+    assert_int_equal(n, 4);
+    assert_int_equal(n_read_cells, i < 2);
+    riis_vtk_mesh_destroy(&mesh);
+  }
+}
+
+/* "Array" in a name or a comment is no array. */
+static void test_word_array(void **state) {
+  (void)state;
+  scratch_write_text(
+      "word.vtu",
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
+      "<!-- The Array of <DataArray > cells --><Piece NumberOfPoints=\"1\" NumberOfCells=\"1\">\n"
+      "<PointData><DataArray Name=\"Result Array 1\" type=\"Float64\" format=\"ascii\">7</DataArray></PointData>\n"
+      "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">1 2 3</DataArray></Points>\n"
+      "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0</DataArray>\n"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">1</DataArray>\n"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">1</DataArray></Cells>\n"
+      "</Piece></UnstructuredGrid></VTKFile>\n");
+  riis_vtk_mesh *mesh = read_mesh("word.vtu");
+  riis_vtk_mesh_destroy(&mesh);
+}
+
 /* Marks the mesh with the aortic valve. */
 static riis_mark_result *mark(riis_vtk_mesh *mesh, double half_thickness, double distance_limit) {
   riis_valve *valve = NULL;
@@ -224,9 +285,9 @@ static void test_marks(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_round_trips),
-      cmocka_unit_test(test_nodes_are_shuffled),
-      cmocka_unit_test(test_legacy_keywords),
+      cmocka_unit_test(test_round_trips),     cmocka_unit_test(test_nodes_are_shuffled),
+      cmocka_unit_test(test_legacy_keywords), cmocka_unit_test(test_legacy_metadata),
+      cmocka_unit_test(test_legacy_layouts),  cmocka_unit_test(test_word_array),
       cmocka_unit_test(test_marks),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Surfaces through files: what is written is what is queried; what is read keeps winding, order and leaflets. */
+#include <locale.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -202,6 +203,29 @@ static void test_mixed_polygons(void **state) {
   expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
 }
 
+/* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle: cut inside, area 0.2 each, the winding
+ * kept. One with the inward corner at 0 or 2 keeps its order. */
+static void test_concave_quads(void **state) {
+  (void)state;
+  const int32_t leaflets[3] = {0, 0, 0};
+  const char *orders[4] = {"0 1 2 3", "1 2 3 0", "2 3 0 1", "3 0 1 2"};
+  for (int i = 0; i < 4; ++i) {
+    for (int with_triangle = 0; with_triangle < 2; ++with_triangle) {
+      char text[2048];
+      snprintf(text, sizeof text,
+               "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
+               "<Piece NumberOfPoints=\"4\" NumberOfPolys=\"%d\"><Points><DataArray type=\"Float64\" "
+               "NumberOfComponents=\"3\" format=\"ascii\">0 0 0  1 0 0  0.2 0.2 0  0 1 0</DataArray></Points><Polys>"
+               "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">%s %s</DataArray>"
+               "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4 %s</DataArray></Polys>"
+               "</Piece></PolyData></VTKFile>\n",
+               1 + with_triangle, orders[i], with_triangle ? "0 1 3" : "", with_triangle ? "7" : "");
+      scratch_write_text("concave.vtp", text);
+      expect_faces("concave.vtp", 2 + with_triangle, 0.2 + 0.5 * with_triangle, leaflets);
+    }
+  }
+}
+
 static void test_without_leaflets(void **state) {
   (void)state;
   write_polydata("plain.vtp", "NumberOfPolys=\"1\"", CELLS("0 1 3", "3"), "", "");
@@ -283,6 +307,41 @@ static void test_stl(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
+/* Letters, blanks and lines that other programs write; keywords count at the beginning of a line only. */
+static void test_ascii_stl_layouts(void **state) {
+  (void)state;
+  const char *const facet =
+      "  FACET NORMAL 0 0 1\n OUTER LOOP\nVERTEX 0 0 0\nVERTEX 1.5 0 0\nVERTEX 0 1 0\nENDLOOP\n ENDFACET\n";
+  char text[8192];
+  snprintf(text, sizeof text, "\n SOLID endfacet part\n%sENDSOLID endfacet part \n%5000s\n", facet, "");
+  scratch_write_text("upper.stl", text);
+  const int32_t leaflets[1] = {0};
+  expect_faces("upper.stl", 1, 0.75, leaflets);
+}
+
+/* A host program may have set a locale whose decimal separator is a comma; it keeps it. */
+static void test_decimal_comma(void **state) {
+  (void)state;
+  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"};
+  size_t i = 0;
+  while (i < sizeof names / sizeof names[0] && !setlocale(LC_ALL, names[i])) ++i;
+  if (i == sizeof names / sizeof names[0]) skip();
+  const int32_t leaflets[1] = {0};
+  scratch_write_text("comma.stl",
+                     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1.5 0 0\nvertex 0 1 0\nendloop\n"
+                     "endfacet\nendsolid x\n");
+  expect_faces("comma.stl", 1, 0.75, leaflets);
+  /* VTK's legacy reader sets the process's locale. */
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  riis_vtk_mesh *mesh = NULL;
+  assert_int_equal(shim_write_box(scratch_path("comma.vtk"), SHIM_LEGACY_BINARY, 2, lower, upper, 0), 1);
+  setlocale(LC_ALL, names[i]);
+  expect_fine(riis_vtk_mesh_read(scratch_path("comma.vtk"), &mesh));
+  riis_vtk_mesh_destroy(&mesh);
+  assert_string_equal(localeconv()->decimal_point, ",");
+  setlocale(LC_ALL, "C");
+}
+
 /* A surface from arrays with skipped triangles is written as it is queried, without uv. */
 static void test_user_surface_is_written(void **state) {
   (void)state;
@@ -361,7 +420,7 @@ static void test_truncated_stl(void **state) {
   write_binary_stl("cut.stl", 3, 2);
   expect_file_error("cut.stl", "is truncated or not an STL file: 184 bytes, 3 triangles");
   write_binary_stl("more.stl", 2, 3);
-  expect_file_error("more.stl", "is truncated or not an STL file");
+  expect_file_error("more.stl", "has 50 bytes behind the 2 triangles");
   write_ascii_stl("cut_ascii.stl", 2, 0);
   expect_file_error("cut_ascii.stl", "endsolid is missing");
   scratch_write_text("odd.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\nendsolid\n");
@@ -394,17 +453,13 @@ static void test_truncated_polydata(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_valve_is_written),
-      cmocka_unit_test(test_round_trip),
-      cmocka_unit_test(test_quads_stay_quads),
-      cmocka_unit_test(test_mixed_polygons),
-      cmocka_unit_test(test_without_leaflets),
-      cmocka_unit_test(test_unstructured_grid),
-      cmocka_unit_test(test_stl),
-      cmocka_unit_test(test_user_surface_is_written),
-      cmocka_unit_test(test_not_surfaces),
-      cmocka_unit_test(test_broken_leaflets),
-      cmocka_unit_test(test_truncated_stl),
+      cmocka_unit_test(test_valve_is_written),        cmocka_unit_test(test_round_trip),
+      cmocka_unit_test(test_quads_stay_quads),        cmocka_unit_test(test_mixed_polygons),
+      cmocka_unit_test(test_concave_quads),           cmocka_unit_test(test_without_leaflets),
+      cmocka_unit_test(test_unstructured_grid),       cmocka_unit_test(test_stl),
+      cmocka_unit_test(test_ascii_stl_layouts),       cmocka_unit_test(test_decimal_comma),
+      cmocka_unit_test(test_user_surface_is_written), cmocka_unit_test(test_not_surfaces),
+      cmocka_unit_test(test_broken_leaflets),         cmocka_unit_test(test_truncated_stl),
       cmocka_unit_test(test_truncated_polydata),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

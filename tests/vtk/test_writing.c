@@ -129,6 +129,27 @@ static void test_links_and_sources(void **state) {
   assert_int_equal(n_points, 12 * 12 * 12);
 }
 
+/* A link to a file that is not there yet stays a link, and the file is made; a circle of links is an error. */
+static void test_dangling_links(void **state) {
+  (void)state;
+  struct stat status;
+  assert_int_equal(mkdir(scratch_path("deep"), 0700), 0);
+  assert_int_equal(symlink("deep/second.vtu", scratch_path("first.vtu")), 0);
+  assert_int_equal(symlink("../made.vtu", scratch_path("deep/second.vtu")), 0);
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("first.vtu")));
+  assert_int_equal(lstat(scratch_path("first.vtu"), &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
+  assert_int_equal(lstat(scratch_path("deep/second.vtu"), &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
+  assert_int_equal(lstat(scratch_path("made.vtu"), &status), 0);
+  assert_true(S_ISREG(status.st_mode) && status.st_size > 10000);
+  assert_int_equal(symlink("circle.vtu", scratch_path("circle.vtu")), 0);
+  expect_refused(riis_vtk_mesh_write(mesh, scratch_path("circle.vtu")), RIIS_FILE_ERROR,
+                 "circle.vtu: cannot be written");
+  assert_int_equal(lstat(scratch_path("circle.vtu"), &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
+}
+
 static void test_permissions(void **state) {
   (void)state;
   const mode_t mask = umask(0027);
@@ -137,6 +158,11 @@ static void test_permissions(void **state) {
   struct stat status;
   assert_int_equal(stat(scratch_path("mode.vtu"), &status), 0);
   assert_int_equal(status.st_mode & 0777, 0640);
+  /* A file that is replaced leaves its own. */
+  assert_int_equal(chmod(scratch_path("mode.vtu"), 0606), 0);
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path("mode.vtu")));
+  assert_int_equal(stat(scratch_path("mode.vtu"), &status), 0);
+  assert_int_equal(status.st_mode & 0777, 0606);
 }
 
 /* VTK's output window and its warnings are the caller's again after each call, and stay silent during it. */
@@ -155,9 +181,10 @@ static void test_output_window(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_places),      cmocka_unit_test(test_locked),
-      cmocka_unit_test(test_full_disk),   cmocka_unit_test(test_links_and_sources),
-      cmocka_unit_test(test_permissions), cmocka_unit_test(test_output_window),
+      cmocka_unit_test(test_places),         cmocka_unit_test(test_locked),
+      cmocka_unit_test(test_full_disk),      cmocka_unit_test(test_links_and_sources),
+      cmocka_unit_test(test_dangling_links), cmocka_unit_test(test_permissions),
+      cmocka_unit_test(test_output_window),
   };
   return cmocka_run_group_tests(tests, make_mesh, destroy_mesh);
 }

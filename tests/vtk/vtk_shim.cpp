@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <vtkBitArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellLocator.h>
@@ -179,6 +180,31 @@ int shim_write_box(const char *path, int encoding, int n, const double lower[3],
   if (encoding == SHIM_COMPRESSED || encoding == SHIM_RAW) writer->SetDataModeToAppended();
   if (encoding != SHIM_COMPRESSED) writer->SetCompressorTypeToNone();
   if (encoding == SHIM_RAW) writer->EncodeAppendedDataOff();
+  return writer->Write();
+}
+
+int shim_write_legacy(const char *path, int binary, int version) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 40; ++i) points->InsertNextPoint(i % 2, i % 3, i);
+  points->GetData()->GetRange(-1);
+  grid->SetPoints(points);
+  const vtkIdType corners[4] = {0, 1, 2, 3};
+  grid->InsertNextCell(VTK_TETRA, 4, corners);
+  const auto flow = numbered<vtkDoubleArray>("flow", 3, 40, 0.5);
+  flow->SetComponentName(0, "along x");
+  flow->GetRange(-1);
+  grid->GetPointData()->AddArray(flow);
+  grid->GetPointData()->AddArray(numbered<vtkDoubleArray>("p", 1, 40, 1));
+  vtkNew<vtkBitArray> bits;
+  bits->SetName("bits");
+  for (int i = 0; i < 40; ++i) bits->InsertNextValue(i % 2);
+  grid->GetPointData()->AddArray(bits);
+  vtkNew<vtkUnstructuredGridWriter> writer;
+  writer->SetFileName(path);
+  writer->SetInputData(grid);
+  writer->SetFileType(binary ? VTK_BINARY : VTK_ASCII);
+  writer->SetFileVersion(version);
   return writer->Write();
 }
 

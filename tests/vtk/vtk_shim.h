@@ -20,6 +20,10 @@ enum { SHIM_ASCII, SHIM_BINARY, SHIM_COMPRESSED, SHIM_RAW, SHIM_LEGACY_ASCII, SH
 int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
                    int float_points);
 
+/* Writes a legacy file of 40 points and one tetrahedron, of version 42 or 51, with what VTK's writer puts behind
+ * arrays: ranges, the name of one component of "flow"; last a bit array "bits". Returns 1 on success. */
+int shim_write_legacy(const char *path, int binary, int version);
+
 /* Numbers of points and cells of a .vtu or .vtp or .vtk grid file; points as doubles to xyz (3, n) if it is not NULL.
  * point_type gets VTK's name of the points' type. Returns 0 if VTK cannot read the file. */
 int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char point_type[32], double *xyz);

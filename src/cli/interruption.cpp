@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/interruption.hpp"
+
+namespace riis::cli {
+namespace {
+
+volatile std::sig_atomic_t waiting_signal = 0;
+
+void keep_for_later(int signal) { waiting_signal = signal; }
+
+}  // namespace
+
+UnbrokenWrite::UnbrokenWrite() {
+  struct sigaction keep {};
+  keep.sa_handler = keep_for_later;
+  keep.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  for (int i = 0; i < 3; ++i) {
+    sigaction(signals_[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(signals_[i], &keep, nullptr);
+  }
+}
+
+UnbrokenWrite::~UnbrokenWrite() {
+  for (int i = 0; i < 3; ++i) sigaction(signals_[i], &before_[i], nullptr);
+  if (waiting_signal != 0) std::raise(waiting_signal);
+}
+
+}  // namespace riis::cli
