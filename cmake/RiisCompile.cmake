@@ -14,3 +14,18 @@ if(RIIS_SANITIZE)
   target_compile_options(riis_compile INTERFACE -fsanitize=${RIIS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
   target_link_options(riis_compile INTERFACE -fsanitize=${RIIS_SANITIZE})
 endif()
+
+# What every library of riis has in common: its version, and that it shows what the version script names and nothing else. (Hidden
+# visibility leaves the C++ runtime's weak template instances visible; the version script does not.)
+function(riis_finish_library target version_script)
+  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  # A user's -ffast-math would link start-up code that sets flush-to-zero in whoever loads the library.
+  target_link_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-fast-math>)
+  if(BUILD_SHARED_LIBS)
+    target_link_options(${target} PRIVATE "LINKER:--version-script=${version_script}")
+    if(NOT RIIS_SANITIZE)  # a sanitizer's run-time stays undefined in the library
+      target_link_options(${target} PRIVATE "LINKER:--no-undefined")
+    endif()
+    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${version_script})
+  endif()
+endfunction()

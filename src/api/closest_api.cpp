@@ -110,7 +110,7 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const riis_closest_arrays to = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
     if (n_points < 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
-    riis::check_n_threads(whole.n_threads, "options.n_threads");
+    const int n_threads = riis::threads_asked_for(whole.n_threads, "options.n_threads");
     if (whole.reserved != 0) riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is %d; it must be 0", whole.reserved);
     const double limit = limit_of(whole);
     if (n_points == 0) return;
@@ -120,7 +120,6 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     // Here, so that memory that runs out leaves the arrays alone.
     if (to.side) content.prepare_sides();
     constexpr std::int64_t points_per_block = 512;
-    const int n_threads = whole.n_threads ? whole.n_threads : riis::default_thread_count();
     riis::parallel_for((n_points + points_per_block - 1) / points_per_block, n_threads, [&](std::int64_t block, int) {
       const std::int64_t begin = block * points_per_block, end = std::min(begin + points_per_block, n_points);
       for (std::int64_t i = begin; i < end; ++i) {

@@ -23,18 +23,24 @@ enum class HandleKind : std::uint64_t {
   mark_result = 0x7269697372736c74
 };
 
+template <HandleKind the_kind>
+struct Handle {
+  static constexpr HandleKind own_kind = the_kind;
+  HandleKind kind = own_kind;
+};
+
 // A handle that is there and of its kind.
-template <class Handle>
-Handle *require_handle(Handle *handle, const char *argument) {
+template <class AnyHandle>
+AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   require(handle, argument);
-  if (handle->kind != Handle::own_kind) fail(RIIS_INVALID_ARGUMENT, "%s is a handle of another kind", argument);
+  if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, "%s is a handle of another kind", argument);
   return handle;
 }
 
 // The body of a destroy function. A handle of another kind is left alone: losing it is better than freeing it as what it is
 // not.
-template <class Handle>
-void destroy_handle(Handle **handle, const char *argument) noexcept {
+template <class AnyHandle>
+void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
   if (guarded([&] { require_handle(*handle, argument); }) != RIIS_OK) return;
   delete *handle;
@@ -43,29 +49,21 @@ void destroy_handle(Handle **handle, const char *argument) noexcept {
 
 }  // namespace riis
 
-struct riis_valve {
-  static constexpr riis::HandleKind own_kind = riis::HandleKind::valve;
-  riis::HandleKind kind = own_kind;
+struct riis_valve : riis::Handle<riis::HandleKind::valve> {
   riis::Valve valve;
 };
 
-struct riis_surface {
-  static constexpr riis::HandleKind own_kind = riis::HandleKind::surface;
-  riis::HandleKind kind = own_kind;
+struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   std::unique_ptr<const riis::Surface> surface;
   riis_surface_options options;  // as completed
   double seconds_triangles, seconds_scene;
 };
 
-struct riis_mesh {
-  static constexpr riis::HandleKind own_kind = riis::HandleKind::mesh;
-  riis::HandleKind kind = own_kind;
+struct riis_mesh : riis::Handle<riis::HandleKind::mesh> {
   riis::Mesh mesh;
 };
 
-struct riis_mark_result {
-  static constexpr riis::HandleKind own_kind = riis::HandleKind::mark_result;
-  riis::HandleKind kind = own_kind;
+struct riis_mark_result : riis::Handle<riis::HandleKind::mark_result> {
   riis::MarkResult result;
 };
 

@@ -4,7 +4,6 @@
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "marking/mark_nodes.hpp"
-#include "parallel/parallel_for.hpp"
 
 using riis::guarded;
 using riis::require;
@@ -32,15 +31,9 @@ riis::Mesh checked_mesh(const riis::StridedPoints &nodes) {
   return {nodes};
 }
 
-int threads_of(const riis_mark_options &options) {
-  riis::check_n_threads(options.n_threads, "options.n_threads");
-  return options.n_threads ? options.n_threads : riis::default_thread_count();
-}
-
-std::int32_t search_of(const riis_mark_options &options) {
-  if (options.search != RIIS_SEARCH_AUTO && options.search != RIIS_SEARCH_EXHAUSTIVE)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", options.search);
-  return options.search;
+void check_search(std::int32_t search) {
+  if (search != RIIS_SEARCH_AUTO && search != RIIS_SEARCH_EXHAUSTIVE)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", search);
 }
 
 void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **node_id, const double **distance,
@@ -61,7 +54,7 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
                              riis_mesh **mesh) {
   return guarded([&] {
     require(mesh, "mesh");
-    *mesh = new riis_mesh{riis_mesh::own_kind, checked_mesh({n_nodes, x, y, z, stride})};
+    *mesh = new riis_mesh{{}, checked_mesh({n_nodes, x, y, z, stride})};
   });
 }
 
@@ -93,8 +86,9 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     require_handle(result, "result");
     const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
     const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
-                                      threads_of(whole)};
-    riis::mark_nodes(request, search_of(whole), result->result);
+                                      riis::threads_asked_for(whole.n_threads, "options.n_threads")};
+    check_search(whole.search);
+    riis::mark_nodes(request, result->result);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "api/errors.hpp"
+#include "parallel/parallel_for.hpp"
 
 namespace riis {
 
@@ -65,9 +66,11 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          Number(far_distance).text, Number(distance_limit).text);
 }
 
-inline void check_n_threads(std::int32_t n_threads, const char *name) {
+// The number of threads that an option asks for, with 0 for the processors that the calling thread may use.
+inline int threads_asked_for(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be from 1 to 1024, or 0 for the default", name, n_threads);
+  return n_threads ? n_threads : default_thread_count();
 }
 
 }  // namespace riis

@@ -13,7 +13,7 @@ extern "C" {
 riis_status riis_valve_create(const char *kind, riis_valve **valve) {
   return guarded([&] {
     require(valve, "valve");
-    *valve = new riis_valve{riis_valve::own_kind, riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
+    *valve = new riis_valve{{}, riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
   });
 }
 

@@ -44,9 +44,8 @@ void fill_lists(const TriangleSet &triangles, double half_thickness, bool limit_
 
 }  // namespace
 
-void mark_nodes(const SearchRequest &request, std::int32_t, MarkResult &result) {
+void mark_nodes(const SearchRequest &request, MarkResult &result) {
   const auto start = std::chrono::steady_clock::now();
-  // One search so far: whatever was asked for, it is this one.
   const SearchReport report = search_exhaustively(request, result.collection);
   const double half_thickness = request.surface.half_thickness();
   const bool limit_is_wider = request.distance_limit > half_thickness;

@@ -7,8 +7,8 @@
 
 namespace riis {
 
-// search is RIIS_SEARCH_*, a known one. A failure leaves the content of the result as it was.
-void mark_nodes(const SearchRequest &request, std::int32_t search, MarkResult &result);
+// By the exhaustive search, the only one so far. A failure leaves the content of the result as it was.
+void mark_nodes(const SearchRequest &request, MarkResult &result);
 
 // Dense arrays of the result, any of them null; docs at riis_mark_result_dense.
 void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,

@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -83,14 +84,10 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
 }
 
-struct Corners {
-  Vec3 a, b, c;
-};
-
 }  // namespace
 
 struct TriangleScene::Implementation {
-  std::vector<Corners> triangles;
+  std::vector<std::array<Vec3, 3>> triangles;  // their corners
   Frame frame;
   double rounding;  // the scene's rounding_ in the frame's units
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device;
@@ -108,8 +105,8 @@ struct Query {
 
 // Asks one triangle; true if it is the closest so far.
 bool ask(Query &query, std::int64_t triangle) {
-  const Corners &corners = query.in->triangles[static_cast<std::size_t>(triangle)];
-  const double distance_sq = closest_point_on_triangle(query.p, corners.a, corners.b, corners.c).distance_sq;
+  const auto &[a, b, c] = query.in->triangles[static_cast<std::size_t>(triangle)];
+  const double distance_sq = closest_point_on_triangle(query.p, a, b, c).distance_sq;
   if (!is_closer(distance_sq, triangle, query.best)) return false;
   query.best = {distance_sq, triangle};
   return true;
@@ -117,8 +114,8 @@ bool ask(Query &query, std::int64_t triangle) {
 
 void bounds_of_triangle(const RTCBoundsFunctionArguments *arguments) {
   const auto *in = static_cast<const TriangleScene::Implementation *>(arguments->geometryUserPtr);
-  const Corners &corners = in->triangles[arguments->primID];
-  const Vec3 a = in->frame(corners.a), b = in->frame(corners.b), c = in->frame(corners.c);
+  const std::array<Vec3, 3> &corners = in->triangles[arguments->primID];
+  const Vec3 a = in->frame(corners[0]), b = in->frame(corners[1]), c = in->frame(corners[2]);
   RTCBounds *bounds = arguments->bounds_o;
   bounds->lower_x = round_down(std::min({a.x, b.x, c.x}));
   bounds->lower_y = round_down(std::min({a.y, b.y, c.y}));
@@ -164,10 +161,7 @@ TriangleScene::TriangleScene(const TriangleSet &set)
       std::make_unique<Implementation>(Implementation{{}, frame, rounding_ * frame.scale, shared_device(), nullptr});
   Implementation &in = *implementation_;
   in.triangles.reserve(set.n_triangles());
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
-    const auto [a, b, c] = set.corners(i);
-    in.triangles.push_back({a, b, c});
-  }
+  for (std::size_t i = 0; i < set.n_triangles(); ++i) in.triangles.push_back(set.corners(i));
 
   const RTCDevice device = in.device.get();
   const auto check = [device](const char *what) {

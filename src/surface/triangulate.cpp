@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "api/errors.hpp"
 #include "geometry/coons.hpp"
@@ -30,13 +31,20 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// Triangles of one image, with those that turn out to have no area.
-std::int64_t count_triangles(const QuadGrid &grid, double max_error) {
-  std::int64_t n = 0;
-  for_each_quad(grid, [&](std::size_t i, std::size_t j) {
-    n += std::int64_t{2} << 2 * subdivision_level(grid, i, j, max_error);
+// A patch's quads with the level that each is subdivided to, in the order of for_each_quad.
+struct LevelledGrid {
+  QuadGrid grid;
+  std::vector<int> levels;
+  std::int64_t n_triangles;  // of one image, with those that turn out to have no area
+};
+
+LevelledGrid with_levels(QuadGrid grid, double max_error) {
+  LevelledGrid made{std::move(grid), {}, 0};
+  for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
+    made.levels.push_back(subdivision_level(made.grid, i, j, max_error));
+    made.n_triangles += std::int64_t{2} << 2 * made.levels.back();
   });
-  return n;
+  return made;
 }
 
 void check_count(double n_triangles, double max_error) {
@@ -49,15 +57,17 @@ void check_count(double n_triangles, double max_error) {
 
 class Builder {
  public:
-  Builder(std::int64_t n_triangles, double max_error, const Placement &placement, bool flip_normals)
-      : max_error_(max_error), placement_(placement), flip_normals_(flip_normals) {
+  Builder(std::int64_t n_triangles, const Placement &placement, bool flip_normals)
+      : placement_(placement), flip_normals_(flip_normals) {
     const auto n = static_cast<std::size_t>(n_triangles);
     set_.vertex_id.reserve(3 * n);
     set_.leaflet_id.reserve(n);
     set_.patch_id.reserve(n);
   }
 
-  void add_image(const QuadGrid &grid, const PatchImage &image) {
+  void add_image(const LevelledGrid &levelled, const PatchImage &image) {
+    const QuadGrid &grid = levelled.grid;
+    auto level_of_next = levelled.levels.begin();
     const std::size_t n_u = grid.u.size(), n_v = grid.v.size();
     const std::int64_t first = n_vertices();
     for (std::size_t j = 0; j < n_v; ++j)
@@ -66,7 +76,7 @@ class Builder {
       return first + static_cast<std::int64_t>(j * n_u + i);
     };
     for_each_quad(grid, [&](std::size_t i, std::size_t j) {
-      const int level = subdivision_level(grid, i, j, max_error_);
+      const int level = *level_of_next++;
       if (level == 0)
         add_quad({grid_vertex(i, j), grid_vertex(i + 1, j), grid_vertex(i + 1, j + 1), grid_vertex(i, j + 1)}, image);
       else
@@ -127,7 +137,6 @@ class Builder {
     set_.patch_id.push_back(image.patch_id);
   }
 
-  double max_error_;
   const Placement &placement_;
   bool flip_normals_;
   TriangleSet set_;
@@ -157,16 +166,16 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
                   static_cast<double>(patch.images.size());
   }
   check_count(n_at_least, max_error);
-  std::vector<QuadGrid> grids;
+  std::vector<LevelledGrid> grids;
   grids.reserve(set.patches.size());
   std::int64_t n_triangles = 0;
   for (const Patch &patch : set.patches) {
-    grids.push_back(make_quad_grid(sides_of(patch), merge_share * max_error));
-    n_triangles += count_triangles(grids.back(), max_error) * static_cast<std::int64_t>(patch.images.size());
+    grids.push_back(with_levels(make_quad_grid(sides_of(patch), merge_share * max_error), max_error));
+    n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(patch.images.size());
   }
   check_count(static_cast<double>(n_triangles), max_error);
 
-  Builder builder(n_triangles, max_error, placement, flip_normals);
+  Builder builder(n_triangles, placement, flip_normals);
   for (std::size_t i = 0; i < grids.size(); ++i)
     for (const PatchImage &image : set.patches[i].images) builder.add_image(grids[i], image);
   return builder.take();

@@ -191,10 +191,10 @@ PatchSet make_patches(const ParameterValues &values) {
       const auto &value = values[position_of(cusp, parameter)];
       return Vec3{value[0], value[1], value[2]};
     };
+    const Rotation turn = rotation_xyz(vector_of(rotation));
+    const Vec3 shift = vector_of(translation);
     const auto images = [&](std::int32_t part) {
       const auto leaflet_id = static_cast<std::int32_t>(cusp);
-      const Rotation turn = rotation_xyz(vector_of(rotation));
-      const Vec3 shift = vector_of(translation);
       return std::vector<PatchImage>{{false, turn, shift, leaflet_id, 4 * leaflet_id + part},
                                      {true, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
     };
