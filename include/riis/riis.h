@@ -22,7 +22,9 @@
  *   into the mesh's unit (0.01 for metres). Angles are degrees. Anything called *_id counts from 0.
  * - A function that can fail returns a riis_status: 0 is success; > 0 means that the call was refused and no object
  *   changed; < 0 means that an object passed for writing is only fit to be destroyed. riis_last_error() has the text.
- *   No function aborts, prints, throws, or lets an exception out.
+ *   No function aborts, prints, throws, or lets an exception out. Any function that takes them answers a NULL that is not
+ *   allowed, or an option out of range, with RIIS_INVALID_ARGUMENT, a struct of a wrong size with RIIS_INVALID_STRUCT_SIZE,
+ *   and any that allocates may answer RIIS_OUT_OF_MEMORY; these are not repeated below.
  * - New objects are the last argument, written only on success. Destroying takes the address of the handle, sets it to
  *   NULL, and accepts NULL. A handle of another kind in a handle's place is refused, also by destroying, which then leaves
  *   it alone.
