@@ -87,7 +87,7 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
     }
     assert_true(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > 1e-12 * longest * longest);
   }
-  for (int i = 0; i < 12; ++i) assert_true(per_patch[i] > 100);
+  for (int i = 0; i < 12; ++i) assert_true(per_patch[i] > 50);
   for (int i = 0; i < 12; i += 4) { /* mirror images have as many triangles */
     assert_int_equal(per_patch[i], per_patch[i + 2]);
     assert_int_equal(per_patch[i + 1], per_patch[i + 3]);
@@ -328,7 +328,7 @@ static void every_parameter_by_name(void **state) {
   int64_t n = 0;
   CHECK_OK(riis_valve_create("aortic", &valve));
   CHECK_OK(riis_valve_n_parameters(valve, &n));
-  assert_int_equal(n, n_scalars + n_vectors);
+  assert_int_equal(n, n_scalars + n_vectors + 1); /* and the opening */
   for (int i = 0; i < n_scalars + n_vectors; ++i) {
     const char *name = i < n_scalars ? table[i].name : vectors[i - n_scalars].name;
     const int n_values = i < n_scalars ? 1 : 3;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "internals.h"
+#include "oracle.h"
 #include "test_support.h"
 
 /* Sides of a curved square, in the order v0, v1, u0, u1, meeting at their ends; u parameters 0 0.3 0.6 1 and 0 0.5 0.6
@@ -112,6 +113,72 @@ static void kappa_of_known_quads(void **state) {
   CHECK_NEAR(quad_kappa(a, b, wide, d), 0.5, 1e-16); /* a planar trapezoid */
 }
 
+static void bilinear(const double (*q)[3], double s, double t, double *point) {
+  for (int c = 0; c < 3; ++c)
+    point[c] = (1 - s) * (1 - t) * q[0][c] + s * (1 - t) * q[1][c] + s * t * q[2][c] + (1 - s) * t * q[3][c];
+}
+
+static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
+
+/* Distance to the bilinear quad, no less than the truth: the best of a fine net, and finer nets around it. */
+static double distance_to_bilinear(const double (*q)[3], const double *p) {
+  double best = INFINITY, at[2] = {0.5, 0.5};
+  for (double half = 0.5; half > 1e-7; half *= 0.6) {
+    const double middle[2] = {at[0], at[1]};
+    for (int i = -6; i <= 6; ++i)
+      for (int j = -6; j <= 6; ++j) {
+        const double s = fmin(fmax(middle[0] + half * i / 6, 0), 1), t = fmin(fmax(middle[1] + half * j / 6, 0), 1);
+        double point[3];
+        bilinear(q, s, t, point);
+        if (distance(point, p) < best) best = distance(point, p), at[0] = s, at[1] = t;
+      }
+  }
+  return best;
+}
+
+/* Neither surface has a point farther than the bound from the other: quads of all shapes, from flat to folded. */
+static void triangles_stay_within_the_split_error(void **state) {
+  (void)state;
+  random_source rng = random_start("test_coons split");
+  int n_tighter = 0;
+  double largest = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const double bend = pow(10, random_between(&rng, -3, 0)), shape = random_between(&rng, 0, 1.5);
+    double q[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (int k = 0; k < 4; ++k)
+      for (int c = 0; c < 3; ++c) q[k][c] += (c == 2 ? bend : shape * 0.5) * random_between(&rng, -1, 1);
+    if (trial % 8 == 0) memcpy(q[2], q[3], sizeof q[2]); /* a collapsed side */
+    const double bound = quad_split_error(q[0], q[1], q[2], q[3]);
+    CHECK_AT_MOST(bound, quad_kappa(q[0], q[1], q[2], q[3]));
+    n_tighter += bound < 0.7 * quad_kappa(q[0], q[1], q[2], q[3]);
+    double triangles[2][9];
+    for (int c = 0; c < 3; ++c) {
+      triangles[0][c] = triangles[1][c] = q[0][c];
+      triangles[0][3 + c] = q[1][c];
+      triangles[0][6 + c] = triangles[1][3 + c] = q[2][c];
+      triangles[1][6 + c] = q[3][c];
+    }
+    for (int k = 0; k < 40; ++k) {
+      const double s = random_between(&rng, 0, 1), t = random_between(&rng, 0, 1);
+      double p[3];
+      bilinear(q, s, t, p);
+      const double from_quad =
+          (double)fminl(oracle_point_triangle(p, triangles[0]), oracle_point_triangle(p, triangles[1]));
+      const double w[3] = {1 - fmax(s, t), fabs(s - t), fmin(s, t)};
+      for (int c = 0; c < 3; ++c)
+        p[c] = w[0] * triangles[k % 2][c] + w[1] * triangles[k % 2][3 + c] + w[2] * triangles[k % 2][6 + c];
+      /* (The net does not find its way about a collapsed side, where all s are one point; such a quad is its triangle.) */
+      const double from_triangles = k < 10 && trial % 8 != 0 ? distance_to_bilinear(q, p) : 0;
+      CHECK_AT_MOST(from_quad, bound + 1e-6);
+      CHECK_AT_MOST(from_triangles, bound + 1e-6);
+      if (bound > 1e-4) largest = fmax(largest, fmax(from_quad, from_triangles) / bound);
+    }
+  }
+  printf("%d of 400 bounds are tighter than kappa; at most %.2f of the bound\n", n_tighter, largest);
+  assert_true(n_tighter > 100);
+  assert_true(largest > 0.5);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(parameters_are_merged_as_in_the_paper),
@@ -120,6 +187,7 @@ int main(void) {
       cmocka_unit_test(nearly_equal_parameters_share_a_line),
       cmocka_unit_test(a_collapsed_side_gives_no_parameters),
       cmocka_unit_test(kappa_of_known_quads),
+      cmocka_unit_test(triangles_stay_within_the_split_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

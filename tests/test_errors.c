@@ -180,8 +180,8 @@ static void parameters_are_refused_by_name(void **state) {
                 riis_valve_get(valve, "translation", 3, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not 2", riis_valve_get(valve, "xq", 2, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 39", riis_valve_parameter(valve, -1, NULL, 72));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 40", riis_valve_parameter(valve, 40, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 40", riis_valve_parameter(valve, -1, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 41", riis_valve_parameter(valve, 41, NULL, 72));
   /* Nothing of all this stuck. */
   CHECK_OK(riis_valve_get(valve, "root_radius", 1, values));
   CHECK_SAME(values[0], 1.29);

@@ -113,21 +113,24 @@ RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 #define RIIS_AUTO (-1.0)
 
 /* ------------------------------------------------------------------------------------------------------------------ *
- * Valve: named parameters (paper, table "Aortic valve parameters")
+ * Valve: named parameters (paper, tables "Aortic valve parameters" and "Mitral valve parameters"), or patches
  * ------------------------------------------------------------------------------------------------------------------ */
 
 /* A parametric valve: its kind and its parameters' values. No geometry is made before riis_surface_create. */
 typedef struct riis_valve riis_valve;
 
-/* Makes a valve of a kind by name with the paper's parameter values. Kinds: "aortic".
+/* Makes a valve of a kind by name with the paper's parameter values. Kinds: "aortic", three cusps, and "mitral", two leaflets.
  * Errors: RIIS_INVALID_PARAMETER for an unknown kind. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by the paper's name. Parameters of one cusp carry its name: "right.leaflet_angle", "left.rotation",
- * "non_coronary.bending_power"; those of the whole valve none: "root_radius". Scalars have 1 value, vectors 3 (rotation,
- * translation: x, y, z; t0_* and t3_*: right, left, non-coronary cusp). A name without a cusp where the parameter belongs
- * to a cusp ("translation", "leaflet_angle") sets it for all three cusps.
+ * "non_coronary.bending_power"; those of the whole valve none: "root_radius", "AP_diameter". Scalars have 1 value, vectors 3
+ * (rotation, translation: x, y, z; t0_* and t3_*: right, left, non-coronary cusp). A name without a cusp where the parameter
+ * belongs to a cusp ("leaflet_angle", the aortic "translation") sets it for all three cusps.
+ * Every kind has "opening", from 0 to 1, the coefficient of motion: control points are blended from a closed to an open state.
+ * The mitral valve's parameters make both, and 1, open, is the default; other valves stay at 0 until riis_valve_set_open_state
+ * gives them a second state. To move a valve: set "opening", then riis_surface_update.
  *   n_values  length of values; must be the parameter's own length
  *   values    copied
  * Each value is checked against the parameter's range here; whether parameters go together (a bending height below the
@@ -140,6 +143,42 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 /* Copies a parameter's values out. n_values must be the parameter's own length. A name that stands for all three cusps
  * cannot be read (RIIS_INVALID_PARAMETER): the cusps may differ. */
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values, double *values);
+
+/* Gives the valve a second state to open to: its own becomes the closed one, at opening 0, and the other valve's the open one, at
+ * opening 1. In between the control points of every curve are blended linearly, and with them what is no control point:
+ * aortic rotations and translations; anterior_ratio, triangle_size_ratio, translation and the tangent of surface_angle of the
+ * mitral valve, whose closed curves come from the first and open curves from the second state.
+ *   open  of the same kind; for valves from patches of the same curves, degrees and sides. Copied: it may go; its own
+ *         opening, and a second state of its own, do not matter
+ * Errors: RIIS_INVALID_PARAMETER for a valve of another kind or build; the valve is then unchanged. */
+RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
+
+/* The caller's own valve, such as a prosthesis: Coons patches by their four boundary curves (paper, 3.3), curves by their control
+ * points, by arrays that are read during the call only. Filled by its init function; then set what there is.
+ * A patch's sides are named by the parameter that is constant on them: v = 0, v = 1, u = 0, u = 1. The first two run with u, the
+ * others with v, so that v = 0 begins where u = 0 begins and ends where u = 1 begins, and v = 1 begins where u = 0 ends and ends
+ * where u = 1 ends, to 1e-9 of the valve's size. Normals are along S_u x S_v. Curves that patches share are given once and
+ * named twice: they become one polyline, and the patches meet without cracks. A side may be collapsed to a point. */
+typedef struct riis_patches {
+  int64_t struct_size;
+  int64_t n_curves;          /* 1 to 4,000,000 */
+  const int32_t *degree;     /* (n_curves): 1, 2 or 3, Bezier curves with degree + 1 control points */
+  const double *control;     /* (3, sum of all degree + 1): the control points, curve after curve; finite, magnitude at most
+                                1e30 */
+  int64_t n_patches;         /* 1 to 1,000,000 */
+  const int32_t *curve_id;   /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
+  const int32_t *reversed;   /* (4, n_patches): 1 where the side runs from the curve's last point to its first, else 0;
+                                NULL: all 0 */
+  const int32_t *leaflet_id; /* (n_patches), >= 0; NULL: all 0 */
+  int32_t index_base;        /* 0 or 1: the number of the first curve in curve_id. Default 0 */
+  int32_t reserved;          /* 0 */
+} riis_patches;
+RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size);
+
+/* Makes a valve from patches. Its only parameter is "opening"; patch_id is the patch's number.
+ * Errors: RIIS_INVALID_ARGUMENT for a field out of range; RIIS_INVALID_PARAMETER for a curve or a patch that is none, naming
+ * it and its value: sides that do not meet, for example. */
+RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
 /* One parameter described. The texts are static. */
 typedef struct riis_parameter {
@@ -166,8 +205,9 @@ RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t param
 /* Triangles with their Embree scene, a half thickness, and nothing borrowed from the caller. */
 typedef struct riis_surface riis_surface;
 
-/* The leaflets of the aortic valve, as leaflet_id reports them. */
+/* The leaflets of the aortic and of the mitral valve, as leaflet_id reports them. */
 enum { RIIS_LEAFLET_RIGHT = 0, RIIS_LEAFLET_LEFT = 1, RIIS_LEAFLET_NON_CORONARY = 2 };
+enum { RIIS_LEAFLET_ANTERIOR = 0, RIIS_LEAFLET_POSTERIOR = 1 };
 
 /* What to do with triangles of zero area in the caller's arrays. */
 enum {
@@ -197,7 +237,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 
 /* Makes the surface of a parametric valve: curves, polylines, Coons patches, quads, triangles, Embree scene (paper, 3 and
  * 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face of the aortic
- * valve. Triangles of zero area, which arise at the root point of each cusp, are dropped.
+ * valve, from the atrial to the ventricular face of the mitral valve. Triangles of zero area, which arise where a side is
+ * collapsed (the root point of each cusp, the commissures of the mitral valve), are dropped.
  *   valve    read during the call only
  *   options  NULL for defaults
  * Errors: RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together
@@ -262,8 +303,10 @@ RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface,
  *   vertex_id    (3, n_triangles), from 0
  *   triangle_id  (n_triangles), ascending: the id that queries report. For a generated valve the position: 0, 1, 2, ...
  *   leaflet_id   (n_triangles)
- *   patch_id     (n_triangles); generated valves: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
- *                surfaces from arrays: 0 */
+ *   patch_id     (n_triangles); aortic: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top; mitral, from the
+ *                posteromedial commissure round: anterior 0 commissure's triangle, 1 side, 2 middle, 3 mirrored middle,
+ *                4 mirrored side, 5 mirrored triangle, posterior 6 side scallop, 7 half of the middle one, 8 and 9
+ *                mirrored; valves from patches: the patch's number; surfaces from arrays: 0 */
 RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
                                             const int64_t **vertex_id, const int64_t **triangle_id,
                                             const int32_t **leaflet_id, const int32_t **patch_id);

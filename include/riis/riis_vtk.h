@@ -79,6 +79,10 @@ typedef struct riis_vtk_picture_options {
   int32_t view;           /* RIIS_VTK_VIEW_*; side looks along +y with z up, top along -z with y up. Default oblique */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
+  const char *title;      /* says what the surface is, before the number of its triangles; NULL, the default: "Surface" */
+  const char *const *leaflet_names; /* (n_leaflet_names): by leaflet_id, for the key of the colours; NULL, the default, and
+                             leaflets beyond: "leaflet 0", ... */
+  int64_t n_leaflet_names;/* >= 0, default 0. Texts are ASCII; what is not is drawn as ? */
 } riis_vtk_picture_options;
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 

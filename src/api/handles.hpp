@@ -11,7 +11,7 @@
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
 #include "surface/surface.hpp"
-#include "valve/parameters.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 

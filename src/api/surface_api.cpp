@@ -111,8 +111,8 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   fill(surface, options, [&](const riis::Placement &placement) {
     const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
     check_precision(options);
-    riis::TriangleSet triangles = riis::triangulate(valve->valve.kind().make_patches(valve->valve.values()), max_error,
-                                                    placement, options.flip_normals != 0);
+    riis::TriangleSet triangles =
+        riis::triangulate(valve->valve.make_patches(), max_error, placement, options.flip_normals != 0);
     if (triangles.n_triangles() == 0)
       riis::fail(RIIS_INVALID_PARAMETER, "the valve's parameters leave it without any area");
     return triangles;

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_valve_*: argument checks around valve/parameters.
+// riis_valve_*: argument checks around valve/.
 #include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "valve/user_patches.hpp"
 
 using riis::guarded;
 using riis::require;
 using riis::require_handle;
+
+namespace {
+
+constexpr std::size_t patches_size = 72;  // of the first release
+const riis_patches default_patches{sizeof(riis_patches), 0, nullptr, nullptr, 0, nullptr, nullptr, nullptr, 0, 0};
+
+}  // namespace
 
 extern "C" {
 
@@ -38,6 +46,22 @@ riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_
     require(name, "name");
     require(values, "values");
     valve->valve.get(name, n_values, values);
+  });
+}
+
+riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open) {
+  return guarded([&] { require_handle(valve, "valve")->valve.set_open_state(require_handle(open, "open")->valve); });
+}
+
+riis_status riis_patches_init(riis_patches *patches, int64_t struct_size) {
+  return guarded([&] { riis::init_struct<patches_size>(patches, struct_size, "patches", default_patches); });
+}
+
+riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve) {
+  return guarded([&] {
+    require(valve, "valve");
+    const riis_patches whole = riis::completed<patches_size>(require(patches, "patches"), "patches", default_patches);
+    *valve = new riis_valve{{}, riis::Valve(riis::patches_valve_kind(), riis::patches_from_arrays(whole))};
   });
 }
 

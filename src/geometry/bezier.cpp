@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "api/errors.hpp"
-
 namespace riis {
 namespace {
 
@@ -52,35 +50,42 @@ double adaptive_length(const Speed &speed, double t0, double t1, double whole, d
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
 
-// 2^20 pieces a curve: only reached by requests that no surface of this library could be made from.
-constexpr int max_depth = 20;
-
-// The piece from share t0 to t1 of the whole curve.
-void flatten_after_first(const Bezier &piece, double piece_length, double t0, double t1, double max_error, int depth,
-                         Flattened &flattened) {
-  if (flatness(piece) <= max_error * (piece.degree == 2 ? 2.0 : 4.0 / 3.0)) {
-    const double error = chord_error(piece, piece_length);
-    if (error <= max_error) {
-      flattened.points.push_back(piece.last());
-      flattened.t.push_back(t1);
-      flattened.errors.push_back(error);
-      return;
-    }
+// An error of lengths that does not matter.
+double length_tolerance(const Bezier &curve) {
+  double control_length = 0, largest = 0;
+  for (std::size_t i = 0; i <= degree_of(curve); ++i) {
+    const Vec3 q = curve.control[i];
+    if (i > 0) control_length += distance(curve.control[i - 1], q);
+    largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  if (depth == max_depth)
-    fail(RIIS_LIMIT_EXCEEDED,
-         "a curve needs more than %d points to be right to %s: tolerance * half_thickness is too small for it",
-         1 << max_depth, Number(max_error).text);
-  const auto [left, right] = split(piece, halfway(piece, piece_length));
-  const double middle = 0.5 * (t0 + t1);
-  flatten_after_first(left, 0.5 * piece_length, t0, middle, max_error, depth + 1, flattened);
-  flatten_after_first(right, 0.5 * piece_length, middle, t1, max_error, depth + 1, flattened);
+  // Where the curve is short for its coordinates their rounding is all that two halves differ by.
+  return 1e-13 * control_length + 1e-14 * largest;
+}
+
+double length_between(const Speed &speed, double tolerance, double t0, double t1) {
+  // A cusp (|B'| = 0) inside converges linearly with depth: 40 halvings leave an error of about 1e-12 of the length.
+  return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
+}
+
+// Where a share of the length would be left behind if the speed were the parabola through its values at 0, 1/2 and 1.
+double first_guess(const Speed &speed, double share) {
+  const double start = speed(0), middle = speed(0.5), end = speed(1);
+  const double slope = 4 * middle - 3 * start - end, bend = 2 * (start - 2 * middle + end);
+  const auto length_to = [&](double t) { return t * (start + t * (slope / 2 + t * (bend / 3))); };
+  const double target = share * length_to(1);
+  double t = share;
+  for (int i = 0; i < 3; ++i) {
+    const double next = t - (length_to(t) - target) / (start + t * (slope + t * bend));
+    if (!(next > 0 && next < 1)) return share;
+    t = next;
+  }
+  return t;
 }
 
 // A bound on the curvature |B' x B''| / |B'|^3, infinite where the curve may turn on the spot. B' and B'' are Bézier curves of the
 // differences of control points: products of these bound the numerator, and the least component of the former along the
 // chord bounds the denominator from below.
-double largest_curvature(const Bezier &curve) {
+double curvature_bound(const Bezier &curve) {
   const std::size_t n = degree_of(curve);
   const Vec3 chord = curve.last() - curve.first();
   std::array<Vec3, 3> first{};
@@ -116,17 +121,7 @@ Vec3 derivative(const Bezier &curve, double t) {
 }
 
 double arc_length(const Bezier &curve, double t0, double t1) {
-  double control_length = 0, largest = 0;
-  for (std::size_t i = 0; i <= degree_of(curve); ++i) {
-    const Vec3 q = curve.control[i];
-    if (i > 0) control_length += distance(curve.control[i - 1], q);
-    largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  }
-  // Where the curve is short for its coordinates their rounding is all that two halves differ by.
-  const double tolerance = 1e-13 * control_length + 1e-14 * largest;
-  // A cusp (|B'| = 0) inside converges linearly with depth: 40 halvings leave an error of about 1e-12 of the length.
-  const Speed speed(curve);
-  return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
+  return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
@@ -148,34 +143,28 @@ double flatness(const Bezier &curve) {
   return largest;
 }
 
-double chord_error(const Bezier &curve, double curve_length) {
-  // Curvature from the control points is loose by how much they vary: quarters of the curve vary little.
+double largest_curvature(const Bezier &curve) {
+  // The bound from control points is loose by how much they vary: quarters of the curve vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
-  const double curvature = std::max(
-      {largest_curvature(first), largest_curvature(second), largest_curvature(third), largest_curvature(fourth)});
-  return std::min(curve_length, 0.125 * curve_length * curve_length * curvature);
+  return std::max({curvature_bound(first), curvature_bound(second), curvature_bound(third), curvature_bound(fourth)});
 }
 
-double halfway(const Bezier &curve, double curve_length) {
+double parameter_at_length(const Bezier &curve, double curve_length, double behind) {
+  const Speed speed(curve);
+  const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
   // Newton's method on the length from 0 to t, kept inside a shrinking bracket.
-  const double half = 0.5 * curve_length;
-  double below = 0, above = 1, t = 0.5;
-  for (int i = 0; i < 60; ++i) {
-    const double excess = arc_length(curve, 0, t) - half;
-    if (std::abs(excess) <= 1e-14 * curve_length) break;
+  double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
+  double excess = length_between(speed, tolerance, 0, t) - behind;
+  for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {
     (excess > 0 ? above : below) = t;
-    const double next = t - excess / length(derivative(curve, t));
-    t = next > below && next < above ? next : 0.5 * (below + above);
+    double next = t - excess / speed(t);
+    if (!(next > below && next < above)) next = 0.5 * (below + above);
+    excess += next > t ? length_between(speed, tolerance, t, next) : -length_between(speed, tolerance, next, t);
+    t = next;
   }
   return t;
-}
-
-Flattened flatten(const Bezier &curve, double max_error) {
-  Flattened flattened{{curve.first()}, {0.0}, {}, arc_length(curve)};
-  if (flattened.length > 0) flatten_after_first(curve, flattened.length, 0, 1, max_error, 0, flattened);
-  return flattened;
 }
 
 }  // namespace riis

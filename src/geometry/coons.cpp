@@ -2,8 +2,11 @@
 #include "geometry/coons.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
+
+#include "api/errors.hpp"
 
 namespace riis {
 namespace {
@@ -45,6 +48,60 @@ double larger_mix(double at0, double at1, double from, double to) {
   return std::max((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
 }
 
+std::vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
+  const double longer = std::max(side0.length, side1.length);
+  // Each side moves by at most half the difference of the parameters, since the line stands at their mean.
+  return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
+}
+
+// The largest 2 v (1-v) from one v to another.
+double largest_arc_weight(double from, double to) {
+  const double v = std::clamp(0.5, from, to);
+  return 2 * v * (1 - v);
+}
+
+// Adds grid lines between the last one and `to` until O is nearly linear between them.
+class ArcRefinement {
+ public:
+  ArcRefinement(const Bulge &bulge, double max_error, ArcLines &lines)
+      : bulge_(bulge), max_error_(max_error), lines_(lines) {}
+
+  void add_up_to(const GridLine &to, Vec3 offset, int depth) {
+    const double from = lines_.u_lines.back().middle;
+    const double error = bulge_.linear_error(from, to.middle, max_error_);
+    if (error <= max_error_) {
+      lines_.u_lines.push_back(to);
+      lines_.offsets.push_back(offset);
+      lines_.errors.push_back(error);
+      return;
+    }
+    constexpr int max_depth = 24;
+    if (depth == max_depth) {
+      const Vec3 where = bulge_.on_base(from);
+      fail(RIIS_INVALID_PARAMETER,
+           "near (%s, %s, %s), before the translation, the line from annulus to free edge runs along the annulus, "
+           "where a "
+           "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there",
+           Number(where.x).text, Number(where.y).text, Number(where.z).text);
+    }
+    const double u = cut(from, to.middle);
+    add_up_to({u, u, u}, bulge_.at(u), depth + 1);
+    add_up_to(to, offset, depth + 1);
+  }
+
+ private:
+  // In the middle, or at a joint that is not too near an end: a kink is then no kink.
+  double cut(double from, double to) const {
+    for (const double joint : bulge_.joints())
+      if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
+    return 0.5 * (from + to);
+  }
+
+  const Bulge &bulge_;
+  double max_error_;
+  ArcLines &lines_;
+};
+
 // Index of the interval of ascending values that holds x: the last one at the upper end.
 std::size_t interval(const std::vector<double> &values, double x) {
   const auto after = std::upper_bound(values.begin(), values.end(), x);
@@ -79,13 +136,8 @@ std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &si
 }
 
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
-  const auto lines = [&](const Polyline &side0, const Polyline &side1) {
-    const double longer = std::max(side0.length, side1.length);
-    // Each side moves by at most half the difference of the parameters, since the line stands at their mean.
-    return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
-  };
-  const std::vector<GridLine> u_lines = lines(*sides.side_v0, *sides.side_v1);
-  const std::vector<GridLine> v_lines = lines(*sides.side_u0, *sides.side_u1);
+  const std::vector<GridLine> u_lines = lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift);
+  const std::vector<GridLine> v_lines = lines_between(*sides.side_u0, *sides.side_u1, max_merge_shift);
 
   QuadGrid grid{middles(u_lines), middles(v_lines), {}, {}};
   grid.points.reserve(u_lines.size() * v_lines.size());
@@ -120,6 +172,52 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
     for (std::size_t i = 0; i < error_v0.size(); ++i)
       grid.errors.push_back(larger_mix(error_v0[i], error_v1[i], grid.v[j], grid.v[j + 1]) +
                             larger_mix(error_u0[j], error_u1[j], grid.u[i], grid.u[i + 1]));
+  return grid;
+}
+
+double ArcLines::largest_offset() const {
+  double largest = 0;
+  for (const Vec3 &offset : offsets) largest = std::max(largest, length(offset));
+  return largest;
+}
+
+ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
+                        double max_merge_shift, double max_error) {
+  const std::vector<GridLine> given = lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift);
+  ArcLines lines{{given.front()}, {offset_u0}, {}};
+  ArcRefinement refinement(bulge, max_error, lines);
+  for (std::size_t i = 1; i < given.size(); ++i)
+    refinement.add_up_to(given[i], i + 1 == given.size() ? offset_u1 : bulge.at(given[i].middle), 0);
+  return lines;
+}
+
+QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows) {
+  QuadGrid grid{middles(lines.u_lines), {}, {}, {}};
+  for (std::size_t j = 0; j <= n_rows; ++j) grid.v.push_back(static_cast<double>(j) / static_cast<double>(n_rows));
+  std::vector<Vec3> base, edge;
+  for (const GridLine &line : lines.u_lines) {
+    base.push_back(evaluate(*sides.side_v0, line.t0));
+    edge.push_back(evaluate(*sides.side_v1, line.t1));
+  }
+  grid.points.reserve(base.size() * grid.v.size());
+  for (const double v : grid.v)
+    for (std::size_t i = 0; i < base.size(); ++i)
+      grid.points.push_back(v == 0   ? base[i]
+                            : v == 1 ? edge[i]
+                                     : mix(base[i], edge[i], v) + (2 * v * (1 - v)) * lines.offsets[i]);
+
+  // Between two lines the base, the edge and O are off from linear by their errors; on a line, the chords of its arc by |O| / 2 times
+  // the row's height squared.
+  const std::vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
+  const std::vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
+  const double row = 1 / static_cast<double>(n_rows);
+  grid.errors.reserve(base_errors.size() * n_rows);
+  for (std::size_t j = 0; j < n_rows; ++j)
+    for (std::size_t i = 0; i < base_errors.size(); ++i) {
+      const double offset = std::max(length(lines.offsets[i]), length(lines.offsets[i + 1]));
+      grid.errors.push_back(larger_mix(base_errors[i], edge_errors[i], grid.v[j], grid.v[j + 1]) +
+                            largest_arc_weight(grid.v[j], grid.v[j + 1]) * lines.errors[i] + 0.5 * row * row * offset);
+    }
   return grid;
 }
 

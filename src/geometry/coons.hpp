@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bilinearly blended Coons patches of four polylines as a grid of quads (paper, 3.3 "Surface structure").
+// Patches as grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces").
 // In: four boundary polylines that meet at their ends. Out: grid points at the union of their parameters.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include "geometry/bulge.hpp"
 #include "geometry/polyline.hpp"
 
 namespace riis {
@@ -33,7 +34,7 @@ struct QuadGrid {
   std::vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
   std::vector<double>
       errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
-               // may be, at equal (u,v), from the Coons patch of the curves that the sides stand for
+               // may be, at equal (u,v), from the patch of the curves that the sides stand for
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }
@@ -42,6 +43,23 @@ struct QuadGrid {
 // The Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged where that
 // moves a point by at most max_merge_shift along a side.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift);
+
+// A patch of arcs: the straight lines between side_v0, the base, and side_v1, the edge, with O(u) added as 2 v (1-v) O(u)
+// (geometry/bulge.hpp). Made in two steps, because patches that share an arc must agree on the number of rows.
+struct ArcLines {
+  std::vector<GridLine> u_lines;
+  std::vector<Vec3> offsets;   // O on each line
+  std::vector<double> errors;  // between each two lines: how far O may be from linear
+  double largest_offset() const;
+};
+
+// The grid lines of the two sides, and more until O is within max_error of linear between them. offset_u0 and offset_u1 are O
+// at the ends as the neighbours have it, to the last bit. Fails with RIIS_INVALID_PARAMETER where O has no direction.
+ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
+                        double max_merge_shift, double max_error);
+
+// Rows of equal height: an arc is at most |O| / 2 times that height squared from its chords.
+QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
 // S(u,v): bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for the
 // weight's numerator; it is u - u_{o-1}.)

@@ -25,9 +25,19 @@ Polyline make_polyline(const std::vector<Vec3> &points) {
   return polyline;
 }
 
-Polyline make_polyline(const Bezier &curve, double max_error) {
+Polyline make_polyline(const Curve &curve, double max_error) {
   Flattened flattened = flatten(curve, max_error);
-  return {std::move(flattened.points), std::move(flattened.t), std::move(flattened.errors), flattened.length};
+  return {std::move(flattened.points), std::move(flattened.t), std::move(flattened.errors), curve.length()};
+}
+
+Polyline reversed(const Polyline &polyline) {
+  Polyline turned{{polyline.points.rbegin(), polyline.points.rend()},
+                  {polyline.t.rbegin(), polyline.t.rend()},
+                  {polyline.errors.rbegin(), polyline.errors.rend()},
+                  polyline.length};
+  if (polyline.length > 0)
+    for (double &t : turned.t) t = 1 - t;
+  return turned;
 }
 
 Vec3 evaluate(const Polyline &polyline, double t) {

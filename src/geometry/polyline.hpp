@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "geometry/bezier.hpp"
+#include "geometry/curve.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -21,9 +21,12 @@ struct Polyline {
 // that t ascends strictly. At least one point.
 Polyline make_polyline(const std::vector<Vec3> &points);
 
-// The polyline that stands for a Bézier curve, every segment within max_error (> 0) of it. Its t is the share of the
+// The polyline that stands for a curve, every segment within max_error (> 0) of it. Its t is the share of the
 // curve's length, not of its own as in the paper: a vertex then is where the curve is at that t, whatever the tolerance.
-Polyline make_polyline(const Bezier &curve, double max_error);
+Polyline make_polyline(const Curve &curve, double max_error);
+
+// The same polyline from its last point to its first.
+Polyline reversed(const Polyline &polyline);
 
 // C(t) by linear interpolation, t in [0,1]; a vertex exactly at its own t. C(1) is the last point. (The paper's
 // smallest t_i > t does not exist at t = 1.)

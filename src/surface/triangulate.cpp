@@ -5,23 +5,36 @@
 #include <cmath>
 #include <utility>
 
-#include "api/errors.hpp"
-#include "geometry/coons.hpp"
+#include "surface/grids.hpp"
 
 namespace riis {
 namespace {
 
-// How the allowed error is shared out; docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a u and of
-// a v curve and of merged grid lines, each bounded as below; what they leave in a quad is for its split into triangles:
-// at least 1 - 2 * (curve_share + merge_share).
-constexpr double curve_share = 0.38, merge_share = 0.01;
+Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {
+  return {grid.point(i, j), grid.point(i + 1, j), grid.point(i + 1, j + 1), grid.point(i, j + 1)};
+}
 
-// Halvings of a quad's sides until its flatness, which falls by exactly 4 each time, is small enough. No quad that the
-// library takes on needs more than 12; the loop ends there.
+bool is_flat_enough(const Quad &quad, int level, double max_error) {
+  const int n = 1 << level;
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column < n; ++column) {
+      const double s0 = static_cast<double>(column) / n, s1 = static_cast<double>(column + 1) / n;
+      const double t0 = static_cast<double>(row) / n, t1 = static_cast<double>(row + 1) / n;
+      if (!(split_error({quad.at(s0, t0), quad.at(s1, t0), quad.at(s1, t1), quad.at(s0, t1)}) <= max_error))
+        return false;
+    }
+  return true;
+}
+
+// Halvings of a quad's sides until its parts are close enough to their triangles. The twist of all parts falls by exactly 4 each
+// time, so there is an end; no quad that the library takes on needs more than 12.
 int subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
-  double kappa = quad_flatness(grid.point(i, j), grid.point(i + 1, j), grid.point(i + 1, j + 1), grid.point(i, j + 1));
+  const Quad quad = quad_of(grid, i, j);
+  const double left = max_error - grid.error(i, j);
+  int enough = 0;
+  for (double kappa = quad_flatness(quad); kappa > left && enough < 13; kappa *= 0.25) ++enough;
   int level = 0;
-  for (; kappa > max_error - grid.error(i, j) && level < 13; kappa *= 0.25) ++level;
+  while (level < enough && !is_flat_enough(quad, level, left)) ++level;
   return level;
 }
 
@@ -45,14 +58,6 @@ LevelledGrid with_levels(QuadGrid grid, double max_error) {
     made.n_triangles += std::int64_t{2} << 2 * made.levels.back();
   });
   return made;
-}
-
-void check_count(double n_triangles, double max_error) {
-  if (n_triangles > static_cast<double>(max_triangles))
-    fail(RIIS_LIMIT_EXCEEDED,
-         "the surface needs more than %lld triangles, about %s, to be right to %s, which is tolerance * half_thickness "
-         "before scaling",
-         static_cast<long long>(max_triangles), Number(std::ceil(n_triangles)).text, Number(max_error).text);
 }
 
 class Builder {
@@ -104,14 +109,13 @@ class Builder {
   // one go.
   void add_subdivided_quad(const QuadGrid &grid, std::size_t i, std::size_t j, int level, const PatchImage &image) {
     const int n = 1 << level;
+    const Quad quad = quad_of(grid, i, j);
     const std::int64_t first = n_vertices();
     for (int row = 0; row <= n; ++row) {
       for (int column = 0; column <= n; ++column) {
         const double s = static_cast<double>(column) / n, t = static_cast<double>(row) / n;
-        // Along an edge this is the mix of its two ends, whichever quad asks: neighbours agree to the last bit.
-        const Vec3 p = mix(mix(grid.point(i, j), grid.point(i + 1, j), s),
-                           mix(grid.point(i, j + 1), grid.point(i + 1, j + 1), s), t);
-        add_vertex(p, (1 - s) * grid.u[i] + s * grid.u[i + 1], (1 - t) * grid.v[j] + t * grid.v[j + 1], image);
+        add_vertex(quad.at(s, t), (1 - s) * grid.u[i] + s * grid.u[i + 1], (1 - t) * grid.v[j] + t * grid.v[j + 1],
+                   image);
       }
     }
     const auto vertex = [&](int column, int row) { return first + row * (n + 1) + column; };
@@ -131,7 +135,7 @@ class Builder {
       ++set_.n_zero_area;
       return;
     }
-    if (image.mirrored != flip_normals_) std::swap(b, c);
+    if ((image.mirror != Mirror::none) != flip_normals_) std::swap(b, c);
     set_.vertex_id.insert(set_.vertex_id.end(), {a, b, c});
     set_.leaflet_id.push_back(image.leaflet_id);
     set_.patch_id.push_back(image.patch_id);
@@ -144,34 +148,28 @@ class Builder {
 
 }  // namespace
 
-double quad_flatness(Vec3 p00, Vec3 p10, Vec3 p11, Vec3 p01) { return 0.25 * length((p00 - p10) + (p11 - p01)); }
+double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
+
+double split_error(const Quad &q) {
+  const double at_equal_uv = quad_flatness(q);
+  const Vec3 normal = cross(q.p11 - q.p00, q.p01 - q.p10);
+  const double size = length(normal);
+  const auto turns_left = [&](Vec3 a, Vec3 b, Vec3 c) { return dot(cross(b - a, c - b), normal) >= 0; };
+  const bool is_graph = size > 0 && turns_left(q.p00, q.p10, q.p11) && turns_left(q.p10, q.p11, q.p01) &&
+                        turns_left(q.p11, q.p01, q.p00) && turns_left(q.p01, q.p00, q.p10);
+  if (!is_graph) return at_equal_uv;
+  const Vec3 twist = (q.p00 - q.p10) + (q.p11 - q.p01);
+  return std::min(at_equal_uv, 0.5 * std::abs(dot(twist, normal)) / size);
+}
 
 TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {
-  std::vector<Polyline> polylines;
-  polylines.reserve(set.curves.size());
-  for (const Bezier &curve : set.curves) polylines.push_back(make_polyline(curve, curve_share * max_error));
-
   // All is counted before anything large is made.
-  const auto sides_of = [&](const Patch &patch) {
-    return PatchSides{&polylines[patch.side_v0], &polylines[patch.side_v1], &polylines[patch.side_u0],
-                      &polylines[patch.side_u1]};
-  };
-  double n_at_least = 0;
-  for (const Patch &patch : set.patches) {
-    const PatchSides sides = sides_of(patch);
-    const auto n_between = [](const Polyline &a, const Polyline &b) {
-      return static_cast<double>(std::max<std::size_t>({a.t.size(), b.t.size(), 2}) - 1);
-    };
-    n_at_least += 2 * n_between(*sides.side_v0, *sides.side_v1) * n_between(*sides.side_u0, *sides.side_u1) *
-                  static_cast<double>(patch.images.size());
-  }
-  check_count(n_at_least, max_error);
   std::vector<LevelledGrid> grids;
-  grids.reserve(set.patches.size());
   std::int64_t n_triangles = 0;
-  for (const Patch &patch : set.patches) {
-    grids.push_back(with_levels(make_quad_grid(sides_of(patch), merge_share * max_error), max_error));
-    n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(patch.images.size());
+  for (QuadGrid &grid : make_grids(set, max_error)) {
+    const std::size_t n_images = set.patches[grids.size()].images.size();
+    grids.push_back(with_levels(std::move(grid), max_error));
+    n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(n_images);
   }
   check_count(static_cast<double>(n_triangles), max_error);
 

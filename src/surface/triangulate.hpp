@@ -14,8 +14,20 @@ namespace riis {
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
 TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals);
 
-// kappa_quad: the distance between the middle of the bilinear quad p00 p10 p11 p01 and the middle of its diagonal p00
-// p11; no point of the quad is farther from the two triangles' point at the same (u,v).
-double quad_flatness(Vec3 p00, Vec3 p10, Vec3 p11, Vec3 p01);
+// A quad by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1), bilinear in between; split into triangles along p00 p11.
+struct Quad {
+  Vec3 p00, p10, p11, p01;
+
+  // Along an edge this is the mix of the edge's two ends, whichever quad asks: neighbours agree to the last bit.
+  Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
+};
+
+// kappa_quad: the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11; no point of the
+// quad is farther from the two triangles' point at the same (u,v).
+double quad_flatness(const Quad &quad);
+
+// A bound on the distance between the bilinear quad and its two triangles as surfaces: kappa_quad, or, where both are graphs
+// over a plane along both diagonals, half of what of the twist is across that plane (docs/theory.md, section 2).
+double split_error(const Quad &quad);
 
 }  // namespace riis

@@ -15,7 +15,7 @@ namespace {
 // Positions in the list of specs below: those of the whole valve, then those of each cusp.
 // clang-format off
 enum General {
-  root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq,
+  root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
   n_general
 };
 enum OfCusp {
@@ -28,7 +28,7 @@ enum OfCusp {
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
 
-PatchSet make_patches(const ParameterValues &values);
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
 // clang-format off
 ValveKind make_kind() {
@@ -46,7 +46,8 @@ ValveKind make_kind() {
     {"t0_bending", length, "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-  }, make_patches};
+    opening_spec("0: this state, to 1: the state to open to (riis_valve_set_open_state), without which it stays 0", 0),
+  }, opening, false, make_patches, nullptr};
   const double table[n_cusps][n_of_cusp] = {
     {0.24, 1.365, 61.0, 1.58,   0.40, 1.390, 47.30, 1.82,      0.0, -1},
     {0.49, 1.495, 58.5, 2.77,   0.74, 1.355, 43.00, 4.12,    119.5, -1},
@@ -122,29 +123,21 @@ HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
   return half;
 }
 
-// Lengths against the root radius, R; heights against each other.
+// Lengths against the root radius; heights against each other.
 void check_together(const ParameterValues &values) {
-  const std::vector<ParameterSpec> &specs = aortic_valve_kind().parameters;
-  const double R = values[root_radius][0], h_l = values[leaflet_height][0], h_b = values[bending_height][0];
-  const auto check_ratio = [&](std::size_t position, double least, double most) {
-    for (int i = 0; i < specs[position].n_values; ++i) {
-      const double value = values[position][static_cast<std::size_t>(i)];
-      if (!(std::abs(value) >= least * R && std::abs(value) <= most * R))
-        fail(RIIS_INVALID_PARAMETER, "%s is %s; it must be from %s to %s times root_radius, which is %s",
-             specs[position].name.c_str(), Number(value).text, Number(least).text, Number(most).text, Number(R).text);
-    }
+  const Measure radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
+  const auto check = [&](std::size_t position, const Measure &measure, double least, double most) {
+    check_ratio(aortic_valve_kind().parameters[position], values[position], measure, least, most);
   };
-  check_ratio(leaflet_height, 0.05, 10);
-  if (!(h_b >= 0.05 * h_l && h_b <= 0.95 * h_l))
-    fail(RIIS_INVALID_PARAMETER, "bending_height is %s; it must be from 0.05 to 0.95 times leaflet_height, which is %s",
-         Number(h_b).text, Number(h_l).text);
-  for (const General parameter : {t3_leaflet, t3_bending, t0_leaflet, t0_bending}) check_ratio(parameter, 0, 10);
+  check(leaflet_height, radius, 0.05, 10);
+  check(bending_height, height, 0.05, 0.95);
+  for (const General parameter : {t3_leaflet, t3_bending, t0_leaflet, t0_bending}) check(parameter, radius, 0, 10);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     for (const OfCusp parameter : {leaflet_radius_in, bending_radius_in})
-      check_ratio(position_of(cusp, parameter), 0, 10);
+      check(position_of(cusp, parameter), radius, 0, 10);
     for (const OfCusp parameter : {leaflet_radius_out, bending_radius_out})
-      check_ratio(position_of(cusp, parameter), 0.05, 10);
-    check_ratio(position_of(cusp, translation), 0, 100);
+      check(position_of(cusp, parameter), radius, 0.05, 10);
+    check(position_of(cusp, translation), radius, 0, 100);
   }
 }
 
@@ -161,42 +154,51 @@ void check_reach(const Bezier &curve, const char *what, const char *parameters, 
   }
 }
 
-PatchSet make_patches(const ParameterValues &values) {
-  check_together(values);
+HalfCusp checked_half_cusp(const ParameterValues &values, std::size_t cusp) {
   const double size = std::max(values[root_radius][0], values[leaflet_height][0]);
+  const HalfCusp half = half_cusp(values, cusp);
+  const char *of_symmetry = "bending_height, leaflet_height, xq, zq, *_radius_in";
+  const char *of_sinus = "bending_height, leaflet_height, *_radius_out, *_angle";
+  check_reach(half.leaflet, "leaflet", "leaflet_power, leaflet_angle, t0_leaflet, t3_leaflet, leaflet_radius_*", cusp,
+              size);
+  check_reach(half.bending, "bending", "bending_power, bending_angle, t0_bending, t3_bending, bending_radius_*", cusp,
+              size);
+  for (const Bezier *curve : {&half.symmetry_below, &half.symmetry_above})
+    check_reach(*curve, "symmetry", of_symmetry, cusp, size);
+  for (const Bezier *curve : {&half.sinus_below, &half.sinus_above}) check_reach(*curve, "sinus", of_sinus, cusp, size);
+  return half;
+}
+
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
+  check_together(closed.values);
+  check_together(open.values);
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const HalfCusp half = half_cusp(values, cusp);
-    const char *of_symmetry = "bending_height, leaflet_height, xq, zq, *_radius_in";
-    const char *of_sinus = "bending_height, leaflet_height, *_radius_out, *_angle";
-    check_reach(half.leaflet, "leaflet", "leaflet_power, leaflet_angle, t0_leaflet, t3_leaflet, leaflet_radius_*", cusp,
-                size);
-    check_reach(half.bending, "bending", "bending_power, bending_angle, t0_bending, t3_bending, bending_radius_*", cusp,
-                size);
-    for (const Bezier *curve : {&half.symmetry_below, &half.symmetry_above})
-      check_reach(*curve, "symmetry", of_symmetry, cusp, size);
-    for (const Bezier *curve : {&half.sinus_below, &half.sinus_above})
-      check_reach(*curve, "sinus", of_sinus, cusp, size);
-
-    const auto add = [&](const Bezier &curve) {
+    const HalfCusp half = checked_half_cusp(closed.values, cusp), open_half = checked_half_cusp(open.values, cusp);
+    const auto add = [&](const Curve &curve) {
       set.curves.push_back(curve);
-      return set.curves.size() - 1;
+      return Side{set.curves.size() - 1};
     };
-    const std::size_t root = add(Bezier::point(half.symmetry_below.first()));
-    const std::size_t symmetry_below = add(half.symmetry_below), symmetry_above = add(half.symmetry_above);
-    const std::size_t bending = add(half.bending), leaflet = add(half.leaflet);
-    const std::size_t sinus_below = add(half.sinus_below), sinus_above = add(half.sinus_above);
+    const auto add_blended = [&](Bezier HalfCusp::*curve) {
+      return add(blend(half.*curve, open_half.*curve, opening));
+    };
+    const Side root = add(Bezier::point(blend(half.symmetry_below.first(), open_half.symmetry_below.first(), opening)));
+    const Side symmetry_below = add_blended(&HalfCusp::symmetry_below);
+    const Side symmetry_above = add_blended(&HalfCusp::symmetry_above);
+    const Side bending = add_blended(&HalfCusp::bending), leaflet = add_blended(&HalfCusp::leaflet);
+    const Side sinus_below = add_blended(&HalfCusp::sinus_below), sinus_above = add_blended(&HalfCusp::sinus_above);
 
+    // The frame is no control point: its angles and its shift are blended as numbers.
     const auto vector_of = [&](OfCusp parameter) {
-      const auto &value = values[position_of(cusp, parameter)];
-      return Vec3{value[0], value[1], value[2]};
+      const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
+      return blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
     };
     const Rotation turn = rotation_xyz(vector_of(rotation));
     const Vec3 shift = vector_of(translation);
     const auto images = [&](std::int32_t part) {
       const auto leaflet_id = static_cast<std::int32_t>(cusp);
-      return std::vector<PatchImage>{{false, turn, shift, leaflet_id, 4 * leaflet_id + part},
-                                     {true, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
+      return std::vector<PatchImage>{{Mirror::none, turn, shift, leaflet_id, 4 * leaflet_id + part},
+                                     {Mirror::in_y, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
     };
     // u runs from the symmetry plane to the sinus and v upwards, so S_u x S_v points to the sinus face: downstream.
     set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0)});

@@ -2,7 +2,7 @@
 // The aortic valve: three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
 #pragma once
 
-#include "valve/parameters.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 

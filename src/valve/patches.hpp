@@ -2,18 +2,21 @@
 // What a valve hands on to the surface: curves, and patches that share them by position.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "geometry/bezier.hpp"
+#include "geometry/curve.hpp"
 #include "geometry/placement.hpp"
 
 namespace riis {
 
-// Where a patch is put: mirrored in y or not, then turned, then moved. The same patch is put at several places by the same
+enum class Mirror { none, in_x, in_y };
+
+// Where a patch is put: mirrored or not, then turned, then moved. The same patch is put at several places by the same
 // operations on the same points, so a patch and its mirror image meet in the mirror's plane to the last bit.
 struct PatchImage {
-  bool mirrored;
+  Mirror mirror;
   Rotation rotation;
   Vec3 translation;
   std::int32_t leaflet_id;
@@ -21,19 +24,30 @@ struct PatchImage {
 };
 
 inline Vec3 place(const PatchImage &image, Vec3 p) {
-  return image.rotation * Vec3{p.x, image.mirrored ? -p.y : p.y, p.z} + image.translation;
+  return image.rotation *
+             Vec3{image.mirror == Mirror::in_x ? -p.x : p.x, image.mirror == Mirror::in_y ? -p.y : p.y, p.z} +
+         image.translation;
 }
 
-// A Coons patch by the positions of its four sides in PatchSet::curves. A curve that two patches share appears once, so
-// that it becomes one polyline and the patches meet without cracks. S_u x S_v points downstream; mirror images are turned
-// over to keep it so.
+// A curve by its position in PatchSet::curves, run along from its first point or from its last.
+struct Side {
+  std::size_t curve;
+  bool reversed = false;
+};
+
+// A patch by its four sides, named by the parameter that is constant on them. A curve that two patches share appears once,
+// so that it becomes one polyline and the patches meet without cracks. S_u x S_v points downstream; mirror images are
+// turned over to keep it so.
 struct Patch {
-  std::size_t side_v0, side_v1, side_u0, side_u1;
+  Side v0, v1, u0, u1;
   std::vector<PatchImage> images;
+  // 0: the Coons patch of the sides. Otherwise the patch of arcs from v0 to v1 that this factor makes (geometry/bulge.hpp);
+  // u0 and u1 are then such arcs themselves.
+  double bulge = 0;
 };
 
 struct PatchSet {
-  std::vector<Bezier> curves;
+  std::vector<Curve> curves;
   std::vector<Patch> patches;
 };
 

@@ -9,12 +9,14 @@
 
 #include "api/errors.hpp"
 #include "distance/point_triangle.hpp"
+#include "geometry/bulge.hpp"
 #include "geometry/coons.hpp"
+#include "geometry/curve.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangulate.hpp"
-#include "valve/parameters.hpp"
 #include "valve/patches.hpp"
+#include "valve/valve.hpp"
 
 using namespace riis;
 
@@ -43,6 +45,23 @@ std::vector<Vec3> list(std::int64_t n, const double *points) {
 template <class T>
 T *room(std::size_t n) {
   return static_cast<T *>(std::malloc(std::max<std::size_t>(n, 1) * sizeof(T)));
+}
+
+// n cubics, 12 numbers each.
+Curve chain(std::int64_t n_pieces, const double *control) {
+  std::vector<Bezier> pieces;
+  for (std::int64_t i = 0; i < n_pieces; ++i) pieces.push_back(curve(3, control + 12 * i));
+  return Curve(std::move(pieces));
+}
+
+void give(const Flattened &made, int64_t *n_points, double **points, double **t, double **errors) {
+  *n_points = static_cast<int64_t>(made.points.size());
+  *points = room<double>(3 * made.points.size());
+  *t = room<double>(made.t.size());
+  *errors = room<double>(made.errors.size());
+  for (std::size_t i = 0; i < made.points.size(); ++i) put(made.points[i], *points + 3 * i);
+  std::copy(made.t.begin(), made.t.end(), *t);
+  std::copy(made.errors.begin(), made.errors.end(), *errors);
 }
 
 QuadGrid grid_of(const std::int64_t *n, const double *const *points, double max_merge_shift) {
@@ -79,16 +98,39 @@ double bezier_flatness(int degree, const double *control) { return flatness(curv
 
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
                            double **t, double **errors) {
-  return guarded([&] {
-    const Flattened made = flatten(curve(degree, control), max_error);
-    *n_points = static_cast<int64_t>(made.points.size());
-    *points = room<double>(3 * made.points.size());
-    *t = room<double>(made.t.size());
-    *errors = room<double>(made.errors.size());
-    for (std::size_t i = 0; i < made.points.size(); ++i) put(made.points[i], *points + 3 * i);
-    std::copy(made.t.begin(), made.t.end(), *t);
-    std::copy(made.errors.begin(), made.errors.end(), *errors);
-  });
+  return guarded([&] { give(flatten(curve(degree, control), max_error), n_points, points, t, errors); });
+}
+
+riis_status chain_flatten(int64_t n_pieces, const double *control, double max_error, int64_t *n_points, double **points,
+                          double **t, double **errors) {
+  return guarded([&] { give(flatten(chain(n_pieces, control), max_error), n_points, points, t, errors); });
+}
+
+double chain_length(int64_t n_pieces, const double *control) { return chain(n_pieces, control).length(); }
+
+void chain_at(int64_t n_pieces, const double *control, double share, double *point, double *tangent) {
+  const Curve::Frame frame = chain(n_pieces, control).frame(share);
+  put(frame.point, point);
+  put(frame.tangent, tangent);
+}
+
+int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
+                      double *part) {
+  const Curve whole = chain(n_pieces, control), between = whole.between(share0, share1);
+  const Curve made = reversed ? between.reversed() : between;
+  for (std::size_t i = 0; i < made.pieces().size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) put(made.pieces()[i].control[k], part + 12 * i + 3 * k);
+  return static_cast<int64_t>(made.pieces().size());
+}
+
+void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
+              double *offset) {
+  put(Bulge(chain(n_base, base), chain(n_edge, edge), factor).at(u), offset);
+}
+
+double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor,
+                          double u0, double u1, double enough) {
+  return Bulge(chain(n_base, base), chain(n_edge, edge), factor).linear_error(u0, u1, enough);
 }
 
 double polyline_make(int64_t n, const double *points, int64_t *n_kept, double *t) {
@@ -123,7 +165,11 @@ void quad_grid_free(quad_grid *grid) {
 }
 
 double quad_kappa(const double *p00, const double *p10, const double *p11, const double *p01) {
-  return quad_flatness(vec(p00), vec(p10), vec(p11), vec(p01));
+  return quad_flatness({vec(p00), vec(p10), vec(p11), vec(p01)});
+}
+
+double quad_split_error(const double *p00, const double *p10, const double *p11, const double *p01) {
+  return split_error({vec(p00), vec(p10), vec(p11), vec(p01)});
 }
 
 double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric) {
@@ -137,7 +183,7 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
   return guarded([&] {
     Valve valve(find_valve_kind("aortic"));
     if (name) valve.set(name, 1, &value);
-    const PatchSet made = valve.kind().make_patches(valve.values());
+    const PatchSet made = valve.make_patches();
     const std::size_t n_curves = made.curves.size(), n_patches = made.patches.size();
     std::size_t n_images = 0;
     for (const Patch &patch : made.patches) n_images += patch.images.size();
@@ -146,19 +192,20 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
             room<int64_t>(n_images),        room<int32_t>(n_images),         room<int32_t>(n_images),
             room<int32_t>(n_images),        room<double>(12 * n_images)};
     for (std::size_t i = 0; i < n_curves; ++i) {
-      set->degree[i] = made.curves[i].degree;
-      for (std::size_t k = 0; k < 4; ++k) put(made.curves[i].control[k], set->control + 12 * i + 3 * k);
+      const Bezier &only = made.curves[i].pieces().front();
+      set->degree[i] = only.degree;
+      for (std::size_t k = 0; k < 4; ++k) put(only.control[k], set->control + 12 * i + 3 * k);
     }
     std::size_t at = 0;
     for (std::size_t i = 0; i < n_patches; ++i) {
       const Patch &patch = made.patches[i];
-      const std::size_t sides[4] = {patch.side_v0, patch.side_v1, patch.side_u0, patch.side_u1};
+      const std::size_t sides[4] = {patch.v0.curve, patch.v1.curve, patch.u0.curve, patch.u1.curve};
       for (std::size_t k = 0; k < 4; ++k) set->sides[4 * i + k] = static_cast<int64_t>(sides[k]);
       for (const PatchImage &image : patch.images) {
         set->patch[at] = static_cast<int64_t>(i);
         set->leaflet_id[at] = image.leaflet_id;
         set->patch_id[at] = image.patch_id;
-        set->mirrored[at] = image.mirrored;
+        set->mirrored[at] = image.mirror != Mirror::none;
         double *frame = set->frame + 12 * at++;
         put(image.rotation.row_x, frame), put(image.rotation.row_y, frame + 3), put(image.rotation.row_z, frame + 6);
         put(image.translation, frame + 9);
@@ -169,7 +216,11 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
 
 void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed) {
   const double *frame = set->frame + 12 * image;
-  const PatchImage at{set->mirrored[image] != 0, {vec(frame), vec(frame + 3), vec(frame + 6)}, vec(frame + 9), 0, 0};
+  const PatchImage at{set->mirrored[image] ? Mirror::in_y : Mirror::none,
+                      {vec(frame), vec(frame + 3), vec(frame + 6)},
+                      vec(frame + 9),
+                      0,
+                      0};
   put(place(at, vec(p)), placed);
 }
 

@@ -20,6 +20,21 @@ double bezier_flatness(int degree, const double *control);
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
                            double **t, double **errors);
 
+/* Curves of n cubics that follow each other in the same direction: control[12 * n]. */
+riis_status chain_flatten(int64_t n_pieces, const double *control, double max_error, int64_t *n_points, double **points,
+                          double **t, double **errors);
+double chain_length(int64_t n_pieces, const double *control);
+void chain_at(int64_t n_pieces, const double *control, double share, double *point, double *tangent);
+/* part has room for 12 * n_pieces; returns how many pieces there are in it. */
+int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
+                      double *part);
+
+/* O(u) of a patch of arcs from a base to an edge, and the bound on how far it is from linear. */
+void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
+              double *offset);
+double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor,
+                          double u0, double u1, double enough);
+
 /* Polylines. */
 double polyline_make(int64_t n, const double *points, int64_t *n_kept,
                      double *t); /* t has room for n; returns the length */
@@ -34,6 +49,7 @@ quad_grid coons_grid(const int64_t *n, const double *const *points, double max_m
 void coons_evaluate(const int64_t *n, const double *const *points, double u, double v, double *point);
 void quad_grid_free(quad_grid *grid);
 double quad_kappa(const double *p00, const double *p10, const double *p11, const double *p01);
+double quad_split_error(const double *p00, const double *p10, const double *p11, const double *p01);
 
 /* The decision kernel: returns the squared distance. */
 double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/parameters.hpp"
+#include "valve/valve.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "api/errors.hpp"
 #include "valve/aortic.hpp"
+#include "valve/mitral.hpp"
 
 namespace riis {
 namespace {
@@ -47,13 +49,14 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
 
 const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
+  if (name == "mitral") return mitral_valve_kind();
   const Shown shown(name);
-  fail(RIIS_INVALID_PARAMETER, "'%.*s' is not a kind of valve; there is: aortic", shown.size, shown.data);
+  fail(RIIS_INVALID_PARAMETER, "'%.*s' is not a kind of valve; there are: aortic, mitral", shown.size, shown.data);
 }
 
-Valve::Valve(const ValveKind &kind) : kind_(&kind) {
-  values_.reserve(kind.parameters.size());
-  for (const ParameterSpec &spec : kind.parameters) values_.push_back(spec.default_values);
+Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {
+  state_.values.reserve(kind.parameters.size());
+  for (const ParameterSpec &spec : kind.parameters) state_.values.push_back(spec.default_values);
 }
 
 void Valve::set(std::string_view name, std::int64_t n_values, const double *new_values) {
@@ -63,7 +66,7 @@ void Valve::set(std::string_view name, std::int64_t n_values, const double *new_
   for (const ParameterSpec &spec : specs)
     if (named(spec)) check(spec, name, n_values, new_values);
   for (std::size_t i = 0; i < specs.size(); ++i)
-    if (named(specs[i])) std::copy_n(new_values, n_values, values_[i].begin());
+    if (named(specs[i])) std::copy_n(new_values, n_values, state_.values[i].begin());
 }
 
 void Valve::get(std::string_view name, std::int64_t n_values, double *out) const {
@@ -73,7 +76,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
     if (n_values != specs[i].n_values)
       fail(RIIS_INVALID_PARAMETER, "parameter '%s' has %d value%s, not %lld", specs[i].name.c_str(), specs[i].n_values,
            specs[i].n_values == 1 ? "" : "s", static_cast<long long>(n_values));
-    std::copy_n(values_[i].begin(), n_values, out);
+    std::copy_n(state_.values[i].begin(), n_values, out);
     return;
   }
   for (const ParameterSpec &spec : specs)
@@ -81,6 +84,52 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
       fail(RIIS_INVALID_PARAMETER, "parameter '%s' belongs to one leaflet each: ask for '%s'",
            spec.name.c_str() + (spec.name.size() - name.size()), spec.name.c_str());
   fail_unknown(*kind_, name);
+}
+
+void Valve::set_open_state(const Valve &open) {
+  if (open.kind_ != kind_)
+    fail(RIIS_INVALID_PARAMETER,
+         "the open state is of a %s valve, the valve is %s: a valve opens to one of its own kind", open.kind_->name,
+         kind_->name);
+  if (kind_->check_states) kind_->check_states(state_, open.state_);
+  open_ = open.state_;
+}
+
+PatchSet Valve::make_patches() const {
+  const double opening = state_.values[kind_->opening][0];
+  if (opening != 0 && !open_ && !kind_->opens_by_itself)
+    fail(
+        RIIS_INVALID_PARAMETER,
+        "opening is %s, but the %s valve has one state only: give it another to open to with riis_valve_set_open_state "
+        "or riis-mark --params-open",
+        Number(opening).text, kind_->name);
+  return kind_->make_patches(state_, open_ ? *open_ : state_, opening);
+}
+
+Bezier blend(const Bezier &closed, const Bezier &open, double opening) {
+  Bezier made = closed;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(closed.degree); ++i)
+    made.control[i] = blend(closed.control[i], open.control[i], opening);
+  return made;
+}
+
+ParameterSpec opening_spec(const char *description, double default_value) {
+  return {"opening", "1", description, 1, {default_value}, 0, 1};
+}
+
+std::size_t position_of(const std::vector<ParameterSpec> &specs, std::string_view name) {
+  const auto found = std::find_if(specs.begin(), specs.end(), [&](const auto &spec) { return spec.name == name; });
+  return static_cast<std::size_t>(found - specs.begin());
+}
+
+void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Measure &measure, double least,
+                 double most) {
+  for (int i = 0; i < spec.n_values; ++i) {
+    const double value = values[static_cast<std::size_t>(i)];
+    if (!(std::abs(value) >= least * measure.size && std::abs(value) <= most * measure.size))
+      fail(RIIS_INVALID_PARAMETER, "%s is %s; it must be from %s to %s times %s, which is %s", spec.name.c_str(),
+           Number(value).text, Number(least).text, Number(most).text, measure.name, Number(measure.size).text);
+  }
 }
 
 }  // namespace riis

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/bulge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "geometry/interval.hpp"
+
+namespace riis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// What the control points, all of a Bézier curve's derivative, leave possible for it: it stays in their hull.
+IntervalVector hull_of(const Vec3 *control, std::size_t n) {
+  IntervalVector all = IntervalVector::of(control[0]);
+  for (std::size_t i = 1; i < n; ++i) all = hull(all, IntervalVector::of(control[i]));
+  return all;
+}
+
+// A curve's unit tangent on a range of u on which it has the speed |d curve / du|, with derivatives by u.
+struct Along {
+  JetVector tangent;
+  double speed;
+};
+
+// The tangent as a jet, from the derivatives of a Bézier piece by its own parameter t: dt/du = speed / |B'(t)|.
+JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const IntervalVector &d3, double speed) {
+  const JetVector along = JetVector::of(d1, d2, d3);
+  const Jet size = root(dot_self(along)), inverse_size = inverse(size);
+  const JetVector by_t = inverse_size * along;
+  const Interval t_u = speed * inverse_size.value;
+  const Interval t_uu = -(speed * speed) * (size.first * inverse_size.value * square(inverse_size.value));
+  const auto by_u = [&](const Jet &a) {
+    return Jet{intersection(a.value, {-1, 1}), a.first * t_u, a.second * square(t_u) + a.first * t_uu};
+  };
+  return {by_u(by_t.x), by_u(by_t.y), by_u(by_t.z)};
+}
+
+struct Derivatives {
+  explicit Derivatives(const Bezier &piece) : n(static_cast<std::size_t>(piece.degree)) {
+    const auto degree = static_cast<double>(piece.degree);
+    for (std::size_t i = 0; i < n; ++i) first[i] = degree * (piece.control[i + 1] - piece.control[i]);
+    for (std::size_t i = 0; i + 1 < n; ++i) second[i] = (degree - 1) * (first[i + 1] - first[i]);
+    third = n == 3 ? second[1] - second[0] : Vec3{0, 0, 0};
+  }
+
+  std::size_t n;
+  std::array<Vec3, 3> first;
+  std::array<Vec3, 2> second;
+  Vec3 third;
+};
+
+// How far a function can be from the line between its ends on a range du.
+double deviation(const Interval &second, double du) { return 0.125 * du * du * second.magnitude(); }
+
+void narrow(Jet &a, double start, double end, double du) {
+  a.value = intersection(a.value, widened(hull(Interval::of(start), Interval::of(end)), deviation(a.second, du)));
+}
+
+Vec3 unit(Vec3 a) {
+  const double size = length(a);
+  return size > 0 ? (1 / size) * a : a;
+}
+
+// On the whole of a piece, which spans at most du.
+Along along_piece(const Bezier &piece, double speed, double du) {
+  if (!(speed > 0)) return {JetVector{}, 0};
+  const Derivatives d(piece);
+  JetVector tangent =
+      tangent_jet(hull_of(d.first.data(), d.n), hull_of(d.second.data(), d.n - 1), IntervalVector::of(d.third), speed);
+  const Vec3 start = unit(d.first[0]), end = unit(d.first[d.n - 1]);
+  narrow(tangent.x, start.x, end.x, du);
+  narrow(tangent.y, start.y, end.y, du);
+  narrow(tangent.z, start.z, end.z, du);
+  return {tangent, speed};
+}
+
+// At the start or the end of a piece.
+Along along_end(const Bezier &piece, double speed, bool at_end) {
+  if (!(speed > 0)) return {JetVector{}, 0};
+  const Derivatives d(piece);
+  return {tangent_jet(IntervalVector::of(d.first[at_end ? d.n - 1 : 0]),
+                      IntervalVector::of(d.second[at_end ? d.n - 2 : 0]), IntervalVector::of(d.third), speed),
+          speed};
+}
+
+// O from W, whose derivatives are those of edge minus base, and the base's tangent.
+JetVector offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
+  const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
+                                        edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
+  const JetVector across = cross(width, base.tangent);
+  // factor |W| M / |M| with M = W x T.
+  const Jet ratio = root(dot_self(width) * inverse(dot_self(across)));
+  return (factor * ratio) * across;
+}
+
+double norm(const IntervalVector &a) {
+  const double bound = length(a.magnitudes());
+  return bound >= 0 ? bound : infinity;  // NaN where infinities met
+}
+
+}  // namespace
+
+Bulge::Bulge(Curve base, Curve edge, double factor) : base_(std::move(base)), edge_(std::move(edge)), factor_(factor) {
+  const std::vector<double> of_base = base_.joints(), of_edge = edge_.joints();
+  std::merge(of_base.begin(), of_base.end(), of_edge.begin(), of_edge.end(), std::back_inserter(joints_));
+}
+
+Vec3 middle_control_point(Vec3 on_base, Vec3 on_edge, Vec3 offset) { return 0.5 * (on_base + on_edge) + offset; }
+
+namespace {
+
+// O where a share of both curves is left behind.
+Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor) {
+  const Curve::Frame on_base = base.frame(share);
+  const Vec3 width = edge.at(share) - on_base.point;
+  return (factor * length(width)) * unit(cross(width, on_base.tangent));
+}
+
+}  // namespace
+
+Vec3 Bulge::at(double u) const { return offset_at(base_, edge_, u, factor_); }
+
+double Bulge::linear_error(double u0, double u1, double enough) const {
+  const double du = u1 - u0;
+  const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
+
+  // |O''| on the smooth parts, and the range of |W|.
+  const Vec3 start = edge.first() - base.first(), end = edge.last() - base.last();
+  const double base_speed = base_.length(), edge_speed = edge_.length();
+  double second = 0, widest = 0;
+  for (const Bezier &base_piece : base.pieces()) {
+    for (const Bezier &edge_piece : edge.pieces()) {
+      const Along along_base = along_piece(base_piece, base_speed, du),
+                  along_edge = along_piece(edge_piece, edge_speed, du);
+      const IntervalVector bend = edge_speed * along_edge.tangent.first() - base_speed * along_base.tangent.first();
+      IntervalVector w = hull(IntervalVector::of(start), IntervalVector::of(end));
+      w = {widened(w.x, deviation(bend.x, du)), widened(w.y, deviation(bend.y, du)),
+           widened(w.z, deviation(bend.z, du))};
+      widest = std::max(widest, norm(w));
+      second = std::max(second, norm(offset_jet(w, along_base, along_edge, factor_).second()));
+    }
+  }
+  // Nowhere is |O| more than |factor| |W|, nor is the line's.
+  const double largest = 2 * std::abs(factor_) * widest;
+  // Intervals overestimate |O''| several times over. So O is looked at in a few points, and only from one to the next is the
+  // bound relied on: n points have it count n^2 times less.
+  double error = infinity;
+  for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, second);
+  return error <= largest ? error : largest;  // also where the error is no number
+}
+
+// From O at n - 1 points between u0 and u1, and the bound on |O''|.
+double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, double u1, int n, double second) const {
+  double off_line = 0;
+  if (n > 1) {
+    const Vec3 first = offset_at(base, edge, 0, factor_), last = offset_at(base, edge, 1, factor_);
+    for (int i = 1; i < n; ++i) {
+      const double share = static_cast<double>(i) / n;
+      off_line = std::max(off_line, distance(offset_at(base, edge, share, factor_), mix(first, last, share)));
+    }
+  }
+  const double step = (u1 - u0) / n;
+  double between = 0.125 * step * step * second;
+  // At a joint O' may jump: a kink of height |jump| a b / (a + b), a and b from the points before and after it.
+  for (const double joint : joints_) {
+    if (!(joint > u0 && joint < u1)) continue;
+    const double behind = std::fmod(joint - u0, step);
+    between += jump(joint) * behind * (step - behind) / step;
+  }
+  return off_line + between;
+}
+
+// |O'| on one side of u minus O' on the other.
+double Bulge::jump(double u) const {
+  const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
+  const auto first_derivative = [&](bool after) {
+    const auto along = [&](const Curve &curve) {
+      return along_end(curve.piece_beside(u, after), curve.length(), !after);
+    };
+    return offset_jet(w, along(base_), along(edge_), factor_).first();
+  };
+  return norm(first_derivative(true) - first_derivative(false));
+}
+
+}  // namespace riis

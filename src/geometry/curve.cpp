@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "api/errors.hpp"
+
+namespace riis {
+namespace {
+
+// A length that is nothing on a curve of that length.
+constexpr double negligible = 1e-14;
+
+// 2^20 parts a curve: only reached by requests that no surface of this library could be made from.
+constexpr int max_depth = 20;
+
+// Collects the chords of parts that are within max_error of them.
+class Flattening {
+ public:
+  Flattening(Vec3 first, double max_error) : max_error_(max_error), flattened_{{first}, {0.0}, {}} {}
+
+  // The part from share t0 to t1 of the whole curve, of one piece ...
+  void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
+    const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
+    if (accept(
+            part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
+      return;
+    check(depth);
+    const auto [left, right] = split(part, parameter_at_length(part, part_length, 0.5 * part_length));
+    const double middle = 0.5 * (t0 + t1);
+    add(left, 0.5 * part_length, t0, middle, depth + 1);
+    add(right, 0.5 * part_length, middle, t1, depth + 1);
+  }
+
+  // ... or of several.
+  void add(const Curve &part, double t0, double t1, int depth) {
+    const std::vector<Bezier> &pieces = part.pieces();
+    if (pieces.size() == 1) {
+      add(pieces.front(), part.length(), t0, t1, depth);
+      return;
+    }
+    const auto curvature = [&] {
+      double largest = 0;
+      for (const Bezier &piece : pieces) largest = std::max(largest, largest_curvature(piece));
+      return largest;
+    };
+    if (accept(part.last(), distance_to_chord(part), part.length(), curvature, t1)) return;
+    check(depth);
+    const double middle = 0.5 * (t0 + t1);
+    add(part.between(0, 0.5), t0, middle, depth + 1);
+    add(part.between(0.5, 1), middle, t1, depth + 1);
+  }
+
+  Flattened take() { return std::move(flattened_); }
+
+ private:
+  // Both the part and its chord parametrised by the share of their own length, they are at most length^2 / 8 times the largest
+  // curvature apart (linear interpolation of a function with that second derivative; joints do not matter, since the
+  // direction is continuous there), and at most the length where the curve may turn on the spot.
+  template <class LargestCurvature>
+  bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
+              double t1) {
+    if (!(distance_to_chord <= max_error_)) return false;
+    const double error = std::min(part_length, 0.125 * part_length * part_length * largest_curvature());
+    if (!(error <= max_error_)) return false;
+    flattened_.points.push_back(last);
+    flattened_.t.push_back(t1);
+    flattened_.errors.push_back(error);
+    return true;
+  }
+
+  void check(int depth) const {
+    if (depth == max_depth)
+      fail(RIIS_LIMIT_EXCEEDED,
+           "a curve needs more than %d points to be right to %s: tolerance * half_thickness is too small for it",
+           1 << max_depth, Number(max_error_).text);
+  }
+
+  // A curve is no farther from a segment than its control points are.
+  static double distance_to_chord(const Curve &part) {
+    double largest = 0;
+    for (const Bezier &piece : part.pieces())
+      for (int i = 0; i <= piece.degree; ++i)
+        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), piece.control[static_cast<std::size_t>(i)],
+                                                               part.last())));
+    return largest;
+  }
+
+  double max_error_;
+  Flattened flattened_;
+};
+
+}  // namespace
+
+Curve::Curve(const Bezier &piece) : pieces_{piece}, ends_{arc_length(piece)} {}
+
+Curve::Curve(std::vector<Bezier> pieces) : pieces_(std::move(pieces)) {
+  double end = 0;
+  for (const Bezier &piece : pieces_) ends_.push_back(end += arc_length(piece));
+}
+
+std::vector<double> Curve::joints() const {
+  std::vector<double> shares;
+  for (std::size_t i = 0; i + 1 < ends_.size(); ++i) shares.push_back(ends_[i] / length());
+  return shares;
+}
+
+Curve::Place Curve::place(double share) const {
+  if (share >= 1 || !(length() > 0)) return {pieces_.size() - 1, 1};
+  const double behind = std::max(share, 0.0) * length();
+  // A place at a joint, or off it by rounding, is the start of the later piece.
+  std::size_t piece = 0;
+  while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible * length()) ++piece;
+  const double start = piece == 0 ? 0 : ends_[piece - 1];
+  if (behind <= start + negligible * length()) return {piece, 0};
+  return {piece, parameter_at_length(pieces_[piece], length(piece), behind - start)};
+}
+
+Vec3 Curve::at(double share) const {
+  const Place where = place(share);
+  return evaluate(pieces_[where.piece], where.t);
+}
+
+Curve::Frame Curve::frame(double share) const {
+  const Place where = place(share);
+  const Bezier &piece = pieces_[where.piece];
+  const Vec3 along = derivative(piece, where.t);
+  const double speed = riis::length(along);
+  return {evaluate(piece, where.t), speed > 0 ? (1.0 / speed) * along : Vec3{0, 0, 0}};
+}
+
+Bezier Curve::piece_beside(double share, bool after) const {
+  const Place where = place(share);
+  const Bezier &piece = pieces_[where.piece];
+  if (after) return where.t > 0 ? split(piece, where.t).second : piece;
+  if (where.t == 0 && where.piece > 0) return pieces_[where.piece - 1];
+  return where.t < 1 ? split(piece, where.t).first : piece;
+}
+
+Curve Curve::between(double share0, double share1) const {
+  const Place from = place(share0), to = place(share1);
+  std::vector<Bezier> part;
+  for (std::size_t i = from.piece; i <= to.piece; ++i) {
+    if (i == to.piece && to.t == 0 && i > from.piece) break;
+    Bezier piece = pieces_[i];
+    if (i == to.piece && to.t < 1) piece = split(piece, to.t).first;
+    if (i == from.piece && from.t > 0) piece = split(piece, i == to.piece ? from.t / to.t : from.t).second;
+    part.push_back(piece);
+  }
+  return Curve(std::move(part));
+}
+
+Curve Curve::reversed() const {
+  std::vector<Bezier> pieces;
+  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) pieces.push_back(piece->reversed());
+  return Curve(std::move(pieces));
+}
+
+Curve Curve::through(Vec3 first, Vec3 last) const {
+  Curve moved = *this;
+  moved.pieces_.front().control[0] = first;
+  moved.pieces_.back().control[static_cast<std::size_t>(moved.pieces_.back().degree)] = last;
+  return moved;
+}
+
+Flattened flatten(const Curve &curve, double max_error) {
+  Flattening flattening(curve.first(), max_error);
+  if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
+  return flattening.take();
+}
+
+}  // namespace riis

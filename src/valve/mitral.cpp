@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/mitral.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "api/errors.hpp"
+#include "geometry/bulge.hpp"
+#include "geometry/placement.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+namespace {
+
+// Positions in the list of specs below: the paper's table, then opening (its t) and translation.
+// clang-format off
+enum Parameter {
+  anterior_ratio, AP_diameter, ALPM_diameter, ALPM_position_ratio, IT_distance, indent_depth, anterior_horn_height,
+  posterior_horn_height, anterior_length, posteromedial_commissure_height, posterior_scallop_length1,
+  posterior_scallop_length2, leaflet_arc_angle, leaflet_inward_angle, surface_angle, triangle_size_ratio, opening_,
+  translation
+};
+
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
+
+ValveKind make_kind() {
+  constexpr double shortest = 1e-9, longest = 1e9;
+  const char *length = "length", *degree = "degree", *number = "1";
+  return {"mitral", {
+    {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles take", 1, {0.41}, 0.05, 0.95},
+    {"AP_diameter", length, "depth of the annulus, from the posterior to the anterior point", 1, {3.0}, shortest, longest},
+    {"ALPM_diameter", length, "largest width of the annulus", 1, {4.0}, shortest, longest},
+    {"ALPM_position_ratio", number, "where the annulus is widest: 0 at the posterior point, 1 at the anterior", 1, {0.55}, 0.05, 0.95},
+    {"IT_distance", length, "distance between the trigones: width of the indent", 1, {2.5}, shortest, longest},
+    {"indent_depth", length, "depth of the indent of the annulus at the anterior point", 1, {0.5}, 0, longest},
+    {"anterior_horn_height", length, "height of the anterior point when closed", 1, {0.8}, -longest, longest},
+    {"posterior_horn_height", length, "height of the posterior point when closed", 1, {0.6}, -longest, longest},
+    {"anterior_length", length, "length of the anterior leaflet", 1, {2.12}, shortest, longest},
+    {"posteromedial_commissure_height", length, "length of the leaflets at the commissures and the clefts", 1, {0.8}, shortest, longest},
+    {"posterior_scallop_length1", length, "length of the two side scallops when open", 1, {1.35}, shortest, longest},
+    {"posterior_scallop_length2", length, "length of the middle scallop when open", 1, {1.35}, shortest, longest},
+    {"leaflet_arc_angle", degree, "angle of the arc that the free edges follow", 1, {120}, 1, 300},
+    {"leaflet_inward_angle", degree, "how open leaflets hang: 0 inwards, 90 straight down", 1, {75}, 0, 180},
+    {"surface_angle", degree, "angle between a leaflet and the straight line from annulus to free edge, at either end; bulges outwards", 1, {20}, -80, 80},
+    {"triangle_size_ratio", number, "share of the annulus that each commissure's triangle takes", 1, {0.1}, 0.001, 0.45},
+    opening_spec("0 closed to 1 open", 1),
+    {"translation", length, "shift of the valve", 3, {0, 0, 1}, -longest, longest},
+  }, opening_, true, make_patches, nullptr};
+}
+// clang-format on
+
+// The half of the valve on the posteromedial side, x >= 0; the other half is its mirror image. The annulus runs from the
+// posterior point, u = 0, counter-clockwise seen from +z, to the anterior point, u = 1/2.
+struct HalfValve {
+  std::array<Bezier, 3> annulus;
+  Bezier anterior;        // free edge, from the posteromedial to the anterolateral commissure
+  Bezier side_scallop;    // free edge, from the posteromedial commissure to the cleft
+  Bezier middle_scallop;  // free edge, from this cleft to the other half's
+  double u_commissure;    // u_pm
+  double triangle_width;  // r_tr, in u
+  double bulge;           // tan(surface_angle) / 2
+};
+
+Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
+
+// Six points and the tangents there; the half uses points 0 to 3. The paper prints IT_distance for the widest point's x
+// on one side, where its symmetry asks for ALPM_diameter / 2.
+std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
+  const auto value = [&](Parameter parameter) { return values[parameter][0]; };
+  const double ap = value(AP_diameter), alpm = value(ALPM_diameter), position = value(ALPM_position_ratio),
+               it = value(IT_distance), indent = value(indent_depth),
+               anterior_height = flat ? 0 : value(anterior_horn_height),
+               posterior_height = flat ? 0 : value(posterior_horn_height);
+  const Vec3 P0{0, -0.5 * ap, posterior_height}, P1{0.5 * alpm, ap * (position - 0.5), 0},
+      P2{0.5 * it, 0.5 * (ap + indent), 0.75 * anterior_height}, P3{0, 0.5 * ap, anterior_height};
+  const Vec3 T0{0.5 * 0.55 * (ap * position + 0.5 * alpm), 0, 0}, T1{0, 0.55 * (0.5 * indent + ap * (1 - position)), 0},
+      T2{-0.25 * it, 0, 0}, T3 = T2;
+  return {Bezier::cubic(P0, P0 + T0, P1 - T1, P1), Bezier::cubic(P1, P1 + T1, P2 - T2, P2),
+          Bezier::cubic(P2, P2 + T2, P3 - T3, P3)};
+}
+
+// The annulus as leaflets hang from it: A(u) and N(u), the tangent turned by 90 degrees in the plane, inwards.
+class Annulus {
+ public:
+  explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
+
+  const Curve &half() const { return half_; }
+  Curve::Frame frame(double u) const { return half_.frame(2 * u); }
+  // U(u, x): from the annulus by x, inwards by an angle below the plane. (The paper prints U by a product with N, whose z is
+  // 0, so that the angle has no effect.)
+  Vec3 below(double u, double x, SineCosine angle) const {
+    const auto [A, T] = frame(u);
+    const double in_plane = std::hypot(T.x, T.y);
+    const Vec3 N = in_plane > 0 ? (1 / in_plane) * Vec3{-T.y, T.x, 0} : Vec3{0, 0, 0};
+    return A + x * Vec3{angle.cosine * N.x, angle.cosine * N.y, -angle.sine};
+  }
+
+ private:
+  Curve half_;
+};
+
+// The cubic from one end to the other through the tip at 1/2: the affine image of the cubic that stands for a circular arc of
+// that angle. (The paper's matrix has rank 3; this is what it is meant to give.)
+Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
+  const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
+  const auto [half_sine, half_cosine] = sine_cosine_degrees(0.5 * arc_angle);
+  const double k = 4.0 / 3.0 * quarter_sine / quarter_cosine;
+  const double along = 1 - k * half_cosine / half_sine;
+  const Vec3 middle = 0.5 * (first + last), half_chord = 0.5 * (last - first), rise = (4.0 / 3.0) * (tip - middle);
+  return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
+}
+
+// The parameter of the closed anterior edge a third of its length from the commissure: where the cleft is.
+double cleft_parameter(const Bezier &closed_anterior) {
+  const double whole = arc_length(closed_anterior);
+  return parameter_at_length(closed_anterior, whole, whole / 3);
+}
+
+HalfValve half_valve(const ParameterValues &values, bool is_open) {
+  const auto value = [&](Parameter parameter) { return values[parameter][0]; };
+  const double arc_angle = value(leaflet_arc_angle), commissure_length = value(posteromedial_commissure_height);
+  const auto [sine, cosine] = sine_cosine_degrees(value(surface_angle));
+  HalfValve half;
+  half.annulus = half_annulus(values, is_open);
+  half.u_commissure = 0.5 - 0.5 * value(anterior_ratio);
+  half.triangle_width = value(triangle_size_ratio);
+  half.bulge = 0.5 * sine / cosine;
+
+  const Annulus annulus(half.annulus);
+  const double u_pm = half.u_commissure;
+  // Closed leaflets end in the plane z = 0, whatever the height of the annulus there.
+  const auto edge_point = [&](double u, double x) {
+    Vec3 p = annulus.below(u, x, is_open ? sine_cosine_degrees(value(leaflet_inward_angle)) : SineCosine{0, 1});
+    if (!is_open) p.z = 0;
+    return p;
+  };
+  const Vec3 commissure = edge_point(u_pm, commissure_length);
+  half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
+  if (is_open) {
+    // Clefts at a third of the way; the paper swaps tips and ends of the side scallops.
+    const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
+    half.side_scallop =
+        free_edge(commissure, edge_point(2 * u_pm / 3, value(posterior_scallop_length1)), cleft, arc_angle);
+    half.middle_scallop = free_edge(cleft, edge_point(0, value(posterior_scallop_length2)), mirrored(cleft), arc_angle);
+  } else {
+    // The leaflets meet in one edge: thirds of its length are the scallops.
+    const double cleft = cleft_parameter(half.anterior);
+    const auto [side, rest] = split(half.anterior, cleft);
+    half.side_scallop = side;
+    half.middle_scallop = split(rest, (1 - 2 * cleft) / (1 - cleft)).first;
+  }
+  return half;
+}
+
+HalfValve blend(const HalfValve &closed, const HalfValve &open, double opening) {
+  HalfValve half;
+  for (std::size_t i = 0; i < half.annulus.size(); ++i)
+    half.annulus[i] = riis::blend(closed.annulus[i], open.annulus[i], opening);
+  half.anterior = riis::blend(closed.anterior, open.anterior, opening);
+  half.side_scallop = riis::blend(closed.side_scallop, open.side_scallop, opening);
+  half.middle_scallop = riis::blend(closed.middle_scallop, open.middle_scallop, opening);
+  half.u_commissure = riis::blend(closed.u_commissure, open.u_commissure, opening);
+  half.triangle_width = riis::blend(closed.triangle_width, open.triangle_width, opening);
+  half.bulge = riis::blend(closed.bulge, open.bulge, opening);
+  return half;
+}
+
+// Lengths against the depth of the annulus.
+void check_together(const ParameterValues &values) {
+  const std::vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
+  const Measure depth{"AP_diameter", values[AP_diameter][0]};
+  const auto check = [&](Parameter parameter, double least, double most) {
+    check_ratio(specs[parameter], values[parameter], depth, least, most);
+  };
+  check(ALPM_diameter, 0.2, 5);
+  check(IT_distance, 0.05, 5);
+  check(indent_depth, 0, 1);
+  check(anterior_horn_height, 0, 2);
+  check(posterior_horn_height, 0, 2);
+  check(anterior_length, 0.01, 5);
+  check(posteromedial_commissure_height, 0.01, 5);
+  check(posterior_scallop_length1, 0.01, 5);
+  check(posterior_scallop_length2, 0.01, 5);
+  check(translation, 0, 100);
+  const double ratio = values[anterior_ratio][0], triangle = values[triangle_size_ratio][0];
+  if (!(ratio - 2 * triangle >= 0.02))
+    fail(RIIS_INVALID_PARAMETER,
+         "triangle_size_ratio is %s; twice that must leave at least 0.02 of anterior_ratio, which is %s",
+         Number(triangle).text, Number(ratio).text);
+}
+
+HalfValve checked_half_valve(const ParameterValues &values, bool is_open) {
+  check_together(values);
+  return half_valve(values, is_open);
+}
+
+// Cuts an edge at the plane of symmetry.
+Bezier up_to_symmetry_plane(const Bezier &edge, double middle) {
+  Bezier half = split(edge, middle).first;
+  half.control[3].x = 0;
+  return half;
+}
+
+class Patches {
+ public:
+  Patches(const HalfValve &half, double cleft, bool is_closed, Vec3 shift)
+      : half_(half), annulus_(half.annulus), shift_(shift) {
+    const auto [side_edge, rest] = split(half.anterior, cleft);
+    const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - cleft) / (1 - cleft));
+    const std::size_t anterior_side = add(side_edge), anterior_middle = add(middle_edge);
+    // Closed leaflets share their edge: one curve, one polyline.
+    const std::size_t posterior_side = is_closed ? anterior_side : add(half.side_scallop);
+    const std::size_t posterior_middle =
+        is_closed ? anterior_middle : add(up_to_symmetry_plane(half.middle_scallop, 0.5));
+    const std::size_t commissure = add(Bezier::point(side_edge.first()));
+
+    // u along the annulus: the anterior edge stands for what the triangle leaves, by its length.
+    const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
+    const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
+    const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
+    begin_at(0.5, middle_edge.last());
+    add_patch({anterior_middle, true}, u_anterior_cleft, middle_edge.first(), RIIS_LEAFLET_ANTERIOR, 2, 3);
+    add_patch({anterior_side, true}, u_triangle, side_edge.first(), RIIS_LEAFLET_ANTERIOR, 1, 4);
+    add_patch({commissure}, u_pm, side_edge.first(), RIIS_LEAFLET_ANTERIOR, 0, 5);
+    add_patch({posterior_side}, u_pm / 3, set_.curves[posterior_side].last(), RIIS_LEAFLET_POSTERIOR, 6, 9);
+    add_patch({posterior_middle}, 0, set_.curves[posterior_middle].last(), RIIS_LEAFLET_POSTERIOR, 7, 8);
+  }
+
+  PatchSet take() { return std::move(set_); }
+
+ private:
+  struct Arc {
+    double u;
+    Vec3 on_annulus;
+    Side side;
+  };
+
+  std::size_t add(const Curve &curve) {
+    set_.curves.push_back(curve);
+    return set_.curves.size() - 1;
+  }
+
+  // The arc from the annulus at u to that point of the edge, as a side that both its patches share.
+  Arc arc(double u, Vec3 on_edge) {
+    const auto [on_annulus, along] = annulus_.frame(u);
+    const Vec3 across = on_edge - on_annulus, normal = cross(across, along);
+    const double size = length(normal);
+    Vec3 offset = size > 0 ? (half_.bulge * length(across) / size) * normal : Vec3{0, 0, 0};
+    if (u == 0 || u == 0.5) offset.x = 0;  // in the plane of symmetry, to the last bit
+    return {u,
+            on_annulus,
+            {add(Bezier::quadratic(on_annulus, middle_control_point(on_annulus, on_edge, offset), on_edge))}};
+  }
+
+  void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
+
+  // Patches run clockwise, down from the anterior point, so that S_u x S_v points into the ventricle: downstream. O goes along
+  // (edge - annulus) x (the annulus' counter-clockwise direction), hence the minus.
+  void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
+                 std::int32_t mirrored_patch_id) {
+    const Arc from = last_arc_, to = arc(to_u, on_edge);
+    const Side base{
+        add(annulus_.half().between(2 * to.u, 2 * from.u).reversed().through(from.on_annulus, to.on_annulus))};
+    const Rotation as_it_is{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    set_.patches.push_back({base,
+                            edge,
+                            from.side,
+                            to.side,
+                            {{Mirror::none, as_it_is, shift_, leaflet_id, patch_id},
+                             {Mirror::in_x, as_it_is, shift_, leaflet_id, mirrored_patch_id}},
+                            -half_.bulge});
+    last_arc_ = to;
+  }
+
+  const HalfValve &half_;
+  Annulus annulus_;
+  Vec3 shift_;
+  PatchSet set_;
+  Arc last_arc_{};
+};
+
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
+  const HalfValve closed_half = checked_half_valve(closed.values, false),
+                  open_half = checked_half_valve(open.values, true);
+  const auto &from = closed.values[translation], &to = open.values[translation];
+  const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
+  return Patches(blend(closed_half, open_half, opening), cleft_parameter(closed_half.anterior), opening == 0, shift)
+      .take();
+}
+
+}  // namespace
+
+const ValveKind &mitral_valve_kind() {
+  // Made at the first use and never destroyed: usable from the first to the last instruction of the process.
+  static const ValveKind &kind = *new ValveKind(make_kind());
+  return kind;
+}
+
+}  // namespace riis

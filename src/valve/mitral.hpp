@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mitral valve: annulus, anterior leaflet, posterior leaflet of three scallops, closed, open and in between (paper, appendix
+// "Parametric modeling of the mitral valve"; docs/theory.md, section 4).
+#pragma once
+
+#include "valve/valve.hpp"
+
+namespace riis {
+
+const ValveKind &mitral_valve_kind();
+
+}  // namespace riis

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/user_patches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "api/errors.hpp"
+
+namespace riis {
+namespace {
+
+constexpr std::int64_t max_patches = 1'000'000, max_curves = 4'000'000;
+constexpr double max_control = 1e30;
+constexpr std::array<const char *, 4> side_names{"v = 0", "v = 1", "u = 0", "u = 1"};
+
+void check_n(const char *field, std::int64_t n, std::int64_t most) {
+  if (n < 1 || n > most)
+    fail(RIIS_INVALID_ARGUMENT, "patches.%s is %lld; it must be from 1 to %lld", field, static_cast<long long>(n),
+         static_cast<long long>(most));
+}
+
+std::vector<Bezier> curves_of(const riis_patches &arrays) {
+  const std::int32_t *degrees = require(arrays.degree, "patches.degree");
+  const double *control = require(arrays.control, "patches.control");
+  std::vector<Bezier> curves;
+  for (std::int64_t i = 0; i < arrays.n_curves; ++i) {
+    const std::int32_t degree = degrees[i];
+    if (degree < 1 || degree > 3)
+      fail(RIIS_INVALID_PARAMETER, "degree of curve %lld is %d; it must be 1, 2 or 3", static_cast<long long>(i),
+           degree);
+    std::array<Vec3, 4> q{};
+    for (std::int32_t k = 0; k <= degree; ++k, control += 3) {
+      for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(control[axis]) <= max_control))
+          fail(RIIS_INVALID_PARAMETER,
+               "%c of control point %d of curve %lld is %s; it must be finite and at most %s in magnitude", "xyz"[axis],
+               k, static_cast<long long>(i), Number(control[axis]).text, Number(max_control).text);
+      q[static_cast<std::size_t>(k)] = {control[0], control[1], control[2]};
+    }
+    curves.push_back(degree == 1   ? Bezier::line(q[0], q[1])
+                     : degree == 2 ? Bezier::quadratic(q[0], q[1], q[2])
+                                   : Bezier::cubic(q[0], q[1], q[2], q[3]));
+  }
+  return curves;
+}
+
+// The diagonal of the box of all control points.
+double size_of(const std::vector<Bezier> &curves) {
+  Vec3 lower = curves.front().first(), upper = lower;
+  for (const Bezier &curve : curves)
+    for (int k = 0; k <= curve.degree; ++k) {
+      const Vec3 q = curve.control[static_cast<std::size_t>(k)];
+      lower = {std::min(lower.x, q.x), std::min(lower.y, q.y), std::min(lower.z, q.z)};
+      upper = {std::max(upper.x, q.x), std::max(upper.y, q.y), std::max(upper.z, q.z)};
+    }
+  return distance(lower, upper);
+}
+
+class PatchReader {
+ public:
+  PatchReader(const riis_patches &arrays, const std::vector<Bezier> &curves)
+      : arrays_(arrays), curves_(curves), max_gap_(1e-9 * size_of(curves)) {}
+
+  Patch read(std::int64_t patch) const {
+    std::array<Side, 4> sides{};
+    for (std::size_t k = 0; k < 4; ++k) sides[k] = side(patch, k);
+    // The corners, each by the two sides that end in it.
+    check_corner(patch, sides, 0, false, 2, false);
+    check_corner(patch, sides, 0, true, 3, false);
+    check_corner(patch, sides, 1, false, 2, true);
+    check_corner(patch, sides, 1, true, 3, true);
+    const std::int32_t leaflet_id = arrays_.leaflet_id ? arrays_.leaflet_id[patch] : 0;
+    if (leaflet_id < 0)
+      fail(RIIS_INVALID_PARAMETER, "leaflet_id of patch %lld is %d; it must be at least 0",
+           static_cast<long long>(patch), leaflet_id);
+    const Rotation as_it_is{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    return {sides[0],
+            sides[1],
+            sides[2],
+            sides[3],
+            {{Mirror::none, as_it_is, {0, 0, 0}, leaflet_id, static_cast<std::int32_t>(patch)}}};
+  }
+
+ private:
+  Side side(std::int64_t patch, std::size_t k) const {
+    const std::size_t at = 4 * static_cast<std::size_t>(patch) + k;
+    const std::int64_t given = arrays_.curve_id[at], curve = given - arrays_.index_base;
+    if (curve < 0 || curve >= arrays_.n_curves)
+      fail(RIIS_INVALID_PARAMETER, "side %s of patch %lld is curve %lld; there are curves %d to %lld", side_names[k],
+           static_cast<long long>(patch), static_cast<long long>(given), arrays_.index_base,
+           static_cast<long long>(arrays_.n_curves - 1 + arrays_.index_base));
+    const std::int32_t reversed = arrays_.reversed ? arrays_.reversed[at] : 0;
+    if (reversed != 0 && reversed != 1)
+      fail(RIIS_INVALID_PARAMETER, "reversed of side %s of patch %lld is %d; it must be 0 or 1", side_names[k],
+           static_cast<long long>(patch), reversed);
+    return {static_cast<std::size_t>(curve), reversed == 1};
+  }
+
+  Vec3 end_of(const Side &side, bool last) const {
+    const Bezier &curve = curves_[side.curve];
+    return last != side.reversed ? curve.last() : curve.first();
+  }
+
+  void check_corner(std::int64_t patch, const std::array<Side, 4> &sides, std::size_t a, bool a_last, std::size_t b,
+                    bool b_last) const {
+    const Vec3 p = end_of(sides[a], a_last), q = end_of(sides[b], b_last);
+    if (!(distance(p, q) <= max_gap_))
+      fail(RIIS_INVALID_PARAMETER,
+           "patch %lld is open: side %s %s in (%s, %s, %s), side %s %s in (%s, %s, %s); if a curve runs the other way, "
+           "reverse it",
+           static_cast<long long>(patch), side_names[a], a_last ? "ends" : "begins", Number(p.x).text, Number(p.y).text,
+           Number(p.z).text, side_names[b], b_last ? "ends" : "begins", Number(q.x).text, Number(q.y).text,
+           Number(q.z).text);
+  }
+
+  const riis_patches &arrays_;
+  const std::vector<Bezier> &curves_;
+  double max_gap_;
+};
+
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
+  PatchSet set{{}, closed.patches.patches};
+  for (std::size_t i = 0; i < closed.patches.curves.size(); ++i)
+    set.curves.push_back(
+        blend(closed.patches.curves[i].pieces().front(), open.patches.curves[i].pieces().front(), opening));
+  return set;
+}
+
+void check_states(const ValveState &closed, const ValveState &open) {
+  const PatchSet &from = closed.patches, &to = open.patches;
+  if (from.curves.size() != to.curves.size() || from.patches.size() != to.patches.size())
+    fail(RIIS_INVALID_PARAMETER,
+         "the open state has %zu curves and %zu patches, the valve %zu and %zu: they must be built alike",
+         to.curves.size(), to.patches.size(), from.curves.size(), from.patches.size());
+  for (std::size_t i = 0; i < from.curves.size(); ++i) {
+    // Lines are quadratics here, and may become one.
+    const int degree = from.curves[i].pieces().front().degree, open_degree = to.curves[i].pieces().front().degree;
+    if (degree != open_degree)
+      fail(RIIS_INVALID_PARAMETER, "curve %zu is cubic in the %s only: the degree must be the same", i,
+           open_degree == 3 ? "open state" : "valve");
+  }
+  for (std::size_t i = 0; i < from.patches.size(); ++i) {
+    const Patch &a = from.patches[i], &b = to.patches[i];
+    const auto same = [](const Side &s, const Side &t) { return s.curve == t.curve && s.reversed == t.reversed; };
+    if (!same(a.v0, b.v0) || !same(a.v1, b.v1) || !same(a.u0, b.u0) || !same(a.u1, b.u1))
+      fail(RIIS_INVALID_PARAMETER, "patch %zu has other sides in the open state than in the valve", i);
+  }
+}
+
+}  // namespace
+
+PatchSet patches_from_arrays(const riis_patches &arrays) {
+  check_n("n_curves", arrays.n_curves, max_curves);
+  check_n("n_patches", arrays.n_patches, max_patches);
+  require(arrays.curve_id, "patches.curve_id");
+  if (arrays.index_base != 0 && arrays.index_base != 1)
+    fail(RIIS_INVALID_ARGUMENT, "patches.index_base is %d; it must be 0 or 1", arrays.index_base);
+  if (arrays.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "patches.reserved is %d; it must be 0", arrays.reserved);
+  const std::vector<Bezier> curves = curves_of(arrays);
+  PatchSet set{{curves.begin(), curves.end()}, {}};
+  const PatchReader reader(arrays, curves);
+  for (std::int64_t i = 0; i < arrays.n_patches; ++i) set.patches.push_back(reader.read(i));
+  return set;
+}
+
+const ValveKind &patches_valve_kind() {
+  static const ValveKind &kind = *new ValveKind{
+      "patches",
+      {opening_spec("0: this state, to 1: the state to open to (riis_valve_set_open_state), without which it stays 0",
+                    0)},
+      0,
+      false,
+      make_patches,
+      check_states};
+  return kind;
+}
+
+}  // namespace riis

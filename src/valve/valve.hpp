@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Valves: kinds of them, their named parameters, a second state to open to.
+// In: names and values as users write them. Out: checked values, and the patches they make at an opening.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "valve/patches.hpp"
+
+namespace riis {
+
+struct ParameterSpec {
+  std::string name;  // "root_radius", or "right.leaflet_angle" for a parameter of one leaflet
+  const char *unit;
+  const char *description;
+  int n_values;  // 1 or 3
+  std::array<double, 3> default_values;
+  double minimum, maximum;
+};
+
+using ParameterValues = std::vector<std::array<double, 3>>;  // one entry a spec
+
+// What makes a valve's shape: parameters, or patches for valves that are given by patches.
+struct ValveState {
+  ParameterValues values;
+  PatchSet patches;
+};
+
+// What a kind of valve is: its parameters and the way from them to patches.
+struct ValveKind {
+  const char *name;
+  std::vector<ParameterSpec> parameters;
+  std::size_t opening;   // position of the parameter of that name
+  bool opens_by_itself;  // one set of parameters makes it closed and open
+  // The patches at an opening from 0, which the closed state makes, to 1, which the open one makes: control points are
+  // blended. Both states may be the same. Refuses values that do not go together.
+  PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
+  // Refuses an open state that is not of the closed one's build; NULL: states of a kind always are.
+  void (*check_states)(const ValveState &closed, const ValveState &open);
+};
+
+// The kind of that name; fails with RIIS_INVALID_PARAMETER naming the kinds there are.
+const ValveKind &find_valve_kind(std::string_view name);
+
+// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER, naming the parameter and the value,
+// and then leave the valve as it was.
+class Valve {
+ public:
+  explicit Valve(const ValveKind &kind, PatchSet patches = {});
+  const ValveKind &kind() const { return *kind_; }
+  const ParameterValues &values() const { return state_.values; }
+
+  // A name without a leaflet sets the parameter of every leaflet that has one of that name.
+  void set(std::string_view name, std::int64_t n_values, const double *new_values);
+  void get(std::string_view name, std::int64_t n_values, double *out) const;
+
+  // Takes the other valve's own state as the one to open to. It must be of the same kind.
+  void set_open_state(const Valve &open);
+
+  // At the opening that is set.
+  PatchSet make_patches() const;
+
+ private:
+  const ValveKind *kind_;
+  ValveState state_;
+  std::optional<ValveState> open_;
+};
+
+// What blending does to one number. Exact at both ends.
+inline double blend(double closed, double open, double opening) {
+  return opening == 0 ? closed : opening == 1 ? open : (1 - opening) * closed + opening * open;
+}
+inline Vec3 blend(Vec3 closed, Vec3 open, double opening) {
+  return {blend(closed.x, open.x, opening), blend(closed.y, open.y, opening), blend(closed.z, open.z, opening)};
+}
+// Of two curves of the same degree.
+Bezier blend(const Bezier &closed, const Bezier &open, double opening);
+
+// The spec of the parameter that every kind has.
+ParameterSpec opening_spec(const char *description, double default_value);
+
+// The position of the parameter of that name.
+std::size_t position_of(const std::vector<ParameterSpec> &specs, std::string_view name);
+
+// Parts of values that are checked against another one, as in "leaflet_height is 30; it must be from 0.05 to 10 times
+// root_radius, which is 1.29".
+struct Measure {
+  const char *name;
+  double size;
+};
+void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Measure &measure, double least,
+                 double most);
+
+}  // namespace riis

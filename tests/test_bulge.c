@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * O(u) of patches of arcs: its value, and the bound on how far it is from linear between two u. */
+#include "internals.h"
+#include "test_support.h"
+
+static random_source rng;
+
+/* Half a circle of cubics in the plane z = 0, radius 1, counter-clockwise: the base. */
+enum { n_base = 2 };
+static const double k = 0.5522847498307933984;
+static double base[12 * n_base];
+
+static void make_base(void) {
+  const double half[24] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0, 0, 1, 0, -k, 1, 0, -1, k, 0, -1, 0, 0};
+  memcpy(base, half, sizeof base);
+}
+
+static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
+
+/* Below a circle hangs a cylinder: W = (0, 0, -2), T along the circle, so O = factor * 2 outwards. */
+static void of_a_cylinder(void **state) {
+  (void)state;
+  double edge[12 * n_base];
+  memcpy(edge, base, sizeof edge);
+  for (int i = 0; i < 4 * n_base; ++i) edge[3 * i + 2] = -2;
+  for (double u = 0; u <= 1; u += 0.125) {
+    double offset[3], on_base[3], tangent[3];
+    bulge_at(n_base, base, n_base, edge, 0.25, u, offset);
+    chain_at(n_base, base, u, on_base, tangent);
+    CHECK_NEAR(offset[0], 0.5 * tangent[1], 1e-12);
+    CHECK_NEAR(offset[1], -0.5 * tangent[0], 1e-12);
+    CHECK_NEAR(offset[2], 0, 1e-12);
+  }
+  /* The other way round for a negative factor. */
+  double offset[3];
+  bulge_at(n_base, base, n_base, edge, -0.25, 0.5, offset);
+  CHECK_NEAR(offset[1], -0.5, 1e-12);
+}
+
+static void is_nothing_where_base_and_edge_touch(void **state) {
+  (void)state;
+  const double point[12] = {1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
+  double offset[3];
+  bulge_at(n_base, base, 1, point, 0.25, 0, offset);
+  for (int c = 0; c < 3; ++c) CHECK_NEAR(offset[c], 0, 0);
+}
+
+/* Edges of any shape, single points among them, and bases with joints: on no range does O leave the line by more than the bound,
+ * which is not much too large where it is looked at closely. */
+static void stays_within_the_bound(void **state) {
+  (void)state;
+  double sum_of_ratios = 0;
+  int n_ranges = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    double edge[12], bent[12 * n_base];
+    const double factor = random_between(&rng, -1, 1);
+    memcpy(bent, base, sizeof bent);
+    /* The second piece curves otherwise than the first, and both leave the plane. */
+    for (int i = 2; i < 8; ++i) {
+      if (i < 5) continue;
+      for (int c = 0; c < 3; ++c)
+        bent[3 * i + c] += i == 5 ? (c == 0 ? random_between(&rng, -0.2, 0.2) : 0) : random_between(&rng, -0.4, 0.4);
+    }
+    for (int i = 0; i < 12; ++i) edge[i] = random_between(&rng, -0.7, 0.7) - (i % 3 == 2 ? 1 : 0);
+    if (trial % 5 == 0)
+      for (int i = 3; i < 12; ++i) edge[i] = edge[i - 3];
+    const double du = pow(2, -1 - (double)(random_bits(&rng) % 5)), u0 = random_between(&rng, 0, 1 - du), u1 = u0 + du;
+    const double bound = bulge_linear_error(n_base, bent, 1, edge, factor, u0, u1, trial % 2 ? 0 : INFINITY);
+    double first[3], last[3], largest = 0;
+    bulge_at(n_base, bent, 1, edge, factor, u0, first);
+    bulge_at(n_base, bent, 1, edge, factor, u1, last);
+    for (int i = 1; i < 100; ++i) {
+      double offset[3], line[3];
+      bulge_at(n_base, bent, 1, edge, factor, u0 + du * i / 100, offset);
+      for (int c = 0; c < 3; ++c) line[c] = ((100 - i) * first[c] + i * last[c]) / 100;
+      largest = fmax(largest, distance(offset, line));
+    }
+    if (!(largest <= bound + 1e-12))
+      fail_msg("trial %d: O leaves its line by %.17g on %.3f .. %.3f, the bound is %.17g", trial, largest, u0, u1,
+               bound);
+    if (trial % 2 && du < 0.1) sum_of_ratios += largest / bound, ++n_ranges;
+  }
+  printf("%d short ranges: deviation over its bound %.2f on the average\n", n_ranges, sum_of_ratios / n_ranges);
+  assert_true(sum_of_ratios > 0.5 * n_ranges);
+}
+
+/* Where W is parallel to T there is no direction: the bound does not pretend to one. */
+static void has_no_direction_along_the_base(void **state) {
+  (void)state;
+  const double straight[12] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, ahead[12] = {5, 0, 0, 6, 0, 0, 7, 0, 0, 8, 0, 0};
+  const double bound = bulge_linear_error(1, straight, 1, ahead, 0.5, 0.25, 0.5, 0);
+  CHECK_AT_MOST(2 * 0.5 * 5 * 0.999, bound); /* twice the largest |O| that there could be */
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(of_a_cylinder),
+      cmocka_unit_test(is_nothing_where_base_and_edge_touch),
+      cmocka_unit_test(stays_within_the_bound),
+      cmocka_unit_test(has_no_direction_along_the_base),
+  };
+  make_base();
+  rng = random_start("test_bulge");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
