@@ -59,6 +59,8 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_RIGHT = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_LEFT = 1
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_ANTERIOR = 0
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_POSTERIOR = 1
 
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
@@ -72,6 +74,19 @@ module riis_c
   ! -------------------------------------------------------------------------------------------------------------------
   ! Structs: the fields of riis.h in their order; pointers are type(c_ptr), set by c_loc
   ! -------------------------------------------------------------------------------------------------------------------
+
+  type, bind(c) :: riis_patches
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_curves
+    type(c_ptr) :: degree              ! integer(c_int32_t), (n_curves)
+    type(c_ptr) :: control             ! real(c_double), (3, sum(degree + 1))
+    integer(c_int64_t) :: n_patches
+    type(c_ptr) :: curve_id            ! integer(c_int32_t), (4, n_patches)
+    type(c_ptr) :: reversed            ! integer(c_int32_t), (4, n_patches), or c_null_ptr
+    type(c_ptr) :: leaflet_id          ! integer(c_int32_t), (n_patches), or c_null_ptr
+    integer(c_int32_t) :: index_base   ! 1 for curves that count as Fortran does
+    integer(c_int32_t) :: reserved
+  end type riis_patches
 
   type, bind(c) :: riis_parameter
     type(c_ptr) :: name         ! for riis_c_text, like the next two
@@ -229,7 +244,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !   kind  riis_c_string('aortic')
+    !   kind  riis_c_string('aortic') or riis_c_string('mitral')
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none
@@ -275,6 +290,32 @@ module riis_c
       real(c_double), intent(inout) :: values(*)
       integer(riis_status) :: status
     end function riis_valve_get
+
+    function riis_valve_set_open_state(valve, open) result(status) bind(c, name='riis_valve_set_open_state')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), value :: open
+      integer(riis_status) :: status
+    end function riis_valve_set_open_state
+
+    !   struct_size  c_sizeof(patches)
+    function riis_patches_init(patches, struct_size) result(status) bind(c, name='riis_patches_init')
+      import :: c_int64_t, riis_patches, riis_status
+      implicit none
+      type(riis_patches), intent(inout) :: patches
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_patches_init
+
+    function riis_valve_create_from_patches(patches, valve) result(status) &
+        bind(c, name='riis_valve_create_from_patches')
+      import :: c_ptr, riis_patches, riis_status
+      implicit none
+      type(riis_patches), intent(in) :: patches
+      type(c_ptr), intent(inout) :: valve
+      integer(riis_status) :: status
+    end function riis_valve_create_from_patches
 
     function riis_valve_n_parameters(valve, n_parameters) result(status) bind(c, name='riis_valve_n_parameters')
       import :: c_int64_t, c_ptr, riis_status

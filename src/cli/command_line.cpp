@@ -10,6 +10,7 @@
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
+#include "cli/valve_file.hpp"
 
 namespace riis::cli {
 namespace {
@@ -23,13 +24,29 @@ constexpr const char *footer = R"(Examples:
   riis-mark mesh.vtu --scale 0.01 --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
   riis-mark mesh.vtu --surface valve.stl --half-thickness 0.05 --output marked.vtu
   riis-mark --print-params > valve.json
+  riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
+  riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
+  riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
 
 The marked mesh is a copy of the input with its nodes in the input's order and the point arrays riis_marked (UInt8: 0 or 1),
 riis_distance (Float64) and riis_leaflet (Int32: -1 for none). Lengths are in the mesh's unit; the valve's own parameters are
 in centimetres before --scale.
 
 Parameters are those of the valve (right.leaflet_angle) or, without a cusp's name (leaflet_angle), of all its cusps. A JSON
-file sets the latter first, whatever their order in the file; --set comes after the file, from left to right.
+file sets the latter first, whatever their order in the file; --set comes after the file, from left to right; --opening
+last, and not together with --set opening.
+
+The mitral valve's parameters make it closed and open, and it is open unless --opening says otherwise. The aortic valve stays
+at opening 0 without --params-open. With it, the options above make the closed state, and the defaults with that file's
+parameters the open one; an opening in that file does not matter.
+
+--valve FILE.json is a valve from patches by the curves that bound them:
+  {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
+               "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
+   "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
+2, 3 or 4 points control a curve of degree 1, 2 or 3; 1 point is a side collapsed to it; a minus runs a curve the other way.
+v0 and v1 run from u0 to u1, u0 and u1 from v0 to v1. "leaflet" may be left out (0). "open": {"curves": {...}} beside
+"patches" has all curves as they are at --opening 1; without it the valve stays at 0. Its only parameter is opening.
 
 On a terminal, what takes longer than a second is announced on stderr, unless --quiet.
 While a file is written, Ctrl-C waits until it is whole; the second one does not wait.
@@ -45,7 +62,7 @@ const std::vector<std::string> search_names = {"auto", "exhaustive"};    // at t
 
 // What CLI11 collects, as text: numbers are parsed here, whatever the locale.
 struct Texts {
-  std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads;
+  std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::vector<std::string> pictures, views;
   bool skip_zero_area = false;
@@ -62,11 +79,19 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       app.add_option("--surface", options.surface, "Surface from a file (.vtp, .vtu, .stl) instead of a valve")
           ->type_name("FILE")
           ->group(group);
-  app.add_option("--valve", options.valve, "Kind of the parametric valve: aortic (the default)")
-      ->type_name("KIND")
+  app.add_option("--valve", options.valve, "Kind of the parametric valve: aortic (the default), mitral; or its patches")
+      ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--params", options.params, "Valve parameters from a JSON file")
+  app.add_option("--opening", texts.opening, "How far the valve is open: 0 closed, 1 open")
+      ->type_name("X")
+      ->group(group)
+      ->excludes(surface);
+  app.add_option("--params,--params-closed", options.params, "Valve parameters from a JSON file; of the closed state")
+      ->type_name("FILE.json")
+      ->group(group)
+      ->excludes(surface);
+  app.add_option("--params-open", options.params_open, "Parameters of the state that --opening opens to")
       ->type_name("FILE.json")
       ->group(group)
       ->excludes(surface);
@@ -76,7 +101,7 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->group(group)
       ->excludes(surface);
   app.add_flag("--print-params", options.print_params,
-               "Print all valve parameters as JSON for --params, after --params and --set, and exit")
+               "Print all valve parameters as JSON for --params, after --params, --set and --opening, and exit")
       ->group(group)
       ->excludes(surface);
   app.add_option("--tolerance", texts.tolerance,
@@ -148,6 +173,23 @@ double parse_length(const std::string &text, const std::string &subject) {
   return length;
 }
 
+bool sets_opening(const std::vector<std::string> &settings) {
+  return std::any_of(settings.begin(), settings.end(),
+                     [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
+}
+
+std::optional<double> parse_opening(const Texts &texts, const std::vector<std::string> &settings) {
+  if (texts.opening.empty()) return std::nullopt;
+  const double opening = parse_number(texts.opening, "--opening");
+  if (!(opening >= 0 && opening <= 1)) {
+    throw Refusal{exit_wrong_usage, "--opening: " + texts.opening + " is not from 0 to 1"};
+  }
+  if (sets_opening(settings)) {
+    throw Refusal{exit_wrong_usage, "--opening and --set opening: only one of them"};
+  }
+  return opening;
+}
+
 void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   check(riis_surface_options_init(&options, sizeof options));
   if (!texts.half_thickness.empty()) options.half_thickness = parse_length(texts.half_thickness, "--half-thickness");
@@ -208,7 +250,8 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 
 // Refuses what would have no effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
-  static const std::set<std::string> of_parameters = {"--print-params", "--valve", "--params", "--set", "--quiet"};
+  static const std::set<std::string> of_parameters = {"--print-params", "--valve",   "--params",
+                                                      "--set",          "--opening", "--quiet"};
   static const std::set<std::string> of_mesh = {"--output",  "--stats",          "--search",
                                                 "--threads", "--distance-limit", "--far-distance"};
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
@@ -216,6 +259,13 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     const std::string name = option->get_name();
     if (options.print_params && of_parameters.count(name) == 0) refuse(name + " has no effect with --print-params");
     if (options.mesh.empty() && of_mesh.count(name) != 0) refuse(name + " needs a MESH");
+  }
+  if (!options.params_open.empty() && is_valve_file(options.valve)) {
+    refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
+  }
+  // At the default opening of most valves the file would have no effect, and nobody would see it.
+  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings)) {
+    refuse("--params-open needs --opening");
   }
   if (options.print_params) return;
   if (options.mesh.empty()) {
@@ -278,6 +328,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   check_values(given);
   if (options.valve.empty()) options.valve = "aortic";
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
+  options.opening = parse_opening(texts, options.settings);
   parse_surface_options(texts, options.surface_options);
   parse_mark_options(texts, options.mark_options);
   options.pictures = pair_pictures(texts);

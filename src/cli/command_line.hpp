@@ -18,10 +18,11 @@ struct Picture {
 
 struct Options {
   std::string mesh;                   // "": none
-  std::string valve;                  // kind; used without surface
+  std::string valve;                  // kind, or a file that ends in .json; used without surface
   std::string surface;                // file; "": the valve
-  std::string params;                 // JSON file; "": none
+  std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in order
+  std::optional<double> opening;      // from 0 to 1
   riis_surface_options surface_options;
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;

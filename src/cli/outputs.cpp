@@ -13,6 +13,7 @@
 
 #include "cli/interruption.hpp"
 #include "cli/refusal.hpp"
+#include "cli/valve_file.hpp"
 
 namespace riis::cli {
 namespace {
@@ -63,7 +64,11 @@ struct NamedFile {
 };
 
 std::vector<NamedFile> inputs_of(const Options &options) {
-  return {{"MESH", options.mesh}, {"--surface", options.surface}, {"--params", options.params}};
+  return {{"MESH", options.mesh},
+          {"--surface", options.surface},
+          {"--params", options.params},
+          {"--params-open", options.params_open},
+          {"--valve", is_valve_file(options.valve) ? options.valve : ""}};
 }
 
 std::vector<NamedFile> outputs_of(const Options &options) {

@@ -1,95 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/parameters.hpp"
 
-#include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
-#include <system_error>
 #include <vector>
 
+#include "cli/json_file.hpp"
 #include "cli/numbers.hpp"
 #include "cli/refusal.hpp"
 
 namespace riis::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// The reason may hold pieces of the file, of any length.
-[[noreturn]] void refuse(const std::string &path, const std::string &reason) {
-  constexpr std::size_t longest = 300;
-  throw Refusal{exit_bad_data, path + ": " + (reason.size() > longest ? reason.substr(0, longest) + " ..." : reason)};
-}
-
-std::string text_of(const std::string &path) {
-  errno = 0;
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  // A folder can be opened, but not read.
-  if (!file.is_open() || errno != 0) refuse(path, "cannot be read: " + std::generic_category().message(errno));
-  if (text.str().empty()) refuse(path, "is empty");
-  return text.str();
-}
-
-// Watches the parser for what it lets pass.
-class Guard {
- public:
-  explicit Guard(const std::string &path) : path_(path) {}
-
-  void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
-    // Parameters need two levels below the root; what handles a value recursively must not meet a bottomless one.
-    constexpr int deepest = 8;
-    if (depth > deepest) refuse(path_, "is nested deeper than parameters can be");
-    if (event == Json::parse_event_t::object_start) {
-      keys_.emplace_back();
-    } else if (event == Json::parse_event_t::object_end) {
-      keys_.pop_back();
-    } else if (event == Json::parse_event_t::key) {
-      check_key(parsed.get_ref<const std::string &>());
-    }
-  }
-
- private:
-  void check_key(const std::string &key) {
-    // The library takes names up to a 0 byte.
-    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
-    if (std::any_of(key.begin(), key.end(), is_control)) refuse(path_, "a name holds a control character: " + key);
-    // The parser keeps the last of several equal keys; here they are refused, as the user cannot have meant both.
-    if (!keys_.back().insert(key).second) refuse(path_, key + " is given twice");
-  }
-
-  const std::string &path_;
-  std::vector<std::set<std::string>> keys_;
-};
-
-Json parse_file(const std::string &path) {
-  Guard guard(path);
-  const auto observe = [&](int depth, Json::parse_event_t event, Json &parsed) {
-    guard(depth, event, parsed);
-    return true;
-  };
-  try {
-    return Json::parse(text_of(path), observe);
-  } catch (const Json::exception &error) {
-    const std::string text = error.what();
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
-    const std::size_t end = text.find("] ");
-    refuse(path, "is not JSON: " + (end == std::string::npos ? text : text.substr(end + 2)));
-  }
-}
-
 std::vector<double> numbers_of(const std::string &path, const std::string &name, const Json &value) {
   const auto number_of = [&](const Json &item) {
     if (item.is_number()) return item.get<double>();
-    refuse(path, name + " must be a number or an array of numbers, not of type " + item.type_name());
+    refuse_file(path, name + " must be a number or an array of numbers, not of type " + item.type_name());
   };
   if (!value.is_array()) return {number_of(value)};
-  if (value.empty()) refuse(path, name + " must be a number or an array of numbers, not an empty array");
+  if (value.empty()) refuse_file(path, name + " must be a number or an array of numbers, not an empty array");
   std::vector<double> numbers;
   for (const Json &item : value) numbers.push_back(number_of(item));
   return numbers;
@@ -109,18 +37,18 @@ bool is_cusp(const riis_valve *valve, const std::string &name) {
 using Settings = std::map<std::string, std::vector<double>>;
 
 void add(const std::string &path, const std::string &name, const Json &value, Settings &settings) {
-  if (!settings.emplace(name, numbers_of(path, name, value)).second) refuse(path, name + " is given twice");
+  if (!settings.emplace(name, numbers_of(path, name, value)).second) refuse_file(path, name + " is given twice");
 }
 
 Settings settings_of(const std::string &path, const riis_valve *valve, const Json &root) {
-  if (!root.is_object()) refuse(path, "must hold a JSON object of parameters");
+  if (!root.is_object()) refuse_file(path, "must hold a JSON object of parameters");
   Settings settings;
   for (const auto &[name, value] : root.items()) {
     if (!value.is_object()) {
       add(path, name, value, settings);
       continue;
     }
-    if (!is_cusp(valve, name)) refuse(path, name + " is not a part of the valve with parameters of its own");
+    if (!is_cusp(valve, name)) refuse_file(path, name + " is not a part of the valve with parameters of its own");
     for (const auto &[inner, inner_value] : value.items()) add(path, name + "." + inner, inner_value, settings);
   }
   return settings;
@@ -136,7 +64,7 @@ bool belongs_to_cusp(const std::string &name) { return name.find('.') != std::st
 }  // namespace
 
 void set_from_json_file(riis_valve *valve, const std::string &path) {
-  const Settings settings = settings_of(path, valve, parse_file(path));
+  const Settings settings = settings_of(path, valve, parse_json_file(path, "parameters"));
   for (const bool cusps : {false, true}) {
     for (const auto &[name, values] : settings) {
       if (belongs_to_cusp(name) == cusps) set_parameter(valve, name, values, path);

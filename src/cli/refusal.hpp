@@ -38,7 +38,8 @@ inline std::string with_option_named(const std::string &text) {
 // it themselves.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
-  const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER;
+  const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||
+                    status == RIIS_LIMIT_EXCEEDED;
   if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_wrong_usage, with_option_named(riis_last_error())};
   throw Refusal{exit_bad_data, (data && !subject.empty() ? subject + ": " : "") + riis_last_error()};
 }

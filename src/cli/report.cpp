@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/valve_file.hpp"
+
 namespace riis::cli {
 namespace {
 
@@ -46,38 +48,48 @@ void add_seconds(const Seconds &seconds, std::ostringstream &out) {
 
 }  // namespace
 
+std::string surface_title(const Report &report) {
+  std::ostringstream out = table_stream();
+  out << report.surface_name;
+  if (report.opening) out << (is_valve_file(report.surface_name) ? "" : " valve") << ", opening " << *report.opening;
+  return out.str();
+}
+
 std::string json_of(const Report &report) {
   const riis_mark_stats &marks = report.marks;
   const Seconds &seconds = report.seconds;
-  const nlohmann::ordered_json json = {{"version", riis_version_string()},
-                                       {"n_nodes", marks.n_nodes},
-                                       {"n_cells", report.n_cells},
-                                       {"n_marked", marks.n_marked},
-                                       {"n_within_limit", marks.n_within_limit},
-                                       {"n_triangles", report.surface.n_triangles},
-                                       {"n_zero_area", report.surface.n_zero_area},
-                                       {"area", report.surface.area},
-                                       {"half_thickness", report.surface.half_thickness},
-                                       {"distance_limit", report.distance_limit},
-                                       {"search", search_name(marks.search)},
-                                       {"threads", marks.n_threads},
-                                       {"complete", marks.complete != 0},
-                                       {"seconds",
-                                        {{"read", seconds.read},
-                                         {"surface", seconds.surface},
-                                         {"scene", seconds.scene},
-                                         {"mesh", seconds.mesh},
-                                         {"search", seconds.search},
-                                         {"write", seconds.write},
-                                         {"picture", seconds.picture}}}};
+  nlohmann::ordered_json json = {{"version", riis_version_string()}};
+  json[report.opening ? "valve" : "surface"] = report.surface_name;
+  if (report.opening) json["opening"] = *report.opening;
+  json.update({{"n_nodes", marks.n_nodes},
+               {"n_cells", report.n_cells},
+               {"n_marked", marks.n_marked},
+               {"n_within_limit", marks.n_within_limit},
+               {"n_triangles", report.surface.n_triangles},
+               {"n_zero_area", report.surface.n_zero_area},
+               {"area", report.surface.area},
+               {"half_thickness", report.surface.half_thickness},
+               {"distance_limit", report.distance_limit},
+               {"search", search_name(marks.search)},
+               {"threads", marks.n_threads},
+               {"complete", marks.complete != 0},
+               {"seconds",
+                {{"read", seconds.read},
+                 {"surface", seconds.surface},
+                 {"scene", seconds.scene},
+                 {"mesh", seconds.mesh},
+                 {"search", seconds.search},
+                 {"write", seconds.write},
+                 {"picture", seconds.picture}}}});
   return json.dump(2) + "\n";
 }
 
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
-  out << "surface   " << report.surface_name << ": " << counted(report.surface.n_triangles, "triangle") << ", area "
+  out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle") << ", area "
       << report.surface.area;
-  if (report.from_file && report.surface.n_zero_area > 0)
+  // A valve always has some where a side is collapsed, a file should not.
+  if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";
   if (!report.mesh_name.empty()) add_marks(report, out);

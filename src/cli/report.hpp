@@ -4,6 +4,7 @@
 
 #include <riis/riis.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct Seconds {
 };
 
 struct Report {
-  std::string surface_name;  // what the surface is of, for people
-  bool from_file = false;    // a valve always has triangles without area to leave out, a file should not
-  std::string mesh_name;     // "": no mesh was marked
+  std::string surface_name;       // the valve's kind, or a file
+  std::optional<double> opening;  // of a valve; a surface from a file has none
+  std::string mesh_name;          // "": no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;
   riis_surface_info surface{};
@@ -31,6 +32,8 @@ struct Report {
   std::vector<std::string> written;  // files
 };
 
+// Such as "mitral valve, opening 0.5".
+std::string surface_title(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
 

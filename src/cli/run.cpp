@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
@@ -11,23 +13,61 @@
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
+#include "cli/valve_file.hpp"
 
 namespace riis::cli {
 namespace {
 
-Valve make_valve(const Options &options) {
+Valve make_kind(const std::string &kind) {
   riis_valve *handle = nullptr;
-  check(riis_valve_create(options.valve.c_str(), &handle), "--valve");
-  Valve valve(handle);
-  if (!options.params.empty()) set_from_json_file(valve.get(), options.params);
-  for (const std::string &setting : options.settings) set_from_text(valve.get(), setting);
+  const riis_status status = riis_valve_create(kind.c_str(), &handle);
+  if (status == RIIS_INVALID_PARAMETER) {
+    throw Refusal{exit_bad_data, std::string("--valve: ") + riis_last_error() + ", and files of patches, FILE.json"};
+  }
+  check(status);
+  return Valve(handle);
+}
+
+void set_parameters(const Options &options, riis_valve *valve) {
+  if (!options.params.empty()) set_from_json_file(valve, options.params);
+  for (const std::string &setting : options.settings) set_from_text(valve, setting);
+  if (options.opening) check(riis_valve_set_scalar(valve, "opening", *options.opening), "--opening");
+}
+
+double opening_of(const riis_valve *valve) {
+  double opening = 0;
+  check(riis_valve_get(valve, "opening", 1, &opening));
+  return opening;
+}
+
+Valve make_valve_of_kind(const Options &options) {
+  Valve valve = make_kind(options.valve);
+  set_parameters(options, valve.get());
+  if (!options.params_open.empty()) {
+    const Valve open = make_kind(options.valve);
+    set_from_json_file(open.get(), options.params_open);
+    check(riis_valve_set_open_state(valve.get(), open.get()), options.params_open);
+  }
   return valve;
+}
+
+Valve make_valve_of_file(const Options &options) {
+  const Stage stage("reading " + options.valve, options.quiet);
+  ValveFile file(options.valve);
+  set_parameters(options, file.valve());
+  if (!options.print_params) file.check_opening();
+  return file.take_valve();
+}
+
+Valve make_valve(const Options &options) {
+  return is_valve_file(options.valve) ? make_valve_of_file(options) : make_valve_of_kind(options);
 }
 
 Surface surface_of_valve(const Options &options, const riis_valve *valve) {
   const Stage stage("making the surface", options.quiet);
   riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &options.surface_options, &surface));
+  check(riis_surface_create(valve, &options.surface_options, &surface),
+        is_valve_file(options.valve) ? options.valve : "");
   return Surface(surface);
 }
 
@@ -127,13 +167,33 @@ void write_files(const Options &options, const riis_surface *surface, const riis
   report.seconds.write = stage.seconds();
 }
 
+std::vector<const char *> leaflet_names(const Options &options) {
+  if (!options.surface.empty()) return {};
+  if (options.valve == "aortic") return {"right", "left", "non-coronary"};
+  if (options.valve == "mitral") return {"anterior", "posterior"};
+  return {};
+}
+
+// Of a file the name without its folders; of a kind of valve the name with a capital, like the other captions.
+std::string picture_title(const Report &report) {
+  std::string title = surface_title(report);
+  title.erase(0, report.surface_name.rfind('/') + 1);
+  if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
 void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
+  const std::string title = picture_title(report);
+  const std::vector<const char *> names = leaflet_names(options);
   for (const Picture &picture : options.pictures) {
     const Stage stage("drawing " + picture.path, options.quiet);
     const UnbrokenWrite unbroken;
     riis_vtk_picture_options how;
     check(riis_vtk_picture_options_init(&how, sizeof how));
     how.view = picture.view;
+    how.title = title.c_str();
+    how.leaflet_names = names.data();
+    how.n_leaflet_names = static_cast<int64_t>(names.size());
     check(riis_vtk_draw(surface, mesh, &how, picture.path.c_str()));
     report.written.push_back(picture.path);
     report.seconds.picture += stage.seconds();
@@ -160,8 +220,8 @@ void run(const Options &options) {
   Report report;
   const Surface surface = valve ? surface_of_valve(options, valve.get()) : surface_of_file(options, report.seconds);
   check(riis_surface_get_info(surface.get(), &report.surface, sizeof report.surface));
-  report.surface_name = valve ? options.valve + " valve" : options.surface;
-  report.from_file = !valve;
+  report.surface_name = valve ? options.valve : options.surface;
+  if (valve) report.opening = opening_of(valve.get());
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera that fits the surface, to a .png file.
+// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to a .png file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
 
 #include <vtkCamera.h>
 #include <vtkErrorCode.h>
@@ -12,6 +13,7 @@
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -53,7 +55,7 @@ struct Extent {
   double half() const { return 0.5 * (upper - lower); }
 };
 
-Extent extent_along(vtkPolyData *data, const Vector &axis) {
+Extent extent_along(vtkPointSet *data, const Vector &axis) {
   Extent extent;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     double point[3];
@@ -65,14 +67,28 @@ Extent extent_along(vtkPolyData *data, const Vector &axis) {
   return extent;
 }
 
-// Without perspective, so that lengths can be compared between panels, and with room for the band and the texts around
-// the surface.
-void fit_camera(vtkRenderer *renderer, const View &view, vtkPolyData *surface, double aspect) {
+// What the camera fits: the surface; or the mesh around it, where that is not much larger, so that pictures of a valve that
+// moves in one mesh can be compared.
+vtkPointSet *in_sight(vtkPointSet *surface, vtkPointSet *mesh, const std::array<Vector, 3> &axes) {
+  if (!mesh) return surface;
+  double surface_size = 0, mesh_size = 0;
+  for (const Vector &axis : axes) {
+    const Extent inner = extent_along(surface, axis), outer = extent_along(mesh, axis);
+    if (outer.lower > inner.lower || outer.upper < inner.upper) return surface;
+    surface_size = std::max(surface_size, inner.half());
+    mesh_size = std::max(mesh_size, outer.half());
+  }
+  return mesh_size < 1.5 * surface_size ? mesh : surface;
+}
+
+// Without perspective, so that lengths can be compared between panels, and with room for the band and the texts.
+void fit_camera(vtkRenderer *renderer, const View &view, vtkPointSet *surface, vtkPointSet *mesh, double aspect) {
   Vector right;
   vtkMath::Cross(view.direction.data(), view.up.data(), right.data());
-  const Extent x = extent_along(surface, right);
-  const Extent y = extent_along(surface, view.up);
-  const Extent depth = extent_along(surface, view.direction);
+  vtkPointSet *seen = in_sight(surface, mesh, {right, view.up, view.direction});
+  const Extent x = extent_along(seen, right);
+  const Extent y = extent_along(seen, view.up);
+  const Extent depth = extent_along(seen, view.direction);
   const double size = std::max({x.half(), y.half(), depth.half()});
   Vector focus, eye;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -84,7 +100,7 @@ void fit_camera(vtkRenderer *renderer, const View &view, vtkPolyData *surface, d
   camera->SetFocalPoint(focus.data());
   camera->SetPosition(eye.data());
   camera->SetViewUp(view.up.data());
-  camera->SetParallelScale(1.3 * std::max(y.half(), x.half() / aspect));
+  camera->SetParallelScale((seen == surface ? 1.3 : 1.15) * std::max(y.half(), x.half() / aspect));
   renderer->ResetCameraClippingRange();
 }
 
@@ -103,6 +119,14 @@ void check_options(const riis_vtk_picture_options &options) {
   };
   check_pixels("width", options.width);
   check_pixels("height", options.height);
+  if (options.n_leaflet_names < 0 || (options.n_leaflet_names > 0 && !options.leaflet_names)) {
+    fail(RIIS_INVALID_ARGUMENT, "options->n_leaflet_names is " + std::to_string(options.n_leaflet_names) +
+                                    (options.leaflet_names ? "" : ", options->leaflet_names is NULL"));
+  }
+  for (int64_t i = 0; i < options.n_leaflet_names; ++i) {
+    if (!options.leaflet_names[i])
+      fail(RIIS_INVALID_ARGUMENT, "options->leaflet_names[" + std::to_string(i) + "] is NULL");
+  }
   if (options.reserved != 0) {
     fail(RIIS_INVALID_ARGUMENT, "options->reserved is " + std::to_string(options.reserved) + ", not 0");
   }
@@ -114,6 +138,24 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
       fail(RIIS_INVALID_ARGUMENT, "mesh has no marks: call riis_vtk_mesh_set_marks before riis_vtk_draw");
     }
   }
+}
+
+// VTK knows other letters only as UTF-8, and would take a line break.
+std::string drawable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+PanelTexts texts_of(const riis_vtk_picture_options &options, double panel_width) {
+  PanelTexts texts{std::max(8, options.height / 36),
+                   static_cast<int>(panel_width * options.width),
+                   options.title ? drawable(options.title) : "Surface",
+                   {}};
+  for (int64_t i = 0; i < options.n_leaflet_names; ++i) {
+    texts.leaflet_names.push_back(drawable(options.leaflet_names[i]));
+  }
+  return texts;
 }
 
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
@@ -138,8 +180,8 @@ void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk
   if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
   const HeldDisplay display;
   const vtkSmartPointer<vtkPolyData> triangles = polydata_of(surface);
-  const int text_size = std::max(8, options.height / 36);
   const double panel_width = mesh ? 0.5 : 1.0;
+  const PanelTexts texts = texts_of(options, panel_width);
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(8);
@@ -147,10 +189,11 @@ void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk
   const auto add = [&](vtkRenderer *renderer, double left) {
     renderer->SetViewport(left, 0, left + panel_width, 1);
     window->AddRenderer(renderer);
-    fit_camera(renderer, view_of(options.view), triangles, panel_width * options.width / options.height);
+    fit_camera(renderer, view_of(options.view), triangles, mesh ? mesh->grid : nullptr,
+               panel_width * options.width / options.height);
   };
-  add(surface_panel(triangles, text_size), 0);
-  if (mesh) add(marks_panel(mesh->grid, text_size), panel_width);
+  add(surface_panel(triangles, texts), 0);
+  if (mesh) add(marks_panel(mesh->grid, texts), panel_width);
   window->Render();
   caught.check(path);
   write_png(window, path, caught);
@@ -170,7 +213,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
       fail(RIIS_INVALID_STRUCT_SIZE,
            "struct_size is " + std::to_string(struct_size) + ", not " + std::to_string(sizeof *options));
     }
-    *options = {struct_size, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0};
+    *options = {struct_size, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, nullptr, nullptr, 0};
   });
 }
 

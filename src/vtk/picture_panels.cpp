@@ -68,15 +68,22 @@ void add_caption(vtkRenderer *renderer, const std::string &text, int size) {
   add_text(renderer, text, 0.03, 0.94, size, {text_grey, text_grey, text_grey});
 }
 
-// The names of the leaflets in their colours, along the lower edge.
-void add_key(vtkRenderer *renderer, const std::set<vtkIdType> &leaflets, int size) {
+std::string name_of(vtkIdType leaflet, const PanelTexts &texts) {
+  const auto at = static_cast<std::size_t>(leaflet);
+  return at < texts.leaflet_names.size() ? texts.leaflet_names[at] : "leaflet " + std::to_string(leaflet);
+}
+
+// The names of the leaflets in their colours, along the lower edge, as many as fit.
+void add_key(vtkRenderer *renderer, const std::set<vtkIdType> &leaflets, const PanelTexts &texts) {
   double x = 0.03;
   for (const vtkIdType leaflet : leaflets) {
-    if (x > 0.85) break;
+    const std::string name = name_of(leaflet, texts);
+    // Letters are half as wide as they are high, on average less.
+    const double width = 0.55 * texts.size * static_cast<double>(name.size()) / texts.panel_width;
+    if (x + width > 1) break;
     const Colour colour = colour_of(leaflet);
-    add_text(renderer, "leaflet " + std::to_string(leaflet), x, 0.03, size,
-             {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0});
-    x += 0.2;
+    add_text(renderer, name, x, 0.03, texts.size, {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0});
+    x += width + 1.5 * texts.size / texts.panel_width;
   }
 }
 
@@ -198,7 +205,7 @@ vtkIdType n_marked_nodes(vtkUnstructuredGrid *grid) {
 
 }  // namespace
 
-vtkSmartPointer<vtkRenderer> surface_panel(vtkPolyData *surface, int text_size) {
+vtkSmartPointer<vtkRenderer> surface_panel(vtkPolyData *surface, const PanelTexts &texts) {
   const vtkSmartPointer<vtkRenderer> renderer = empty_panel();
   const std::set<vtkIdType> leaflets = colour_faces(surface);
   vtkNew<vtkPolyDataNormals> smooth;
@@ -207,12 +214,12 @@ vtkSmartPointer<vtkRenderer> surface_panel(vtkPolyData *surface, int text_size) 
   smooth->ConsistencyOff();
   smooth->Update();
   add_coloured(renderer, smooth->GetOutput());
-  add_caption(renderer, "Surface: " + grouped(surface->GetNumberOfCells()) + " triangles", text_size);
-  add_key(renderer, leaflets, text_size);
+  add_caption(renderer, texts.title + ": " + grouped(surface->GetNumberOfCells()) + " triangles", texts.size);
+  add_key(renderer, leaflets, texts);
   return renderer;
 }
 
-vtkSmartPointer<vtkRenderer> marks_panel(vtkUnstructuredGrid *grid, int text_size) {
+vtkSmartPointer<vtkRenderer> marks_panel(vtkUnstructuredGrid *grid, const PanelTexts &texts) {
   const vtkSmartPointer<vtkRenderer> renderer = empty_panel();
   vtkIdType n_cells = 0;
   const vtkSmartPointer<vtkPolyData> faces = marked_faces(grid, n_cells);
@@ -222,7 +229,7 @@ vtkSmartPointer<vtkRenderer> marks_panel(vtkUnstructuredGrid *grid, int text_siz
   add_caption(renderer,
               "Marked: " + grouped(n_marked_nodes(grid)) + " of " + grouped(grid->GetNumberOfPoints()) + " nodes, " +
                   grouped(n_cells) + " whole cells",
-              text_size);
+              texts.size);
   return renderer;
 }
 

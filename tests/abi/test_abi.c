@@ -24,6 +24,18 @@
 
 static void test_structs(void **state) {
   (void)state;
+  SIZE(riis_patches, 72);
+  FIELD(riis_patches, struct_size, 0, 8);
+  FIELD(riis_patches, n_curves, 8, 8);
+  FIELD(riis_patches, degree, 16, 8);
+  FIELD(riis_patches, control, 24, 8);
+  FIELD(riis_patches, n_patches, 32, 8);
+  FIELD(riis_patches, curve_id, 40, 8);
+  FIELD(riis_patches, reversed, 48, 8);
+  FIELD(riis_patches, leaflet_id, 56, 8);
+  FIELD(riis_patches, index_base, 64, 4);
+  FIELD(riis_patches, reserved, 68, 4);
+
   SIZE(riis_parameter, 72);
   FIELD(riis_parameter, name, 0, 8);
   FIELD(riis_parameter, unit, 8, 8);
@@ -114,12 +126,15 @@ static void test_structs(void **state) {
   FIELD(riis_mark_stats, complete, 48, 4);
   FIELD(riis_mark_stats, reserved, 52, 4);
 
-  SIZE(riis_vtk_picture_options, 24);
+  SIZE(riis_vtk_picture_options, 48);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, view, 8, 4);
   FIELD(riis_vtk_picture_options, width, 12, 4);
   FIELD(riis_vtk_picture_options, height, 16, 4);
   FIELD(riis_vtk_picture_options, reserved, 20, 4);
+  FIELD(riis_vtk_picture_options, title, 24, 8);
+  FIELD(riis_vtk_picture_options, leaflet_names, 32, 8);
+  FIELD(riis_vtk_picture_options, n_leaflet_names, 40, 8);
 }
 
 static void test_constants(void **state) {
@@ -140,6 +155,8 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LEAFLET_RIGHT, 0);
   assert_int_equal(RIIS_LEAFLET_LEFT, 1);
   assert_int_equal(RIIS_LEAFLET_NON_CORONARY, 2);
+  assert_int_equal(RIIS_LEAFLET_ANTERIOR, 0);
+  assert_int_equal(RIIS_LEAFLET_POSTERIOR, 1);
   assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
   assert_int_equal(RIIS_SEARCH_AUTO, 0);
@@ -166,6 +183,9 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_valve_set, int32_t, (riis_valve *, const char *, int64_t, const double *));
   SIGNATURE(riis_valve_set_scalar, int32_t, (riis_valve *, const char *, double));
   SIGNATURE(riis_valve_get, int32_t, (const riis_valve *, const char *, int64_t, double *));
+  SIGNATURE(riis_valve_set_open_state, int32_t, (riis_valve *, const riis_valve *));
+  SIGNATURE(riis_patches_init, int32_t, (riis_patches *, int64_t));
+  SIGNATURE(riis_valve_create_from_patches, int32_t, (const riis_patches *, riis_valve **));
   SIGNATURE(riis_valve_n_parameters, int32_t, (const riis_valve *, int64_t *));
   SIGNATURE(riis_valve_parameter, int32_t, (const riis_valve *, int64_t, riis_parameter *, int64_t));
   SIGNATURE(riis_surface_options_init, int32_t, (riis_surface_options *, int64_t));

@@ -119,8 +119,9 @@ int json_has_text(const char *json, const char *key, const char *value) {
   return strncmp(value_of(json, key), value, strlen(value)) == 0;
 }
 
-int make_box(void **state) {
-  const double lower[3] = {-1.7, -1.6, -1.3}, upper[3] = {1.5, 1.6, 0.4};
+int make_box_of(void **state, const double lower[3], const double upper[3]) {
   scratch_setup(state);
   return shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_box_side, lower, upper, 1) ? 0 : -1;
 }
+
+int make_box(void **state) { return make_box_of(state, (double[3]){-1.7, -1.6, -1.3}, (double[3]){1.5, 1.6, 0.4}); }

@@ -45,5 +45,7 @@ int json_has_text(const char *json, const char *key, const char *value);
 /* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */
 enum { n_box_side = 13, n_box = n_box_side * n_box_side * n_box_side };
 int make_box(void **state);
+/* The same with other corners. */
+int make_box_of(void **state, const double lower[3], const double upper[3]);
 
 #endif

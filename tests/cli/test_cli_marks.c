@@ -6,100 +6,10 @@
 #include <string.h>
 
 #include "expect.h"
+#include "marks.h"
 #include "program.h"
 #include "scratch.h"
 #include "vtk_shim.h"
-
-/* What the C interface says about in.vtu. */
-typedef struct expected_marks {
-  riis_surface *surface;
-  uint8_t marked[n_box];
-  double distance[n_box];
-  int32_t leaflet[n_box];
-  riis_mark_stats stats;
-} expected_marks;
-
-static expected_marks expected;
-
-static void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_options, double distance_limit,
-                      double far_distance) {
-  static double xyz[3 * n_box];
-  riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
-  riis_mark_options mark_options;
-  assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, NULL, xyz), 1);
-  riis_surface_destroy(&expected.surface);
-  expect_fine(riis_surface_create(valve, surface_options, &expected.surface));
-  expect_fine(riis_mesh_create(n_box, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  expect_fine(riis_mark_result_create(&result));
-  expect_fine(riis_mark_options_init(&mark_options, sizeof mark_options));
-  mark_options.distance_limit = distance_limit;
-  expect_fine(riis_mark_nodes(expected.surface, mesh, &mark_options, result));
-  expect_fine(
-      riis_mark_result_dense(result, n_box, far_distance, expected.marked, expected.distance, NULL, expected.leaflet));
-  expect_fine(riis_mark_result_stats(result, &expected.stats, sizeof expected.stats));
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-}
-
-static void expect_array(const char *name, const char *expected_type, int kind) {
-  static double values[n_box];
-  char type[32];
-  int64_t n_components = 0, n_tuples = 0;
-  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', name, type, &n_components, &n_tuples, values), 1);
-  assert_string_equal(type, expected_type);
-  assert_int_equal(n_components, 1);
-  assert_int_equal(n_tuples, n_box);
-  for (int i = 0; i < n_box; ++i) {
-    const double wanted = kind == 0 ? expected.marked[i] : kind == 1 ? expected.distance[i] : expected.leaflet[i];
-    if (memcmp(&values[i], &wanted, sizeof wanted))
-      fail_msg("%s of node %d is %.17g, not %.17g", name, i, values[i], wanted);
-  }
-}
-
-/* out.vtu is in.vtu, its points as doubles, with the expected marks. */
-static void expect_marked_mesh(void) {
-  static double before[3 * n_box], after[3 * n_box];
-  static int64_t corners[2][24 * n_box];
-  int64_t n_points = 0, n_cells = 0;
-  char type[32];
-  assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, type, before), 1);
-  assert_string_equal(type, "float");
-  assert_int_equal(shim_read_points(scratch_path("out.vtu"), &n_points, &n_cells, type, after), 1);
-  assert_string_equal(type, "double");
-  assert_int_equal(n_points, n_box);
-  assert_memory_equal(before, after, sizeof before);
-  const int64_t n_corners = shim_read_corners(scratch_path("in.vtu"), corners[0]);
-  assert_int_equal(shim_read_corners(scratch_path("out.vtu"), corners[1]), n_corners);
-  assert_memory_equal(corners[0], corners[1], (size_t)n_corners * sizeof corners[0][0]);
-  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "pressure", NULL, NULL, NULL, NULL), 1);
-  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'c', "region", NULL, NULL, NULL, NULL), 1);
-  expect_array("riis_marked", "unsigned char", 0);
-  expect_array("riis_distance", "double", 1);
-  expect_array("riis_leaflet", "int", 2);
-  assert_true(expected.stats.n_marked > 20);
-}
-
-static void expect_surface_output(void) {
-  int64_t n_vertices = 0, n_triangles = 0, n_points = 0, n_cells = 0;
-  const double *xyz = NULL;
-  const int64_t *vertex_id = NULL;
-  expect_fine(riis_surface_vertices(expected.surface, &n_vertices, &xyz));
-  expect_fine(riis_surface_triangles(expected.surface, &n_triangles, &vertex_id, NULL, NULL, NULL));
-  char type[32];
-  assert_int_equal(shim_read_points(scratch_path("out.vtp"), &n_points, &n_cells, type, NULL), 1);
-  assert_string_equal(type, "double");
-  assert_int_equal(n_points, n_vertices);
-  assert_int_equal(n_cells, n_triangles);
-  double *points = malloc((size_t)(3 * n_points) * sizeof *points);
-  shim_read_points(scratch_path("out.vtp"), NULL, NULL, NULL, points);
-  assert_memory_equal(points, xyz, (size_t)(3 * n_points) * sizeof *points);
-  free(points);
-  int64_t *corners = malloc((size_t)(3 * n_cells) * sizeof *corners);
-  assert_int_equal(shim_read_corners(scratch_path("out.vtp"), corners), 3 * n_triangles);
-  assert_memory_equal(corners, vertex_id, (size_t)(3 * n_cells) * sizeof *corners);
-  free(corners);
-}
 
 static void test_defaults(void **state) {
   (void)state;
@@ -146,11 +56,11 @@ static void test_every_number(void **state) {
   assert_string_equal(program_out, "");
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   riis_surface_info info;
-  expect_fine(riis_surface_get_info(expected.surface, &info, sizeof info));
+  expect_fine(riis_surface_get_info(by_c.surface, &info, sizeof info));
   assert_true(json_number(json, "n_nodes") == n_box);
-  assert_true(json_number(json, "n_marked") == (double)expected.stats.n_marked);
-  assert_true(json_number(json, "n_within_limit") == (double)expected.stats.n_within_limit);
-  assert_true(expected.stats.n_within_limit > expected.stats.n_marked);
+  assert_true(json_number(json, "n_marked") == (double)by_c.stats.n_marked);
+  assert_true(json_number(json, "n_within_limit") == (double)by_c.stats.n_within_limit);
+  assert_true(by_c.stats.n_within_limit > by_c.stats.n_marked);
   assert_true(json_number(json, "n_triangles") == (double)info.n_triangles);
   assert_true(json_number(json, "area") == info.area);
   assert_true(json_number(json, "half_thickness") == 0.17);
@@ -231,7 +141,7 @@ static void test_legacy_mesh(void **state) {
 }
 
 static int destroy_all(void **state) {
-  riis_surface_destroy(&expected.surface);
+  forget_marks();
   return scratch_teardown(state);
 }
 

@@ -22,12 +22,38 @@ static void test_version(void **state) {
 static void test_help(void **state) {
   (void)state;
   RUN_FINE("--help");
-  const char *names[] = {"MESH",           "--surface",       "--valve",          "--params",         "--set",
-                         "--print-params", "--tolerance",     "--skip-zero-area", "--flip-normals",   "--scale",
-                         "--rotate",       "--translate",     "--half-thickness", "--distance-limit", "--far-distance",
-                         "--search",       "--threads",       "--output",         "--surface-output", "--picture",
-                         "--view",         "--stats",         "--quiet",          "--version",        "Exit status",
-                         "  1  bad data",  "  2  wrong usage"};
+  const char *names[] = {"MESH",
+                         "--surface",
+                         "--valve",
+                         "--params",
+                         "--set",
+                         "--print-params",
+                         "--tolerance",
+                         "--skip-zero-area",
+                         "--flip-normals",
+                         "--scale",
+                         "--rotate",
+                         "--translate",
+                         "--half-thickness",
+                         "--distance-limit",
+                         "--far-distance",
+                         "--search",
+                         "--threads",
+                         "--output",
+                         "--surface-output",
+                         "--picture",
+                         "--view",
+                         "--stats",
+                         "--quiet",
+                         "--version",
+                         "--opening",
+                         "--params-closed",
+                         "--params-open",
+                         "mitral",
+                         "\"patches\"",
+                         "Exit status",
+                         "  1  bad data",
+                         "  2  wrong usage"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
     if (!strstr(program_out, names[i])) fail_msg("%s is not in the help", names[i]);
   }

@@ -42,10 +42,10 @@ static void test_usage(void **state) {
 
 static void test_empty_values(void **state) {
   (void)state;
-  const char *options[] = {"--surface",   "--valve",          "--params",         "--set",
-                           "--tolerance", "--scale",          "--rotate",         "--translate",
-                           "--threads",   "--half-thickness", "--distance-limit", "--far-distance",
-                           "--output",    "--picture",        "--stats",          "--surface-output"};
+  const char *options[] = {"--surface",        "--valve",        "--params",     "--set",     "--tolerance",
+                           "--scale",          "--rotate",       "--translate",  "--threads", "--half-thickness",
+                           "--distance-limit", "--far-distance", "--output",     "--picture", "--stats",
+                           "--surface-output", "--opening",      "--params-open"};
   for (size_t i = 0; i < sizeof options / sizeof options[0]; ++i) {
     char text[64];
     snprintf(text, sizeof text, "%s: the value is empty", options[i]);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static riis_valve *valve;
-static riis_surface *surface, *plate;
+static riis_surface *surface, *plate, *mitral, *opening, *patches;
 static riis_mesh *mesh;
 static riis_mark_result *result;
 static void *memory[16];
@@ -35,6 +35,13 @@ static riis_status describe_parameters(twin_numbers *numbers) {
   return RIIS_OK;
 }
 
+static riis_status list_surface(const riis_surface *from, twin_surface *list) {
+  TRY(riis_surface_get_info(from, &list->info, sizeof list->info));
+  TRY(riis_surface_vertices(from, NULL, &list->xyz));
+  TRY(riis_surface_vertex_parameters(from, NULL, &list->uv));
+  return riis_surface_triangles(from, NULL, &list->vertex_id, &list->triangle_id, &list->leaflet_id, &list->patch_id);
+}
+
 static riis_status make_surface(twin_numbers *numbers) {
   const double rotation[3] = {0, 0, 120}, translation[3] = {0.1, 0, -1};
   TRY(riis_valve_create("aortic", &valve));
@@ -56,11 +63,54 @@ static riis_status make_surface(twin_numbers *numbers) {
   options.translation[1] = -2;
   options.translation[2] = 3;
   TRY(riis_surface_update(surface, valve, &options));
-  TRY(riis_surface_get_info(surface, &numbers->info, sizeof numbers->info));
-  TRY(riis_surface_vertices(surface, NULL, &numbers->xyz));
-  TRY(riis_surface_vertex_parameters(surface, NULL, &numbers->uv));
-  return riis_surface_triangles(surface, NULL, &numbers->vertex_id, &numbers->triangle_id, &numbers->leaflet_id,
-                                &numbers->patch_id);
+  return list_surface(surface, &numbers->aortic);
+}
+
+/* Makes the surface of a valve that is then not needed any more. */
+static riis_status make_other_surface(riis_valve **of, riis_surface **made, twin_surface *list) {
+  TRY(riis_surface_create(*of, NULL, made));
+  riis_valve_destroy(of);
+  return list_surface(*made, list);
+}
+
+static riis_status make_mitral(twin_numbers *numbers) {
+  riis_valve *of = NULL;
+  TRY(riis_valve_create("mitral", &of));
+  TRY(riis_valve_set_scalar(of, "opening", 0.5));
+  return make_other_surface(&of, &mitral, &numbers->mitral);
+}
+
+static riis_status make_opening(twin_numbers *numbers) {
+  riis_valve *closed = NULL, *open = NULL;
+  TRY(riis_valve_create("aortic", &closed));
+  TRY(riis_valve_create("aortic", &open));
+  TRY(riis_valve_set_scalar(open, "leaflet_radius_in", 1.1));
+  TRY(riis_valve_set_open_state(closed, open));
+  riis_valve_destroy(&open);
+  TRY(riis_valve_set_scalar(closed, "opening", 0.3));
+  return make_other_surface(&closed, &opening, &numbers->opening);
+}
+
+static riis_status make_patches(twin_numbers *numbers) {
+  /* Two patches side by side that share a curve; the last curve is run along backwards. */
+  const int32_t degree[7] = {2, 1, 1, 3, 2, 1, 1};
+  const double control[3 * 18] = {-8, -8, 0, -4, -8, 4, 0, -8, 2, -8, 8, 0, 0, 8, 2, -8, -8, 0,
+                                  -8, 8,  0, 0,  -8, 2, 1, -3, 1, -1, 3, 1, 0, 8, 2, 0,  -8, 2,
+                                  4,  -8, 4, 8,  -8, 0, 0, 8,  2, 8,  8, 0, 8, 8, 0, 8,  -8, 0};
+  const int32_t curve_id[8] = {1, 2, 3, 4, 5, 6, 4, 7}, reversed[8] = {0, 0, 0, 0, 0, 0, 0, 1}, leaflet_id[2] = {1, 7};
+  riis_patches arrays;
+  riis_valve *of = NULL;
+  TRY(riis_patches_init(&arrays, sizeof arrays));
+  arrays.n_curves = 7;
+  arrays.degree = degree;
+  arrays.control = control;
+  arrays.n_patches = 2;
+  arrays.curve_id = curve_id;
+  arrays.reversed = reversed;
+  arrays.leaflet_id = leaflet_id;
+  arrays.index_base = 1;
+  TRY(riis_valve_create_from_patches(&arrays, &of));
+  return make_other_surface(&of, &patches, &numbers->patches);
 }
 
 static riis_status make_plate(void) {
@@ -149,6 +199,9 @@ static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *number
 
 riis_status twin_run(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
   TRY(make_surface(numbers));
+  TRY(make_mitral(numbers));
+  TRY(make_opening(numbers));
+  TRY(make_patches(numbers));
   TRY(make_plate());
   TRY(find_closest(n_nodes, xyz, numbers));
   return mark(n_nodes, xyz, numbers);
@@ -157,6 +210,9 @@ riis_status twin_run(int64_t n_nodes, const double *xyz, twin_numbers *numbers) 
 void twin_end(void) {
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&patches);
+  riis_surface_destroy(&opening);
+  riis_surface_destroy(&mitral);
   riis_surface_destroy(&plate);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
@@ -174,6 +230,8 @@ void twin_end(void) {
 #define AT(field) offsetof(T, field)
 
 int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers) {
+  LAYOUT(riis_patches, AT(struct_size), AT(n_curves), AT(degree), AT(control), AT(n_patches), AT(curve_id),
+         AT(reversed), AT(leaflet_id), AT(index_base), AT(reserved))
   LAYOUT(riis_parameter, AT(name), AT(unit), AT(description), AT(n_values), AT(default_values), AT(minimum),
          AT(maximum))
   LAYOUT(riis_surface_options, AT(struct_size), AT(half_thickness), AT(tolerance), AT(scale), AT(rotation_axis),

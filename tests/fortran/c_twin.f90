@@ -5,19 +5,23 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_numbers, twin_run, twin_end, twin_layout, twin_auto, twin_far_distance
+  public :: twin_list, twin_surface, twin_numbers, twin_run, twin_end, twin_layout, twin_auto, twin_far_distance
 
   type, bind(c) :: twin_list
     integer(c_int64_t) :: n
     type(c_ptr) :: node_id, distance, triangle_id, leaflet_id
   end type twin_list
 
-  type, bind(c) :: twin_numbers
-    integer(c_int64_t) :: n_parameters
-    type(c_ptr) :: parameters
+  type, bind(c) :: twin_surface
     type(riis_surface_info) :: info
     type(c_ptr) :: xyz, uv
     type(c_ptr) :: vertex_id, triangle_id, leaflet_id, patch_id
+  end type twin_surface
+
+  type, bind(c) :: twin_numbers
+    integer(c_int64_t) :: n_parameters
+    type(c_ptr) :: parameters
+    type(twin_surface) :: aortic, mitral, opening, patches
     type(riis_closest) :: closest
     type(riis_closest_arrays) :: all
     type(twin_list) :: marked, within_limit

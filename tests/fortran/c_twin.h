@@ -14,15 +14,23 @@ typedef struct twin_list {
   const int32_t *leaflet_id;
 } twin_list;
 
-/* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
-typedef struct twin_numbers {
-  int64_t n_parameters;
-  const riis_parameter *parameters; /* (n_parameters) */
+/* A surface, listed. */
+typedef struct twin_surface {
   riis_surface_info info;
   const double *xyz, *uv;
   const int64_t *vertex_id, *triangle_id;
   const int32_t *leaflet_id, *patch_id;
-  riis_closest closest;    /* of the first node */
+} twin_surface;
+
+/* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
+typedef struct twin_numbers {
+  int64_t n_parameters;
+  const riis_parameter *parameters; /* (n_parameters) */
+  twin_surface aortic;
+  twin_surface mitral;     /* half open */
+  twin_surface opening;    /* the aortic valve, on its way to a second state */
+  twin_surface patches;    /* a valve from patches */
+  riis_closest closest;    /* of the first node, on the aortic valve */
   riis_closest_arrays all; /* of all nodes, on the surface from arrays */
   twin_list marked, within_limit;
   const uint8_t *dense_mark;

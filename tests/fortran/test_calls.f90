@@ -51,6 +51,9 @@ program test_calls
   call test_version_and_texts()
   call test_valve()
   call test_surface()
+  call test_mitral_valve()
+  call test_open_state()
+  call test_valve_from_patches()
   call test_surface_from_arrays()
   call test_closest_points()
   call test_marking()
@@ -152,10 +155,8 @@ contains
 
   subroutine test_surface()
     type(riis_surface_options) :: options
-    type(riis_surface_info), target :: info
-    type(c_ptr) :: other = c_null_ptr, vertices = c_null_ptr, parameters = c_null_ptr
-    type(c_ptr) :: vertex_id = c_null_ptr, triangle_id = c_null_ptr, leaflet_id = c_null_ptr, patch_id = c_null_ptr
-    integer(c_int64_t) :: n, n_vertices, n_triangles
+    type(c_ptr) :: other = c_null_ptr, leaflet_id = c_null_ptr
+    integer(c_int64_t) :: n, n_triangles
     integer(c_int32_t), pointer :: leaflets(:)
 
     call check_refused(riis_surface_options_init(options, 12_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
@@ -171,23 +172,9 @@ contains
     options%translation = [1, -2, 3]
     call check_ok(riis_surface_update(surface, valve, options), 'update a surface')
 
-    call check_ok(riis_surface_get_info(surface, info, c_sizeof(info)), 'describe a surface')
-    ! Times differ: up to them.
-    call check_same_bytes(c_loc(info), c_loc(twin%info), 88_c_int64_t, 'the surface')
-    call check(info%seconds_triangles > 0 .and. info%seconds_scene > 0, 'a surface takes time')
-    call check_ok(riis_surface_vertices(surface, n_vertices, vertices), 'vertices')
-    call check(n_vertices == info%n_vertices, 'the number of vertices')
-    call check_same_bytes(vertices, twin%xyz, 24 * n_vertices, 'vertices')
-    call check_ok(riis_surface_vertex_parameters(surface, n, parameters), 'vertex parameters')
-    call check(n == n_vertices, 'the number of vertices')
-    call check_same_bytes(parameters, twin%uv, 16 * n_vertices, 'vertex parameters')
-    call check_ok(riis_surface_triangles(surface, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id), &
-      'triangles')
-    call check(n_triangles == info%n_triangles, 'the number of triangles')
-    call check_same_bytes(vertex_id, twin%vertex_id, 24 * n_triangles, 'vertex ids')
-    call check_same_bytes(triangle_id, twin%triangle_id, 8 * n_triangles, 'triangle ids')
-    call check_same_bytes(leaflet_id, twin%leaflet_id, 4 * n_triangles, 'leaflet ids')
-    call check_same_bytes(patch_id, twin%patch_id, 4 * n_triangles, 'patch ids')
+    call check_same_surface(surface, twin%aortic, 'the aortic valve')
+    call check_ok(riis_surface_triangles(surface, n_triangles, leaflet_id=leaflet_id), 'leaflet ids alone')
+    call check(n_triangles == twin%aortic%info%n_triangles, 'the number of triangles')
     call c_f_pointer(leaflet_id, leaflets, [n_triangles])
     call check(minval(leaflets) == RIIS_LEAFLET_RIGHT .and. maxval(leaflets) == RIIS_LEAFLET_NON_CORONARY .and. &
       any(leaflets == RIIS_LEAFLET_LEFT), 'three leaflets')
@@ -206,6 +193,103 @@ contains
     call check_ok(riis_surface_triangles(surface, n), 'triangles')
     call check(n == n_triangles, 'a surface stays as it was when its update is refused')
   end subroutine test_surface
+
+  subroutine check_same_surface(made, from_c, what)
+    type(c_ptr), intent(in) :: made
+    type(twin_surface), target, intent(in) :: from_c
+    character(len=*), intent(in) :: what
+    type(riis_surface_info), target :: info
+    type(c_ptr) :: vertices, parameters, vertex_id, triangle_id, leaflet_id, patch_id
+    integer(c_int64_t) :: n_vertices, n_parameters, n_triangles
+
+    call check_ok(riis_surface_get_info(made, info, c_sizeof(info)), what // ': describe a surface')
+    ! Times differ: up to them.
+    call check_same_bytes(c_loc(info), c_loc(from_c%info), 88_c_int64_t, what // ': description')
+    call check(info%seconds_triangles > 0 .and. info%seconds_scene > 0, what // ': a surface takes time')
+    call check_ok(riis_surface_vertices(made, n_vertices, vertices), what // ': vertices')
+    call check(n_vertices == info%n_vertices, what // ': the number of vertices')
+    call check_same_bytes(vertices, from_c%xyz, 24 * n_vertices, what // ': vertices')
+    call check_ok(riis_surface_vertex_parameters(made, n_parameters, parameters), what // ': vertex parameters')
+    call check(n_parameters == n_vertices, what // ': the number of vertex parameters')
+    call check_same_bytes(parameters, from_c%uv, 16 * n_vertices, what // ': vertex parameters')
+    call check_ok(riis_surface_triangles(made, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id), &
+      what // ': triangles')
+    call check(n_triangles == info%n_triangles, what // ': the number of triangles')
+    call check_same_bytes(vertex_id, from_c%vertex_id, 24 * n_triangles, what // ': vertex ids')
+    call check_same_bytes(triangle_id, from_c%triangle_id, 8 * n_triangles, what // ': triangle ids')
+    call check_same_bytes(leaflet_id, from_c%leaflet_id, 4 * n_triangles, what // ': leaflet ids')
+    call check_same_bytes(patch_id, from_c%patch_id, 4 * n_triangles, what // ': patch ids')
+  end subroutine check_same_surface
+
+  subroutine test_mitral_valve()
+    type(c_ptr) :: mitral = c_null_ptr, made = c_null_ptr, leaflet_id = c_null_ptr
+    integer(c_int64_t) :: n_triangles
+    integer(c_int32_t), pointer :: leaflets(:)
+    call check_ok(riis_valve_create(riis_c_string('mitral'), mitral), 'create a mitral valve')
+    call check_refused(riis_valve_set_scalar(mitral, riis_c_string('opening'), 1.5d0), RIIS_INVALID_PARAMETER, &
+      'opening')
+    call check_ok(riis_valve_set_scalar(mitral, riis_c_string('opening'), 0.5d0), 'open it half')
+    call check_ok(riis_surface_create(mitral, surface=made), 'create its surface')
+    call check_same_surface(made, twin%mitral, 'the mitral valve')
+    call check_ok(riis_surface_triangles(made, n_triangles, leaflet_id=leaflet_id), 'leaflet ids alone')
+    call c_f_pointer(leaflet_id, leaflets, [n_triangles])
+    call check(minval(leaflets) == RIIS_LEAFLET_ANTERIOR .and. maxval(leaflets) == RIIS_LEAFLET_POSTERIOR, &
+      'two leaflets')
+    call riis_surface_destroy(made)
+    call riis_valve_destroy(mitral)
+  end subroutine test_mitral_valve
+
+  subroutine test_open_state()
+    type(c_ptr) :: closed = c_null_ptr, open = c_null_ptr, mitral = c_null_ptr, made = c_null_ptr
+    call check_ok(riis_valve_create(riis_c_string('aortic'), closed), 'create a valve')
+    call check_ok(riis_valve_create(riis_c_string('aortic'), open), 'create its open state')
+    call check_ok(riis_valve_create(riis_c_string('mitral'), mitral), 'create another kind of valve')
+    call check_ok(riis_valve_set_scalar(open, riis_c_string('leaflet_radius_in'), 1.1d0), 'change the open state')
+    call check_refused(riis_valve_set_open_state(closed, mitral), RIIS_INVALID_PARAMETER, 'mitral')
+    call check_refused(riis_valve_set_open_state(closed, c_null_ptr), RIIS_INVALID_ARGUMENT, 'open')
+    call check_ok(riis_valve_set_open_state(closed, open), 'set the open state')
+    call riis_valve_destroy(open)
+    call riis_valve_destroy(mitral)
+    call check_ok(riis_valve_set_scalar(closed, riis_c_string('opening'), 0.3d0), 'open it')
+    call check_ok(riis_surface_create(closed, surface=made), 'create its surface')
+    call check_same_surface(made, twin%opening, 'the opening aortic valve')
+    call riis_surface_destroy(made)
+    call riis_valve_destroy(closed)
+  end subroutine test_open_state
+
+  subroutine test_valve_from_patches()
+    integer(c_int32_t), target :: degree(7), curve_id(4, 2), reversed(4, 2), leaflet_id(2)
+    real(c_double), target :: control(3, 18)
+    type(riis_patches) :: patches
+    type(c_ptr) :: given = c_null_ptr, made = c_null_ptr
+
+    degree = [2, 1, 1, 3, 2, 1, 1]
+    control = reshape([-8, -8, 0, -4, -8, 4, 0, -8, 2, -8, 8, 0, 0, 8, 2, -8, -8, 0, -8, 8, 0, 0, -8, 2, 1, -3, 1, &
+      -1, 3, 1, 0, 8, 2, 0, -8, 2, 4, -8, 4, 8, -8, 0, 0, 8, 2, 8, 8, 0, 8, 8, 0, 8, -8, 0], [3, 18])
+    curve_id = reshape([1, 2, 3, 4, 5, 6, 4, 7], [4, 2])
+    reversed = 0
+    reversed(4, 2) = 1
+    leaflet_id = [1, 7]
+    call check_refused(riis_patches_init(patches, 64_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_patches_init(patches, c_sizeof(patches)), 'default patches')
+    call check(patches%struct_size == c_sizeof(patches) .and. patches%n_curves == 0 .and. &
+      patches%index_base == 0 .and. .not. c_associated(patches%reversed), 'the defaults of the patches')
+    patches%n_curves = size(degree)
+    patches%degree = c_loc(degree)
+    patches%control = c_loc(control)
+    patches%n_patches = size(leaflet_id)
+    patches%curve_id = c_loc(curve_id)
+    patches%leaflet_id = c_loc(leaflet_id)
+    patches%index_base = 1
+    call check_refused(riis_valve_create_from_patches(patches, given), RIIS_INVALID_PARAMETER, 'patch 1 is open')
+    call check(.not. c_associated(given), 'no valve is made by a call that is refused')
+    patches%reversed = c_loc(reversed)
+    call check_ok(riis_valve_create_from_patches(patches, given), 'create a valve from patches')
+    call check_ok(riis_surface_create(given, surface=made), 'create its surface')
+    call check_same_surface(made, twin%patches, 'the valve from patches')
+    call riis_surface_destroy(made)
+    call riis_valve_destroy(given)
+  end subroutine test_valve_from_patches
 
   subroutine test_surface_from_arrays()
     real(c_double), target :: x(6), y(6), z(6)

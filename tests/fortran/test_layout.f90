@@ -7,6 +7,7 @@ program test_layout
   use c_twin
   use riis_c
   implicit none
+  type(riis_patches), target :: pa
   type(riis_parameter), target :: p
   type(riis_surface_options), target :: so
   type(riis_surface_arrays), target :: sa
@@ -17,6 +18,9 @@ program test_layout
   type(riis_mark_options), target :: mo
   type(riis_mark_stats), target :: ms
 
+  call compare('riis_patches', c_sizeof(pa), c_loc(pa), [at(c_loc(pa%struct_size)), at(c_loc(pa%n_curves)), &
+    at(c_loc(pa%degree)), at(c_loc(pa%control)), at(c_loc(pa%n_patches)), at(c_loc(pa%curve_id)), &
+    at(c_loc(pa%reversed)), at(c_loc(pa%leaflet_id)), at(c_loc(pa%index_base)), at(c_loc(pa%reserved))])
   call compare('riis_parameter', c_sizeof(p), c_loc(p), [at(c_loc(p%name)), at(c_loc(p%unit)), &
     at(c_loc(p%description)), at(c_loc(p%n_values)), at(c_loc(p%default_values)), at(c_loc(p%minimum)), &
     at(c_loc(p%maximum))])

@@ -24,6 +24,8 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
+examples=(first_marking prosthesis)
+
 configure_consumer() { # source directory, build directory, prefix, more options
   local arguments=(-DCMAKE_PREFIX_PATH="$3" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX"
     -DCMAKE_C_FLAGS="${c_flags[*]}")
@@ -37,17 +39,38 @@ library_dir() { # of a prefix
   dirname "$(dirname "$(find "$1" -name riis.pc)")"
 }
 
-# The first marking of C and of Fortran; both have to find something, and the same.
-compare_examples() { # C program, Fortran program or nothing
-  "$1" >"$work/c.txt"
-  grep -q '^closest: node' "$work/c.txt" || problem "$1 marked nothing"
+# An example in C and in Fortran; both have to mark something, and the same.
+compare_example() { # name, C program, Fortran program or nothing
+  "$2" >"$work/c.txt"
+  grep -q 'marked: *[1-9]' "$work/c.txt" || problem "$2 marked nothing"
   if has Fortran; then
-    "$2" >"$work/fortran.txt"
-    diff "$work/c.txt" "$work/fortran.txt" || problem "$1 and $2 disagree"
+    "$3" >"$work/fortran.txt"
+    diff "$work/c.txt" "$work/fortran.txt" || problem "$2 and $3 disagree"
   fi
   # Whatever it was built with, every consumer prints what the first one did.
-  [ -e "$work/first.txt" ] || cp "$work/c.txt" "$work/first.txt"
-  diff "$work/first.txt" "$work/c.txt" || problem "$1 does not print what the consumers before it did"
+  [ -e "$work/$1.txt" ] || cp "$work/c.txt" "$work/$1.txt"
+  diff "$work/$1.txt" "$work/c.txt" || problem "$2 does not print what the consumers before it did"
+}
+
+# The prosthesis from its file: as many nodes marked at each opening as the example marks.
+check_prosthesis_file() { # riis-mark
+  local opening
+  awk 'BEGIN {
+    n = 27; n_nodes = n * n * n
+    print "# vtk DataFile Version 3.0\nthe box of the example\nASCII\nDATASET UNSTRUCTURED_GRID"
+    print "POINTS", n_nodes, "double"
+    for (i = 0; i < n_nodes; ++i)
+      print -1.625 + 0.125 * (i % n), -1.625 + 0.125 * (int(i / n) % n), -1 + 0.125 * int(i / (n * n))
+    print "CELLS", n_nodes, 2 * n_nodes
+    for (i = 0; i < n_nodes; ++i) print 1, i
+    print "CELL_TYPES", n_nodes
+    for (i = 0; i < n_nodes; ++i) print 1
+  }' >"$work/box.vtk"
+  for opening in 0.0 0.5 1.0; do
+    "$1" "$work/box.vtk" --valve "$source/examples/prosthesis.json" --opening $opening --stats - |
+      sed -n "s/.*\"n_marked\": \([0-9]*\).*/opening $opening, marked: \1/p"
+  done >"$work/file.txt"
+  grep '^opening' "$work/prosthesis.txt" | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
 }
 
 check_by_cmake() { # prefix
@@ -55,7 +78,10 @@ check_by_cmake() { # prefix
   quietly configure_consumer "$source/examples" "$work/cmake" "$1"
   grep -q "^riis_DIR:PATH=$1/" "$work/cmake/CMakeCache.txt" || problem "another riis was found than that in $1"
   quietly "$CMAKE" --build "$work/cmake"
-  compare_examples "$work/cmake/first_marking" "$work/cmake/first_marking_fortran"
+  local example
+  for example in "${examples[@]}"; do
+    compare_example "$example" "$work/cmake/$example" "$work/cmake/${example}_fortran"
+  done
 
   if has VTK; then
     rm -rf "$work/cmake_vtk"
@@ -94,26 +120,30 @@ check_by_pkg_config() { # prefix, more pkg-config options
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"
-  # The flags are words.
-  # shellcheck disable=SC2046
-  quietly "$CC" "${c_flags[@]}" "$source/examples/first_marking.c" -o "$out/first_marking" \
-    $(flags --cflags --libs "${@:2}" riis)
-  if has Fortran; then
+  local example file
+  for example in "${examples[@]}"; do
+    file=$source/examples/$example
+    # The flags are words.
     # shellcheck disable=SC2046
-    quietly "$FC" "${fortran_flags[@]}" "$source/examples/first_marking.f90" -o "$out/first_marking_fortran" \
-      $(flags --cflags --libs "${@:2}" riis-fortran)
-  fi
+    quietly "$CC" "${c_flags[@]}" "$file.c" -o "$out/$example" $(flags --cflags --libs "${@:2}" riis)
+    if has Fortran; then
+      # shellcheck disable=SC2046
+      quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" \
+        $(flags --cflags --libs "${@:2}" riis-fortran)
+      # As with a compiler that cannot read the module file: from the installed source.
+      # shellcheck disable=SC2046
+      quietly "$FC" "${fortran_flags[@]}" -J "$out" "$(find "$1" -name riis_c.f90)" "$file.f90" \
+        -o "$out/${example}_source" $(flags --libs "${@:2}" riis)
+    fi
+  done
   local -x LD_LIBRARY_PATH
   LD_LIBRARY_PATH=$(library_dir "$1")
-  compare_examples "$out/first_marking" "$out/first_marking_fortran"
-
-  if has Fortran; then
-    # As with a compiler that cannot read the module file: from the installed source.
-    # shellcheck disable=SC2046
-    quietly "$FC" "${fortran_flags[@]}" -J "$out" "$(find "$1" -name riis_c.f90)" "$source/examples/first_marking.f90" \
-      -o "$out/first_marking_source" $(flags --libs "${@:2}" riis)
-    compare_examples "$out/first_marking" "$out/first_marking_source"
-  fi
+  for example in "${examples[@]}"; do
+    compare_example "$example" "$out/$example" "$out/${example}_fortran"
+    if has Fortran; then
+      compare_example "$example" "$out/$example" "$out/${example}_source"
+    fi
+  done
   if has VTK && [ "$kind" = shared ]; then
     # shellcheck disable=SC2046
     quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
@@ -141,6 +171,7 @@ check_prefix() { # prefix
   fi
   if has program; then
     quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis-mark)" --help
+    check_prosthesis_file "$(find "$1" -name riis-mark)"
   fi
 }
 
@@ -184,4 +215,6 @@ if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   quietly "$CMAKE" --install "$build"
   check_prefix "$work/absolute"
 fi
-cat "$work/first.txt"
+for example in "${examples[@]}"; do
+  cat "$work/$example.txt"
+done

@@ -100,6 +100,46 @@ static void test_one_panel(void **state) {
   assert_true(width == 64 && height == 64 && n_colours > 1);
 }
 
+static int same_file(const char *a, const char *b) {
+  size_t size[2] = {0, 0};
+  char *bytes[2] = {scratch_read(scratch_path(a), &size[0]), scratch_read(scratch_path(b), &size[1])};
+  const int same = size[0] == size[1] && memcmp(bytes[0], bytes[1], size[0]) == 0;
+  free(bytes[0]);
+  free(bytes[1]);
+  return same;
+}
+
+static void draw_texts(const char *name, const char *title, const char *const *names, int64_t n_names) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.title = title;
+  options.leaflet_names = names;
+  options.n_leaflet_names = n_names;
+  scratch_watch_output();
+  const riis_status status = riis_vtk_draw(surface, mesh, &options, scratch_path(name));
+  const long n_printed = scratch_end_watch();
+  expect_fine(status);
+  assert_int_equal(n_printed, 0);
+}
+
+/* The texts are seen; what is no ASCII is drawn as ?, and nothing is taken for a formula. */
+static void test_texts(void **state) {
+  (void)state;
+  const char *names[3] = {"right", "left", "leaflet 2"};
+  draw_texts("plain.png", NULL, NULL, 0);
+  draw_texts("default.png", "Surface", (const char *const[]){"leaflet 0"}, 1);
+  assert_true(same_file("plain.png", "default.png"));
+  draw_texts("title.png", "Valve", NULL, 0);
+  assert_false(same_file("plain.png", "title.png"));
+  draw_texts("names.png", NULL, names, 2);
+  assert_false(same_file("plain.png", "names.png"));
+  draw_texts("more.png", NULL, names, 3);
+  assert_true(same_file("names.png", "more.png"));
+  draw_texts("odd.png", "a\nb \xff\xc3 $x^2$ | 7", (const char *const[]){"\xe4", "", "$"}, 3);
+  draw_texts("marked.png", "a?b ?? $x^2$ | 7", (const char *const[]){"?", "", "$"}, 3);
+  assert_true(same_file("odd.png", "marked.png"));
+}
+
 /* A mesh of which nothing is marked still gives a picture. */
 static void test_nothing_marked(void **state) {
   (void)state;
@@ -156,8 +196,8 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_views),     cmocka_unit_test(test_one_panel), cmocka_unit_test(test_nothing_marked),
-      cmocka_unit_test(test_full_disk), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_texts),          cmocka_unit_test(test_views),     cmocka_unit_test(test_one_panel),
+      cmocka_unit_test(test_nothing_marked), cmocka_unit_test(test_full_disk), cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }

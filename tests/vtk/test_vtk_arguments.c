@@ -83,7 +83,7 @@ static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t w
   riis_vtk_picture_options options;
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
   assert_true(options.view == RIIS_VTK_VIEW_OBLIQUE && options.width == 1600 && options.height == 800 &&
-              !options.reserved);
+              !options.reserved && !options.title && !options.leaflet_names && !options.n_leaflet_names);
   options.view = view;
   options.width = width;
   options.height = height;
@@ -100,6 +100,18 @@ static void test_picture_options(void **state) {
   expect_bad_picture("height is 8193", RIIS_VTK_VIEW_TOP, 800, 8193, 0);
   expect_bad_picture("reserved is 1", RIIS_VTK_VIEW_TOP, 800, 800, 1);
   expect_refused(riis_vtk_draw(surface, mesh, NULL, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "mesh has no marks");
+  riis_vtk_picture_options options;
+  const char *names[2] = {"one", NULL};
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.n_leaflet_names = -1;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
+                 "n_leaflet_names is -1");
+  options.n_leaflet_names = 2;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
+                 "n_leaflet_names is 2, options->leaflet_names is NULL");
+  options.leaflet_names = names;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
+                 "leaflet_names[1] is NULL");
 }
 
 /* A name with a line break still gives an error text of one line, and a very long one keeps the reason. */

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/json_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "cli/refusal.hpp"
+
+namespace riis::cli {
+namespace {
+
+std::string text_of(const std::string &path) {
+  errno = 0;
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  // A folder can be opened, but not read.
+  if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + std::generic_category().message(errno));
+  if (text.str().empty()) refuse_file(path, "is empty");
+  return text.str();
+}
+
+// Watches the parser for what it lets pass.
+class Guard {
+ public:
+  Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
+
+  void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
+    // Files need up to five levels below the root; what handles a value recursively must not meet a bottomless one.
+    constexpr int deepest = 8;
+    if (depth > deepest) refuse_file(path_, "is nested deeper than " + content_ + " can be");
+    if (event == Json::parse_event_t::object_start) {
+      keys_.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      keys_.pop_back();
+    } else if (event == Json::parse_event_t::key) {
+      check_key(parsed.get_ref<const std::string &>());
+    }
+  }
+
+ private:
+  void check_key(const std::string &key) {
+    // The library takes names up to a 0 byte.
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+    if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
+    // The parser keeps the last of several equal keys; here they are refused, as the user cannot have meant both.
+    if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
+  }
+
+  const std::string &path_, &content_;
+  std::vector<std::set<std::string>> keys_;
+};
+
+}  // namespace
+
+void refuse_file(const std::string &path, const std::string &reason) {
+  constexpr std::size_t longest = 300;
+  throw Refusal{exit_bad_data, path + ": " + (reason.size() > longest ? reason.substr(0, longest) + " ..." : reason)};
+}
+
+Json parse_json_file(const std::string &path, const std::string &content) {
+  Guard guard(path, content);
+  const auto observe = [&](int depth, Json::parse_event_t event, Json &parsed) {
+    guard(depth, event, parsed);
+    return true;
+  };
+  try {
+    return Json::parse(text_of(path), observe);
+  } catch (const Json::exception &error) {
+    const std::string text = error.what();
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    const std::size_t end = text.find("] ");
+    refuse_file(path, "is not JSON: " + (end == std::string::npos ? text : text.substr(end + 2)));
+  }
+}
+
+}  // namespace riis::cli

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What riis-mark writes against what the C interface says about the same mesh, in.vtu of the scratch folder. */
+#ifndef RIIS_TESTS_MARKS_H
+#define RIIS_TESTS_MARKS_H
+
+#include <riis/riis.h>
+
+#include "program.h"
+
+typedef struct expected_marks {
+  riis_surface *surface;
+  uint8_t marked[n_box];
+  double distance[n_box];
+  int32_t leaflet[n_box];
+  riis_mark_stats stats;
+} expected_marks;
+
+/* By the last mark_by_c. */
+extern expected_marks by_c;
+
+void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_options, double distance_limit,
+               double far_distance);
+
+/* out.vtu is in.vtu, its points as doubles, with the expected marks; more than 20 nodes are marked. */
+void expect_marked_mesh(void);
+/* out.vtp is the expected surface. */
+void expect_surface_output(void);
+
+void forget_marks(void);
+
+#endif

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Valves that open, by riis-mark and by the C interface: the mitral valve by itself, any valve between two files. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "marks.h"
+#include "program.h"
+#include "scratch.h"
+
+static const char *const opening_texts[] = {"0", "0.5", "1"};
+static const double openings[] = {0, 0.5, 1};
+static const char *half_thickness = "0.25"; /* so that enough of the coarse box is marked */
+
+static riis_valve *make_valve(const char *kind) {
+  riis_valve *valve = NULL;
+  expect_fine(riis_valve_create(kind, &valve));
+  return valve;
+}
+
+static void mark_at(riis_valve *valve, double opening) {
+  riis_surface_options options;
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = 0.25;
+  expect_fine(riis_valve_set_scalar(valve, "opening", opening));
+  mark_by_c(valve, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
+}
+
+static void expect_outputs(void) {
+  expect_marked_mesh();
+  expect_surface_output();
+}
+
+#define RUN_ON_BOX(...)                                                                                     \
+  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", half_thickness, "--output", scratch_path("out.vtu"), \
+           "--surface-output", scratch_path("out.vtp"), __VA_ARGS__)
+
+static void test_mitral(void **state) {
+  (void)state;
+  riis_valve *valve = make_valve("mitral");
+  int64_t n_marked[3];
+  for (int i = 0; i < 3; ++i) {
+    mark_at(valve, openings[i]);
+    n_marked[i] = by_c.stats.n_marked;
+    RUN_ON_BOX("--valve", "mitral", "--opening", opening_texts[i], "--stats", "-");
+    expect_outputs();
+    assert_true(json_has_text(program_out, "valve", "\"mitral\""));
+    assert_true(json_number(program_out, "opening") == openings[i]);
+    char title[64];
+    snprintf(title, sizeof title, "mitral valve, opening %s: ", opening_texts[i]);
+    RUN_ON_BOX("--valve", "mitral", "--opening", opening_texts[i]);
+    assert_non_null(strstr(program_out, title));
+  }
+  assert_true(n_marked[0] != n_marked[1] && n_marked[1] != n_marked[2]);
+  /* Open is the default; --set and a file know the parameter, too, and --opening comes last. */
+  mark_at(valve, 1);
+  RUN_ON_BOX("--valve", "mitral");
+  expect_outputs();
+  mark_at(valve, 0.25);
+  RUN_ON_BOX("--valve", "mitral", "--set", "opening=0.25");
+  expect_outputs();
+  scratch_write_text("p.json", "{\"opening\": 0.25}");
+  RUN_ON_BOX("--valve", "mitral", "--params", scratch_path("p.json"));
+  expect_outputs();
+  scratch_write_text("p.json", "{\"opening\": 0.75}");
+  RUN_ON_BOX("--opening", "0.25", "--valve", "mitral", "--params", scratch_path("p.json"));
+  expect_outputs();
+  riis_valve_destroy(&valve);
+}
+
+/* The two states of a valve of one state. */
+static void test_aortic(void **state) {
+  (void)state;
+  riis_valve *closed = make_valve("aortic"), *open = make_valve("aortic");
+  expect_fine(riis_valve_set_scalar(closed, "leaflet_angle", 68));
+  expect_fine(riis_valve_set_scalar(closed, "root_radius", 1.25));
+  expect_fine(riis_valve_set_scalar(open, "leaflet_angle", 45));
+  /* An opening in the file of the open state does not matter. */
+  scratch_write_text("closed.json", "{\"leaflet_angle\": 68}");
+  scratch_write_text("open.json", "{\"leaflet_angle\": 45, \"opening\": 0.3}");
+  riis_surface_options options;
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = 0.25;
+  for (int i = 0; i < 3; ++i) {
+    if (i == 1) {
+      expect_fine(riis_valve_set_open_state(closed, open));
+      mark_at(closed, 0.5);
+    } else { /* the state alone */
+      mark_by_c(i == 0 ? closed : open, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
+    }
+    /* --set is of the closed state only. */
+    RUN_ON_BOX("--params-closed", scratch_path("closed.json"), "--params-open", scratch_path("open.json"), "--set",
+               "root_radius=1.25", "--opening", opening_texts[i]);
+    expect_outputs();
+    char setting[32];
+    snprintf(setting, sizeof setting, "opening=%s", opening_texts[i]);
+    RUN_ON_BOX("--params", scratch_path("closed.json"), "--params-open", scratch_path("open.json"), "--set",
+               "root_radius=1.25", "--set", setting);
+    expect_outputs();
+  }
+  riis_valve_destroy(&closed);
+  riis_valve_destroy(&open);
+}
+
+/* Half way lies between: the area does. */
+static void test_between(void **state) {
+  (void)state;
+  scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
+  double area[3];
+  for (int i = 0; i < 3; ++i) {
+    RUN_FINE(scratch_path("in.vtu"), "--params-open", scratch_path("open.json"), "--opening", opening_texts[i],
+             "--stats", "-");
+    area[i] = json_number(program_out, "area");
+    assert_true(json_has_text(program_out, "valve", "\"aortic\""));
+  }
+  assert_true((area[0] < area[1] && area[1] < area[2]) || (area[0] > area[1] && area[1] > area[2]));
+}
+
+/* The closed curves are then the first file's, the open ones the second's. */
+static void test_mitral_states(void **state) {
+  (void)state;
+  riis_valve *valve = make_valve("mitral"), *open = make_valve("mitral");
+  expect_fine(riis_valve_set_scalar(valve, "anterior_horn_height", 0.5));
+  expect_fine(riis_valve_set_scalar(open, "leaflet_inward_angle", 85));
+  expect_fine(riis_valve_set_open_state(valve, open));
+  scratch_write_text("closed.json", "{\"anterior_horn_height\": 0.5}");
+  scratch_write_text("open.json", "{\"leaflet_inward_angle\": 85}");
+  for (int i = 0; i < 3; ++i) {
+    mark_at(valve, openings[i]);
+    RUN_ON_BOX("--valve", "mitral", "--params-closed", scratch_path("closed.json"), "--params-open",
+               scratch_path("open.json"), "--opening", opening_texts[i]);
+    expect_outputs();
+  }
+  riis_valve_destroy(&valve);
+  riis_valve_destroy(&open);
+}
+
+static void test_refusals(void **state) {
+  (void)state;
+  char mesh[256], file[256]; /* scratch_path keeps them for a few calls only */
+  snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
+  snprintf(file, sizeof file, "%s", scratch_path("p.json"));
+  scratch_write_text("p.json", "{\"root_radius\": 1.3}");
+  RUN_REFUSED(1, "riis-mark: opening is 0.5, but the aortic valve has one state only", mesh, "--opening", "0.5");
+  assert_non_null(strstr(program_err, "--params-open"));
+  RUN_REFUSED(1, "--params-open", mesh, "--set", "opening=1");
+  RUN_REFUSED(2, "--opening: 1.5 is not from 0 to 1", mesh, "--opening", "1.5");
+  RUN_REFUSED(2, "--opening: -0.1 is not from 0 to 1", mesh, "--opening", "-0.1");
+  RUN_REFUSED(2, "--opening: nan is not from 0 to 1", mesh, "--opening", "nan");
+  RUN_REFUSED(2, "--opening: 'half' is not a number", mesh, "--opening", "half");
+  RUN_REFUSED(1, "--set: parameter 'opening' is 1.5", mesh, "--set", "opening=1.5");
+  RUN_REFUSED(2, "--opening and --set opening: only one of them", mesh, "--opening", "0", "--set", "opening=0");
+  RUN_REFUSED(2, "--surface excludes --opening", mesh, "--opening", "0", "--surface", "a.stl");
+  RUN_REFUSED(2, "--params-open", mesh, "--params-open", file, "--surface", "a.stl");
+  RUN_REFUSED(2, "--params-open needs --opening", mesh, "--params-open", file);
+  RUN_REFUSED(2, "--params-open has no effect with --print-params", "--print-params", "--params-open", file,
+              "--opening", "0");
+  RUN_REFUSED(2, "--params", mesh, "--params", file, "--params-closed", file);
+  RUN_REFUSED(1, "missing.json: cannot be read", mesh, "--params-open", scratch_path("missing.json"), "--opening", "0");
+  RUN_REFUSED(1, "missing.json: cannot be read", mesh, "--params-closed", scratch_path("missing.json"));
+  /* Its parameters are the valve's. */
+  RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", mesh, "--valve", "mitral",
+              "--params-open", file, "--opening", "0");
+  RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", mesh, "--valve", "mitral", "--set",
+              "left.leaflet_angle=3");
+  RUN_REFUSED(1, "is not a kind of valve; there are: aortic, mitral, and files of patches, FILE.json", mesh, "--valve",
+              "tricuspid");
+  /* No input is replaced. */
+  RUN_REFUSED(2, "is the file of --params-open too", mesh, "--params-open", file, "--opening", "0", "--stats", file);
+}
+
+static int make_mitral_box(void **state) {
+  return make_box_of(state, (double[3]){-2.2, -1.8, -1.3}, (double[3]){2.2, 2, 2});
+}
+
+static int destroy_all(void **state) {
+  forget_marks();
+  return scratch_teardown(state);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_mitral),        cmocka_unit_test(test_aortic),   cmocka_unit_test(test_between),
+      cmocka_unit_test(test_mitral_states), cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, make_mitral_box, destroy_all);
+}
