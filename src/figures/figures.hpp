@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures, each made of pictures and of texts whose numbers are counted on the way.
+#pragma once
+
+#include "figures/page.hpp"
+
+namespace riis::figures {
+
+Figure bezier_figure();
+Figure coons_figure();
+Figure aortic_valve_figure();
+Figure aortic_cusp_figure();
+Figure mitral_curves_figure();
+Figure mitral_surfaces_figure();
+Figure mitral_quads_figure();
+Figure marking_figure();
+Figure tolerance_figure();
+
+}  // namespace riis::figures

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture: surfaces, curves, points and texts seen from far away, without perspective, on white.
+// In: what is shown, in centimetres; sizes of lines, points and texts in pixels. Out: a PNG file's bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <vtkSmartPointer.h>
+
+#include "geometry/vec3.hpp"
+
+class vtkPolyData;
+class vtkRenderer;
+
+namespace riis::figures {
+
+struct Colour {
+  unsigned char red, green, blue;
+};
+
+// Told apart with any colour vision (Okabe, Ito 2008).
+inline constexpr Colour blue{0, 114, 178}, orange{230, 159, 0}, green{0, 158, 115}, purple{204, 121, 167},
+    vermilion{213, 94, 0}, sky_blue{86, 180, 233}, dark{45, 45, 45}, grey{130, 130, 130}, light_grey{205, 205, 205};
+
+// The colour and so much of white.
+Colour paler(Colour colour, double white);
+
+struct Png {
+  int width, height;
+  std::vector<unsigned char> bytes;
+};
+
+using Points = std::vector<Vec3>;
+using Segments = std::vector<std::array<Vec3, 2>>;
+
+// Triangles or quads, and the colour of each.
+struct Faces {
+  std::size_t n_corners;  // of every face
+  Points points;
+  std::vector<std::int64_t> corners;  // (n_corners, n)
+  std::vector<Colour> colours;
+
+  std::size_t size() const { return colours.size(); }
+};
+
+// A ghost lets what is behind it shine through.
+enum class Shading { smooth, flat, ghost };
+
+// Along which way one looks, and what is up.
+struct View {
+  Vec3 direction, up;  // unit, perpendicular
+};
+View looking(Vec3 direction, Vec3 up);
+inline constexpr View top_view{{0, 0, -1}, {0, 1, 0}};
+
+struct PictureSize {
+  int width, height;
+};
+
+class Picture {
+ public:
+  // Everything to_fit is inside, the margin (pixels) away from the edges and from the title.
+  Picture(PictureSize size, const View &view, const Points &to_fit, double margin = 60);
+
+  // What lies in faces is drawn on them: segments above faces, curves above segments, points above curves; and each
+  // above others of a lower rank.
+  void add_faces(const Faces &faces, Shading shading);
+  void add_segments(const Segments &segments, Colour colour, double width, int rank = 0);
+  void add_curve(const Points &points, Colour colour, double width, int rank = 0);
+  void add_dashed(const Points &points, Colour colour, double width);
+  void add_points(const Points &points, Colour colour, double diameter);
+
+  // Text with its middle right (+) and above (+) of a point by so many pixels.
+  void add_label(Vec3 at, const std::string &text, double right, double above, Colour colour = dark, int size = 26);
+  // Text with its middle away from `from`, seen by this camera.
+  void add_label_away(Vec3 at, Vec3 from, const std::string &text, double distance, Colour colour = dark,
+                      int size = 26);
+  void add_title(const std::string &text);
+
+  // A line of 1 cm at the lower left, the directions of x, y and z at the lower right.
+  void add_scale_and_axes();
+
+  Png png() const;
+
+ private:
+  Vec3 at_pixel(double x, double y) const;
+  Vec3 raised(Vec3 p, int layer) const;
+  vtkSmartPointer<vtkPolyData> lines(const std::vector<Points> &lines, int layer) const;
+  void add_tubes(vtkPolyData *lines, Colour colour, double width);
+  void add_text(double x, double y, const std::string &text, Colour colour, int size, bool is_centred);
+
+  PictureSize size_;
+  Vec3 right_, up_, direction_;
+  Vec3 focus_;    // in the middle of the picture
+  double depth_;  // half of what is shown
+  double pixel_;  // its size in centimetres
+  vtkSmartPointer<vtkRenderer> renderer_;
+};
+
+}  // namespace riis::figures

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tetrahedral mesh of a cylinder about the z axis, and what of it is marked.
+// In: the cylinder, the size of cells, a valve. Out: nodes, tetrahedra, marks; faces to draw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "figures/shapes.hpp"
+
+namespace riis::figures {
+
+struct Cylinder {
+  Vec3 middle;
+  double radius, height;
+};
+
+struct TetrahedralMesh {
+  std::vector<double> xyz;  // (3, n_nodes)
+  std::vector<std::array<std::int64_t, 4>> tetrahedra;
+
+  std::size_t n_nodes() const { return xyz.size() / 3; }
+  Vec3 node(std::int64_t i) const {
+    const double *p = xyz.data() + 3 * i;
+    return {p[0], p[1], p[2]};
+  }
+};
+
+// Hexahedra, each cut into 6 tetrahedra along the same diagonal, so that neighbours match.
+TetrahedralMesh mesh_cylinder(const Cylinder &cylinder, double edge);
+
+struct Marks {
+  std::size_t n_marked;               // nodes
+  std::vector<std::int32_t> leaflet;  // of each tetrahedron: its closest marked node's, -1 without one
+  std::vector<bool> is_whole;         // all four nodes are marked
+  std::size_t n_whole, n_touched;     // tetrahedra of which all nodes are marked, or one at least
+};
+// By the public interface, as users do it: a valve of that kind with its default parameters, at an opening.
+Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double tolerance);
+
+// The outside of the tetrahedra of which all nodes are marked.
+Faces marked_faces(const TetrahedralMesh &mesh, const Marks &marks);
+
+// The mesh cut by the plane through the origin with that normal: triangles in the colour of their tetrahedron's leaflet,
+// paler where only some of its nodes are marked, or of nothing.
+Faces slice(const TetrahedralMesh &mesh, const Marks &marks, Vec3 normal, Segments &edges);
+
+}  // namespace riis::figures
