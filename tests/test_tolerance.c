@@ -200,6 +200,69 @@ static void mitral_deviation_stays_within_the_bound(void **state) {
   riis_valve_destroy(&valve);
 }
 
+/* Each quad against the smooth patch at equal (u, v), all over the quad: within its own bound, and at some quad near it. */
+static double largest_share_of_bound(const smooth_valve *smooth, int n_parameters, const char *const *names,
+                                     const double *values, double max_error) {
+  int64_t n;
+  bounded_quad *quads;
+  double largest = 0;
+  CHECK_OK(bounded_quads(smooth->name, n_parameters, names, values, max_error, &n, &quads));
+  for (int64_t q = 0; q < n; ++q) {
+    const bounded_quad *quad = quads + q;
+    for (int i = 0; i <= 4; ++i)
+      for (int j = 0; j <= 4; ++j) {
+        const double s = 0.25 * i, t = 0.25 * j;
+        double exact[3], bilinear[3];
+        smooth->point(quad->patch_id, quad->u[0] + s * (quad->u[1] - quad->u[0]),
+                      quad->v[0] + t * (quad->v[1] - quad->v[0]), exact);
+        for (int c = 0; c < 3; ++c)
+          bilinear[c] = (1 - t) * ((1 - s) * quad->corners[0][c] + s * quad->corners[1][c]) +
+                        t * ((1 - s) * quad->corners[3][c] + s * quad->corners[2][c]);
+        const double off = distance_between(exact, bilinear);
+        /* (The aortic evaluation is right to 1e-7.) */
+        if (!(off <= quad->error + 1e-6))
+          fail_msg("patch %d, u %.5f to %.5f, v %.5f to %.5f: off by %.3g, the bound is %.3g", (int)quad->patch_id,
+                   quad->u[0], quad->u[1], quad->v[0], quad->v[1], off, quad->error);
+        if (quad->error > 1e-4) largest = fmax(largest, off / quad->error);
+      }
+  }
+  free(quads);
+  return largest;
+}
+
+static void every_quad_stays_within_its_own_bound(void **state) {
+  (void)state;
+  random_source rng = random_start("test_tolerance");
+  const char *names[17];
+  double of_mitral = 1, of_aortic;
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create("mitral", &valve));
+  for (int i = 0; i < 17; ++i) {
+    riis_parameter parameter;
+    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    names[i] = parameter.name;
+  }
+  for (int trial = 0; trial < 24; ++trial) {
+    mitral_parameters parameters = mitral_defaults();
+    double *values = &parameters.anterior_ratio;
+    for (int i = 0; i < 16 && trial >= 3; ++i) values[i] *= random_between(&rng, 0.8, 1.2);
+    parameters.opening = trial < 3 ? 0.5 * trial : random_between(&rng, 0, 1);
+    mitral = mitral_oracle_create(&parameters, &parameters);
+    const double share =
+        largest_share_of_bound(&smooth_mitral, 17, names, values, pow(10, random_between(&rng, -3, -0.5)));
+    of_mitral = fmin(of_mitral, share);
+    mitral_oracle_destroy(mitral);
+  }
+  riis_valve_destroy(&valve);
+  CHECK_OK(aortic_patches(NULL, 0, &set));
+  tabulate();
+  of_aortic = largest_share_of_bound(&smooth_aortic, 0, NULL, NULL, 0.005);
+  free(tables);
+  patch_set_free(&set);
+  printf("quads: at most %.2f of the bound (aortic), at least in some place %.2f (mitral)\n", of_aortic, of_mitral);
+  assert_true(of_aortic > 0.5 && of_mitral > 0.5);
+}
+
 /* One parameter at a time, a third up or down, of all that have one value: valves of many shapes. */
 static void so_it_does_for_other_aortic_valves(void **state) {
   (void)state;
@@ -285,6 +348,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(aortic_deviation_stays_within_the_bound),
       cmocka_unit_test(mitral_deviation_stays_within_the_bound),
+      cmocka_unit_test(every_quad_stays_within_its_own_bound),
       cmocka_unit_test(so_it_does_for_other_aortic_valves),
       cmocka_unit_test(so_it_does_for_other_mitral_valves),
   };

@@ -239,8 +239,9 @@ static void sides_are_checked(void **state) {
 
 static void sides_have_to_meet(void **state) {
   (void)state;
-  CHANGED_IS_REFUSED(arrays.control[3] = 1.5, RIIS_INVALID_PARAMETER,
-                     "patch 0 is open: side v = 0 ends in (1.5, 0, 0), side u = 1 begins in (1, 0, 0);|reverse it");
+  CHANGED_IS_REFUSED(
+      arrays.control[3] = 1.5, RIIS_INVALID_PARAMETER,
+      "patch 0 does not close: side v = 0 ends in (1.5, 0, 0), side u = 1 begins in (1, 0, 0);|reverse it");
   CHANGED_IS_REFUSED(arrays.control[2] = 0.25, RIIS_INVALID_PARAMETER,
                      "side v = 0 begins in (0, 0, 0.25), side u = 0 begins in (0, 0, 0)");
   CHANGED_IS_REFUSED(arrays.control[16] = 2, RIIS_INVALID_PARAMETER,
@@ -250,7 +251,7 @@ static void sides_have_to_meet(void **state) {
   CHANGED_IS_REFUSED(square.reversed[1] = 1, RIIS_INVALID_PARAMETER,
                      "side v = 1 begins in (1, 1, 0), side u = 0 ends in (0, 1, 0)");
   /* Up to 1e-9 of the size, which is sqrt(2), is rounding of the caller's. */
-  CHANGED_IS_REFUSED(arrays.control[5] = 2e-9, RIIS_INVALID_PARAMETER, "patch 0 is open");
+  CHANGED_IS_REFUSED(arrays.control[5] = 2e-9, RIIS_INVALID_PARAMETER, "patch 0 does not close");
   shape nearly = unit_square();
   nearly.control[0][1][2] = 1e-9;
   riis_surface *surface = surface_of(&nearly, NULL);
@@ -282,7 +283,8 @@ static void open_states_are_built_alike(void **state) {
     CHECK_REFUSED(RIIS_INVALID_PARAMETER, parts, riis_valve_set_open_state(valve, bad)); \
     riis_valve_destroy(&bad);                                                            \
   } while (0)
-  OPEN_IS_REFUSED(add_line(&other, 0, 0, 0, 1, 1, 1), "open state has 5 curves and 1 patches, the valve 4 and 1");
+  OPEN_IS_REFUSED((add_line(&other, 0, 0, 1, 1, 0, 1), add_patch(&other, 4, 1, 2, 3)),
+                  "open state has 5 curves and 2 patches, the valve 4 and 1");
   OPEN_IS_REFUSED(add_patch(&other, 0, 1, 2, 3), "open state has 4 curves and 2 patches");
   OPEN_IS_REFUSED((other.degree[1] = 3, memcpy(other.control[1][3], other.control[1][1], sizeof other.control[1][3])),
                   "curve 1 is cubic in the open state only");
@@ -338,10 +340,49 @@ static void patches_without_area_make_no_surface(void **state) {
       for (int k = 0; k < 2; ++k)
         for (int c = 0; c < 2; ++c) made.control[i][k][c] *= scale[attempt][c];
     riis_valve *valve = valve_from(&made);
-    CHECK_REFUSED(RIIS_INVALID_PARAMETER, "without any area", riis_surface_create(valve, NULL, &surface));
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has no area", riis_surface_create(valve, NULL, &surface));
     assert_null(surface);
     riis_valve_destroy(&valve);
   }
+}
+
+/* A crescent much thinner than the tolerance is still there: its sides become finer, not the same chord. */
+static void a_patch_thinner_than_the_tolerance_stays(void **state) {
+  (void)state;
+  for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
+    shape made = unit_square();
+    const double y = 4; /* apart from the square, which has the tolerance all to itself */
+    const int32_t straight = (int32_t)made.n_curves;
+    add_line(&made, 0, y, 0, 1, y, 0);
+    const int32_t bent = (int32_t)made.n_curves;
+    add_line(&made, 0, y, 0, 1, y, 0);
+    made.degree[bent] = 2;
+    memcpy(made.control[bent][2], made.control[bent][1], sizeof made.control[bent][2]);
+    made.control[bent][1][0] = 0.5;
+    made.control[bent][1][1] = y + 2 * sagitta;
+    const int32_t first = (int32_t)made.n_curves;
+    add_line(&made, 0, y, 0, 0, y, 0);
+    const int32_t last = (int32_t)made.n_curves;
+    add_line(&made, 1, y, 0, 1, y, 0);
+    add_patch(&made, straight, bent, first, last);
+    riis_surface_options options = surface_options();
+    options.tolerance = 1;
+    riis_surface *surface = surface_of(&made, &options);
+    for (double x = 0; x <= 1; x += 0.125)
+      CHECK_AT_MOST(closest_to(surface, x, y + sagitta * 2 * x * (1 - x), 0).distance, 0.1 * options.tolerance);
+    riis_surface_destroy(&surface);
+  }
+}
+
+static void a_curve_without_a_patch_is_refused(void **state) {
+  (void)state;
+  shape made = unit_square();
+  add_line(&made, 0, 0, 0, 1e9, 0, 0);
+  arrays_of_shape arrays;
+  arrays_from(&made, &arrays);
+  riis_valve *valve = NULL;
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "curve 4 is a side of no patch",
+                riis_valve_create_from_patches(&arrays.patches, &valve));
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ *
@@ -789,6 +830,8 @@ int main(void) {
       cmocka_unit_test(open_states_are_built_alike),
       cmocka_unit_test(opening_is_the_only_parameter),
       cmocka_unit_test(patches_without_area_make_no_surface),
+      cmocka_unit_test(a_patch_thinner_than_the_tolerance_stays),
+      cmocka_unit_test(a_curve_without_a_patch_is_refused),
       cmocka_unit_test(square_has_its_area_and_normal),
       cmocka_unit_test(both_bases_and_no_optional_arrays_give_the_same),
       cmocka_unit_test(line_of_any_degree_gives_the_same_surface),

@@ -45,7 +45,8 @@ double quadrature(const Speed &speed, double t0, double t1) {
 double adaptive_length(const Speed &speed, double t0, double t1, double whole, double tolerance, int depth) {
   const double middle = 0.5 * (t0 + t1);
   const double left = quadrature(speed, t0, middle), right = quadrature(speed, middle, t1);
-  if (depth == 0 || std::abs(left + right - whole) <= tolerance) return left + right;
+  // Also where something is no number.
+  if (depth == 0 || !(std::abs(left + right - whole) > tolerance)) return left + right;
   return adaptive_length(speed, t0, middle, left, 0.5 * tolerance, depth - 1) +
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
@@ -58,8 +59,9 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // Where the curve is short for its coordinates their rounding is all that two halves differ by.
-  return 1e-13 * control_length + 1e-14 * largest;
+  // Where the curve is short for its coordinates their rounding is all that two halves differ by; where it is shorter than any
+  // triangle may be (surface/triangle_set.hpp), its squares underflow.
+  return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
@@ -152,6 +154,7 @@ double largest_curvature(const Bezier &curve) {
 }
 
 double parameter_at_length(const Bezier &curve, double curve_length, double behind) {
+  if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
   // Newton's method on the length from 0 to t, kept inside a shrinking bracket.

@@ -43,7 +43,8 @@ double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 // The two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
-// The t in [0,1] at which the curve, of length curve_length > 0, has that much of it behind it, 0 <= behind <= curve_length.
+// The t in [0,1] at which the curve, of length curve_length, has that much of it behind it, 0 <= behind <= curve_length; 0 on a
+// curve without length.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
 // kappa: the largest distance of an inner control point to the segment from the first to the last. (The paper measures

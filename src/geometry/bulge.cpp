@@ -7,11 +7,19 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "geometry/interval.hpp"
 
 namespace riis {
+
+Vec3 arc_offset(Vec3 width, Vec3 along, double factor) {
+  const Vec3 across = cross(width, along);
+  const double size = length(across);
+  return size > 0 ? (factor * length(width) / size) * across : Vec3{0, 0, 0};
+}
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -90,19 +98,27 @@ Along along_end(const Bezier &piece, double speed, bool at_end) {
           speed};
 }
 
-// O from W, whose derivatives are those of edge minus base, and the base's tangent.
-JetVector offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
-  const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
-                                        edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
-  const JetVector across = cross(width, base.tangent);
-  // factor |W| M / |M| with M = W x T.
-  const Jet ratio = root(dot_self(width) * inverse(dot_self(across)));
-  return (factor * ratio) * across;
-}
-
 double norm(const IntervalVector &a) {
   const double bound = length(a.magnitudes());
   return bound >= 0 ? bound : infinity;  // NaN where infinities met
+}
+
+// O from W, whose derivatives are those of edge minus base, and the base's tangent; empty where W may run along the base, and O have no
+// direction.
+std::optional<JetVector> offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
+  const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
+                                        edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
+  const JetVector across = cross(width, base.tangent);
+  const Jet across_sq = dot_self(across);
+  if (!(across_sq.value.low > 0)) return std::nullopt;
+  // factor |W| M / |M| with M = W x T.
+  return (factor * root(dot_self(width) * inverse(across_sq))) * across;
+}
+
+// O where a share of both curves is left behind.
+Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor) {
+  const Curve::Frame on_base = base.frame(share);
+  return arc_offset(edge.at(share) - on_base.point, on_base.tangent, factor);
 }
 
 }  // namespace
@@ -112,43 +128,37 @@ Bulge::Bulge(Curve base, Curve edge, double factor) : base_(std::move(base)), ed
   std::merge(of_base.begin(), of_base.end(), of_edge.begin(), of_edge.end(), std::back_inserter(joints_));
 }
 
-Vec3 middle_control_point(Vec3 on_base, Vec3 on_edge, Vec3 offset) { return 0.5 * (on_base + on_edge) + offset; }
-
-namespace {
-
-// O where a share of both curves is left behind.
-Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor) {
-  const Curve::Frame on_base = base.frame(share);
-  const Vec3 width = edge.at(share) - on_base.point;
-  return (factor * length(width)) * unit(cross(width, on_base.tangent));
-}
-
-}  // namespace
-
 Vec3 Bulge::at(double u) const { return offset_at(base_, edge_, u, factor_); }
 
 double Bulge::linear_error(double u0, double u1, double enough) const {
   const double du = u1 - u0;
   const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
 
-  // |O''| on the smooth parts, and the range of |W|.
+  // W stays near the line between its ends, by the largest bend of all pairs of pieces.
   const Vec3 start = edge.first() - base.first(), end = edge.last() - base.last();
-  const double base_speed = base_.length(), edge_speed = edge_.length();
-  double second = 0, widest = 0;
-  for (const Bezier &base_piece : base.pieces()) {
-    for (const Bezier &edge_piece : edge.pieces()) {
-      const Along along_base = along_piece(base_piece, base_speed, du),
-                  along_edge = along_piece(edge_piece, edge_speed, du);
-      const IntervalVector bend = edge_speed * along_edge.tangent.first() - base_speed * along_base.tangent.first();
-      IntervalVector w = hull(IntervalVector::of(start), IntervalVector::of(end));
-      w = {widened(w.x, deviation(bend.x, du)), widened(w.y, deviation(bend.y, du)),
-           widened(w.z, deviation(bend.z, du))};
-      widest = std::max(widest, norm(w));
-      second = std::max(second, norm(offset_jet(w, along_base, along_edge, factor_).second()));
+  std::vector<Along> along_base, along_edge;
+  for (const Bezier &piece : base.pieces()) along_base.push_back(along_piece(piece, base_.length(), du));
+  for (const Bezier &piece : edge.pieces()) along_edge.push_back(along_piece(piece, edge_.length(), du));
+  Vec3 bend{0, 0, 0};
+  for (const Along &b : along_base)
+    for (const Along &e : along_edge) {
+      const Vec3 of_pair = (e.speed * e.tangent.first() - b.speed * b.tangent.first()).magnitudes();
+      bend = {std::max(bend.x, of_pair.x), std::max(bend.y, of_pair.y), std::max(bend.z, of_pair.z)};
     }
-  }
+  IntervalVector w = hull(IntervalVector::of(start), IntervalVector::of(end));
+  const double eighth = 0.125 * du * du;
+  w = {widened(w.x, eighth * bend.x), widened(w.y, eighth * bend.y), widened(w.z, eighth * bend.z)};
+
+  // |O''| on the smooth parts.
+  double second = 0;
+  for (const Along &b : along_base)
+    for (const Along &e : along_edge) {
+      const std::optional<JetVector> offset = offset_jet(w, b, e, factor_);
+      second = std::max(second, offset ? norm(offset->second()) : infinity);
+    }
+
   // Nowhere is |O| more than |factor| |W|, nor is the line's.
-  const double largest = 2 * std::abs(factor_) * widest;
+  const double largest = 2 * std::abs(factor_) * norm(w);
   // Intervals overestimate |O''| several times over. So O is looked at in a few points, and only from one to the next is the
   // bound relied on: n points have it count n^2 times less.
   double error = infinity;
@@ -180,13 +190,14 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
 // |O'| on one side of u minus O' on the other.
 double Bulge::jump(double u) const {
   const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
-  const auto first_derivative = [&](bool after) {
+  const auto beside = [&](bool after) {
     const auto along = [&](const Curve &curve) {
       return along_end(curve.piece_beside(u, after), curve.length(), !after);
     };
-    return offset_jet(w, along(base_), along(edge_), factor_).first();
+    return offset_jet(w, along(base_), along(edge_), factor_);
   };
-  return norm(first_derivative(true) - first_derivative(false));
+  const std::optional<JetVector> before = beside(false), after = beside(true);
+  return before && after ? norm(after->first() - before->first()) : infinity;
 }
 
 }  // namespace riis

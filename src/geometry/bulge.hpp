@@ -15,6 +15,9 @@
 
 namespace riis {
 
+// O from W and T; 0 where it has no direction.
+Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
+
 class Bulge {
  public:
   // Keeps copies. The edge may be a point.
@@ -23,6 +26,7 @@ class Bulge {
   // O(u). Where base and edge touch it is 0.
   Vec3 at(double u) const;
 
+  // Where the arc at u begins.
   Vec3 on_base(double u) const { return base_.at(u); }
 
   // A bound on |O(u) - its linear interpolation between u0 and u1| for u0 <= u <= u1. It falls with (u1 - u0)^2, but for
@@ -41,8 +45,5 @@ class Bulge {
   double factor_;
   std::vector<double> joints_;
 };
-
-// The middle control point of the arc at u: what a patch's side from base to edge is made of.
-Vec3 middle_control_point(Vec3 on_base, Vec3 on_edge, Vec3 offset);
 
 }  // namespace riis

@@ -63,13 +63,14 @@ double largest_arc_weight(double from, double to) {
 // Adds grid lines between the last one and `to` until O is nearly linear between them.
 class ArcRefinement {
  public:
-  ArcRefinement(const Bulge &bulge, double max_error, ArcLines &lines)
-      : bulge_(bulge), max_error_(max_error), lines_(lines) {}
+  ArcRefinement(const Bulge &bulge, const ArcLimits &limits, ArcLines &lines)
+      : bulge_(bulge), limits_(limits), lines_(lines) {}
 
   void add_up_to(const GridLine &to, Vec3 offset, int depth) {
+    if (lines_.u_lines.size() > limits_.max_lines) return;
     const double from = lines_.u_lines.back().middle;
-    const double error = bulge_.linear_error(from, to.middle, max_error_);
-    if (error <= max_error_) {
+    const double error = bulge_.linear_error(from, to.middle, limits_.max_error);
+    if (error <= limits_.max_error) {
       lines_.u_lines.push_back(to);
       lines_.offsets.push_back(offset);
       lines_.errors.push_back(error);
@@ -98,7 +99,7 @@ class ArcRefinement {
   }
 
   const Bulge &bulge_;
-  double max_error_;
+  const ArcLimits &limits_;
   ArcLines &lines_;
 };
 
@@ -182,10 +183,10 @@ double ArcLines::largest_offset() const {
 }
 
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
-                        double max_merge_shift, double max_error) {
-  const std::vector<GridLine> given = lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift);
+                        const ArcLimits &limits) {
+  const std::vector<GridLine> given = lines_between(*sides.side_v0, *sides.side_v1, limits.max_merge_shift);
   ArcLines lines{{given.front()}, {offset_u0}, {}};
-  ArcRefinement refinement(bulge, max_error, lines);
+  ArcRefinement refinement(bulge, limits, lines);
   for (std::size_t i = 1; i < given.size(); ++i)
     refinement.add_up_to(given[i], i + 1 == given.size() ? offset_u1 : bulge.at(given[i].middle), 0);
   return lines;

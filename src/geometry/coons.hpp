@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches as grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces").
-// In: four boundary polylines that meet at their ends. Out: grid points at the union of their parameters.
+// In: boundary polylines that meet at their ends. Out: grid points at the union of their parameters.
 #pragma once
 
 #include <cstddef>
@@ -53,10 +53,16 @@ struct ArcLines {
   double largest_offset() const;
 };
 
-// The grid lines of the two sides, and more until O is within max_error of linear between them. offset_u0 and offset_u1 are O
-// at the ends as the neighbours have it, to the last bit. Fails with RIIS_INVALID_PARAMETER where O has no direction.
+struct ArcLimits {
+  double max_merge_shift, max_error;
+  std::size_t max_lines;
+};
+
+// The grid lines of the two sides, and more until O is within max_error of linear between them; no further once there are more than
+// max_lines. offset_u0 and offset_u1 are O at the ends as the neighbours have it, to the last bit. Only side_v0 and
+// side_v1 are looked at. Fails with RIIS_INVALID_PARAMETER where O has no direction.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
-                        double max_merge_shift, double max_error);
+                        const ArcLimits &limits);
 
 // Rows of equal height: an arc is at most |O| / 2 times that height squared from its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);

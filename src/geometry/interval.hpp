@@ -15,18 +15,22 @@ struct Interval {
   double low, high;
 
   static Interval of(double x) { return {x, x}; }
-  double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
+  double magnitude() const {
+    const double larger = std::max(std::abs(low), std::abs(high));
+    return low <= high ? larger : std::numeric_limits<double>::infinity();  // also where a bound is no number
+  }
 };
 
 inline Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
 inline Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
 inline Interval operator*(Interval a, Interval b) {
-  const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+  // A bound of 0 makes 0 of any number, however large: infinity stands for those.
+  const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
+  const double p = product(a.low, b.low), q = product(a.low, b.high), r = product(a.high, b.low),
+               s = product(a.high, b.high);
   return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
 }
-inline Interval operator*(double a, Interval b) {
-  return a < 0 ? Interval{a * b.high, a * b.low} : Interval{a * b.low, a * b.high};
-}
+inline Interval operator*(double a, Interval b) { return Interval::of(a) * b; }
 inline Interval square(Interval a) {
   const double p = a.low * a.low, q = a.high * a.high;
   return {a.low <= 0 && a.high >= 0 ? 0.0 : std::min(p, q), std::max(p, q)};

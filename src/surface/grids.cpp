@@ -22,52 +22,69 @@ constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 class GridMaker {
  public:
-  GridMaker(const PatchSet &set, double max_error) : set_(set), max_error_(max_error) { make_polylines(); }
+  GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness)
+      : set_(set),
+        max_error_(max_error),
+        errors_(set.curves.size(), infinity),
+        polylines_(set.curves.size()),
+        reversed_(set.curves.size()) {
+    check_precision();
+    // One polyline a curve, as exact as the most demanding of its patches needs it.
+    for (const Patch &patch : set.patches) {
+      for (const Side &side : {patch.v0, patch.v1}) allow(side, patch.bulge != 0 ? arc_curve_share : curve_share);
+      if (patch.bulge == 0)
+        for (const Side &side : {patch.u0, patch.u1}) allow(side, curve_share);
+    }
+    for (std::size_t i = 0; i < tightness.size(); ++i) errors_[i] *= tightness[i];
+  }
 
+  // All is counted, as it goes on, before anything large is made.
   std::vector<QuadGrid> make() {
-    for (const Patch &patch : set_.patches) sides_.push_back(sides_of(patch));
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      lines_.push_back(set_.patches[i].bulge != 0 ? arc_lines(i) : ArcLines{});
+    for (const Patch &patch : set_.patches) {
+      sides_.push_back(sides_of(patch));
+      lines_.push_back(patch.bulge != 0 ? arc_lines(patch, sides_.back()) : ArcLines{});
+      n_at_least_ += n_triangles(sides_.size() - 1, 1);
+      check_count(n_at_least_, max_error_);
+    }
     // Patches of arcs meet along arcs: all have the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
-    const double n_rows = std::ceil(std::sqrt(0.5 * offset / (row_share * max_error_)));
-    check_count(n_at_least(n_rows), max_error_);
-    check_precision();
+    const double n_rows = std::max(1.0, rows_for(offset));
+    double n = 0;
+    for (std::size_t i = 0; i < sides_.size(); ++i) n += n_triangles(i, n_rows);
+    check_count(n, max_error_);
     std::vector<QuadGrid> grids;
     for (std::size_t i = 0; i < sides_.size(); ++i)
-      grids.push_back(set_.patches[i].bulge != 0
-                          ? make_arc_grid(sides_[i], lines_[i], static_cast<std::size_t>(std::max(n_rows, 1.0)))
-                          : make_quad_grid(sides_[i], merge_share * max_error_));
+      grids.push_back(set_.patches[i].bulge != 0 ? make_arc_grid(sides_[i], lines_[i], static_cast<std::size_t>(n_rows))
+                                                 : make_quad_grid(sides_[i], merge_share * max_error_));
     return grids;
   }
 
  private:
-  // One polyline a curve, as exact as the most demanding of its patches needs it.
-  void make_polylines() {
-    const double unused = std::numeric_limits<double>::infinity();
-    std::vector<double> share(set_.curves.size(), unused);
-    const auto use = [&](const Side &side, double of_patch) {
-      share[side.curve] = std::min(share[side.curve], of_patch);
-    };
-    for (const Patch &patch : set_.patches) {
-      for (const Side &side : {patch.v0, patch.v1}) use(side, patch.bulge != 0 ? arc_curve_share : curve_share);
-      if (patch.bulge == 0)
-        for (const Side &side : {patch.u0, patch.u1}) use(side, curve_share);
-    }
-    for (std::size_t i = 0; i < share.size(); ++i) {
-      polylines_.push_back(share[i] < unused ? make_polyline(set_.curves[i], share[i] * max_error_) : Polyline{});
-      reversed_.push_back(reversed(polylines_.back()));
-    }
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  void allow(const Side &side, double share) {
+    errors_[side.curve] = std::min(errors_[side.curve], share * max_error_);
   }
 
-  PatchSides sides_of(const Patch &patch) const {
-    const auto polyline = [&](const Side &side) { return &(side.reversed ? reversed_ : polylines_)[side.curve]; };
-    return {polyline(patch.v0), polyline(patch.v1), polyline(patch.u0), polyline(patch.u1)};
+  const Polyline *polyline(const Side &side) {
+    Polyline &forward = polylines_[side.curve], &backward = reversed_[side.curve];
+    if (forward.points.empty()) forward = make_polyline(set_.curves[side.curve], errors_[side.curve]);
+    if (!side.reversed) return &forward;
+    if (backward.points.empty()) backward = reversed(forward);
+    return &backward;
   }
 
-  ArcLines arc_lines(std::size_t i) const {
-    const Patch &patch = set_.patches[i];
+  PatchSides sides_of(const Patch &patch) {
+    // The arcs at the sides of a patch of arcs are no polylines: rows are cut from all its arcs alike.
+    const bool is_coons = patch.bulge == 0;
+    return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
+            is_coons ? polyline(patch.u1) : nullptr};
+  }
+
+  double rows_for(double offset) const { return std::ceil(std::sqrt(0.5 * offset / (row_share * max_error_))); }
+
+  ArcLines arc_lines(const Patch &patch, const PatchSides &sides) const {
     const auto curve = [&](const Side &side) {
       return side.reversed ? set_.curves[side.curve].reversed() : set_.curves[side.curve];
     };
@@ -76,53 +93,64 @@ class GridMaker {
       const auto &control = set_.curves[side.curve].pieces().front().control;
       return control[1] - 0.5 * (control[0] + control[2]);
     };
-    return make_arc_lines(sides_[i], Bulge(curve(patch.v0), curve(patch.v1), patch.bulge), offset(patch.u0),
-                          offset(patch.u1), merge_share * max_error_, offset_share * max_error_);
+    const Vec3 at_u0 = offset(patch.u0), at_u1 = offset(patch.u1);
+    // More lines than this are too many triangles.
+    const double n_rows = std::max(1.0, rows_for(std::max(length(at_u0), length(at_u1))));
+    const auto max_lines = static_cast<std::size_t>(static_cast<double>(max_triangles) / n_rows) + 2;
+    ArcLines lines = make_arc_lines(sides, Bulge(curve(patch.v0), curve(patch.v1), patch.bulge), at_u0, at_u1,
+                                    {merge_share * max_error_, offset_share * max_error_, max_lines});
+    if (lines.u_lines.size() > max_lines) check_count(2 * n_rows * static_cast<double>(max_lines), max_error_);
+    return lines;
   }
 
-  // Patches so far from the origin that their coordinates round by what matters cannot be right to max_error.
+  // Lengths and coordinates round: patches for which that matters cannot be right to max_error.
   void check_precision() const {
-    double largest = 0;
-    for (const Curve &curve : set_.curves)
+    double largest = 0, longest = 0;
+    for (const Curve &curve : set_.curves) {
+      longest = std::max(longest, curve.length());
       for (const Bezier &piece : curve.pieces())
         for (int k = 0; k <= piece.degree; ++k) {
           const Vec3 q = piece.control[static_cast<std::size_t>(k)];
           largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
         }
+    }
     if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * max_error_)
       fail(RIIS_LIMIT_EXCEEDED,
            "control points have coordinates up to %s, which round by more than a thousandth of tolerance * "
-           "half_thickness "
-           "before scaling, %s",
+           "half_thickness before scaling, %s",
            Number(largest).text, Number(max_error_).text);
+    if (longest * 1e-12 > 1e-2 * max_error_)
+      fail(RIIS_LIMIT_EXCEEDED,
+           "a curve is %s long, which is not known to a hundredth of tolerance * half_thickness before scaling, %s",
+           Number(longest).text, Number(max_error_).text);
   }
 
-  // Triangles if no quad is split.
-  double n_at_least(double n_rows) const {
-    double n = 0;
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const auto n_between = [](const Polyline &a, const Polyline &b) {
-        return static_cast<double>(std::max<std::size_t>({a.t.size(), b.t.size(), 2}) - 1);
-      };
-      const PatchSides &sides = sides_[i];
-      const double n_quads = set_.patches[i].bulge != 0 ? n_rows * static_cast<double>(lines_[i].errors.size())
-                                                        : n_between(*sides.side_v0, *sides.side_v1) *
-                                                              n_between(*sides.side_u0, *sides.side_u1);
-      n += 2 * n_quads * static_cast<double>(set_.patches[i].images.size());
-    }
-    return n;
+  // Of all images of a patch, if no quad is split.
+  double n_triangles(std::size_t i, double n_rows) const {
+    const auto n_between = [](const Polyline &a, const Polyline &b) {
+      return static_cast<double>(std::max<std::size_t>({a.t.size(), b.t.size(), 2}) - 1);
+    };
+    const PatchSides &sides = sides_[i];
+    const double n_quads = set_.patches[i].bulge != 0
+                               ? n_rows * static_cast<double>(lines_[i].errors.size())
+                               : n_between(*sides.side_v0, *sides.side_v1) * n_between(*sides.side_u0, *sides.side_u1);
+    return 2 * n_quads * static_cast<double>(set_.patches[i].images.size());
   }
 
   const PatchSet &set_;
   double max_error_;
-  std::vector<Polyline> polylines_, reversed_;
+  std::vector<double> errors_;                  // what each curve is allowed
+  std::vector<Polyline> polylines_, reversed_;  // made when a patch asks for them
   std::vector<PatchSides> sides_;
   std::vector<ArcLines> lines_;
+  double n_at_least_ = 0;
 };
 
 }  // namespace
 
-std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error) { return GridMaker(set, max_error).make(); }
+std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness) {
+  return GridMaker(set, max_error, tightness).make();
+}
 
 void check_count(double n_triangles, double max_error) {
   if (!(n_triangles <= static_cast<double>(max_triangles)))

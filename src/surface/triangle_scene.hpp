@@ -35,6 +35,9 @@ class TriangleScene {
 
   const Bounds &bounds() const { return bounds_; }
 
+  // How far a distance, as it is computed, may be off, beyond what is in proportion to it and to p: the triangles' coordinates round.
+  double rounding() const { return rounding_; }
+
   struct Implementation;  // public for Embree's callbacks
 
  private:

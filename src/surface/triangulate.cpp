@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "api/errors.hpp"
 #include "surface/grids.hpp"
 
 namespace riis {
@@ -33,9 +34,11 @@ int subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double
   const double left = max_error - grid.error(i, j);
   int enough = 0;
   for (double kappa = quad_flatness(quad); kappa > left && enough < 13; kappa *= 0.25) ++enough;
-  int level = 0;
-  while (level < enough && !is_flat_enough(quad, level, left)) ++level;
-  return level;
+  // All parts are looked at where there are few.
+  constexpr int few = 5;
+  for (int level = 0; level < std::min(enough, few); ++level)
+    if (is_flat_enough(quad, level, left)) return level;
+  return enough;
 }
 
 template <class Visit>
@@ -70,7 +73,9 @@ class Builder {
     set_.patch_id.reserve(n);
   }
 
-  void add_image(const LevelledGrid &levelled, const PatchImage &image) {
+  // False if more was left out, for want of area, than the triangles kept stand for.
+  bool add_image(const LevelledGrid &levelled, const PatchImage &image) {
+    is_whole_ = true;
     const QuadGrid &grid = levelled.grid;
     auto level_of_next = levelled.levels.begin();
     const std::size_t n_u = grid.u.size(), n_v = grid.v.size();
@@ -87,6 +92,7 @@ class Builder {
       else
         add_subdivided_quad(grid, i, j, level, image);
     });
+    return is_whole_;
   }
 
   TriangleSet take() {
@@ -126,21 +132,35 @@ class Builder {
   }
 
   void add_quad(const std::array<std::int64_t, 4> &corner, const PatchImage &image) {
-    add_triangle(corner[0], corner[1], corner[2], image);
-    add_triangle(corner[0], corner[2], corner[3], image);
+    const bool first = add_triangle(corner[0], corner[1], corner[2], image);
+    const bool second = add_triangle(corner[0], corner[2], corner[3], image);
+    if (!first) check_left_out(corner[1], corner[0], corner[2], second);
+    if (!second) check_left_out(corner[3], corner[0], corner[2], first);
   }
 
-  void add_triangle(std::int64_t a, std::int64_t b, std::int64_t c, const PatchImage &image) {
+  // A triangle without area is its longest edge. That is still there if it is the diagonal of a quad whose other half was kept, and
+  // nothing is lost if it is a point.
+  void check_left_out(std::int64_t corner, std::int64_t a, std::int64_t b, bool other_was_kept) {
+    const double diagonal = distance(set_.vertex(a), set_.vertex(b));
+    const double other =
+        std::max(distance(set_.vertex(corner), set_.vertex(a)), distance(set_.vertex(corner), set_.vertex(b)));
+    const bool is_on_diagonal = other_was_kept && other <= (1 + 1e-9) * diagonal;
+    if (!is_on_diagonal && std::max(diagonal, other) > min_edge) is_whole_ = false;
+  }
+
+  bool add_triangle(std::int64_t a, std::int64_t b, std::int64_t c, const PatchImage &image) {
     if (has_zero_area(set_.vertex(a), set_.vertex(b), set_.vertex(c))) {
       ++set_.n_zero_area;
-      return;
+      return false;
     }
     if ((image.mirror != Mirror::none) != flip_normals_) std::swap(b, c);
     set_.vertex_id.insert(set_.vertex_id.end(), {a, b, c});
     set_.leaflet_id.push_back(image.leaflet_id);
     set_.patch_id.push_back(image.patch_id);
+    return true;
   }
 
+  bool is_whole_ = true;
   const Placement &placement_;
   bool flip_normals_;
   TriangleSet set_;
@@ -163,20 +183,33 @@ double split_error(const Quad &q) {
 }
 
 TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {
-  // All is counted before anything large is made.
-  std::vector<LevelledGrid> grids;
-  std::int64_t n_triangles = 0;
-  for (QuadGrid &grid : make_grids(set, max_error)) {
-    const std::size_t n_images = set.patches[grids.size()].images.size();
-    grids.push_back(with_levels(std::move(grid), max_error));
-    n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(n_images);
+  std::vector<double> tightness(set.curves.size(), 1);
+  for (int attempt = 0;; ++attempt) {
+    std::vector<LevelledGrid> grids;
+    std::int64_t n_triangles = 0;
+    for (QuadGrid &grid : make_grids(set, max_error, tightness)) {
+      const std::size_t n_images = set.patches[grids.size()].images.size();
+      grids.push_back(with_levels(std::move(grid), max_error));
+      n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(n_images);
+      check_count(static_cast<double>(n_triangles), max_error);
+    }
+    Builder builder(n_triangles, placement, flip_normals);
+    std::vector<std::size_t> vanished;
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+      bool is_whole = true;
+      for (const PatchImage &image : set.patches[i].images) is_whole = builder.add_image(grids[i], image) && is_whole;
+      if (!is_whole) vanished.push_back(i);
+    }
+    if (vanished.empty()) return builder.take();
+    // Patches thinner than the tolerance lose their area where their sides become the same chords: these have to be finer.
+    constexpr int max_attempts = 12;
+    if (attempt == max_attempts)
+      fail(RIIS_INVALID_PARAMETER, "patch %d has no area, at least in part: a surface is no curve",
+           set.patches[vanished.front()].images.front().patch_id);
+    for (const std::size_t i : vanished)
+      for (const Side &side : {set.patches[i].v0, set.patches[i].v1, set.patches[i].u0, set.patches[i].u1})
+        tightness[side.curve] *= 0.1;
   }
-  check_count(static_cast<double>(n_triangles), max_error);
-
-  Builder builder(n_triangles, placement, flip_normals);
-  for (std::size_t i = 0; i < grids.size(); ++i)
-    for (const PatchImage &image : set.patches[i].images) builder.add_image(grids[i], image);
-  return builder.take();
 }
 
 }  // namespace riis

@@ -28,6 +28,7 @@ enum OfCusp {
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
 
+void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
 // clang-format off
@@ -47,7 +48,7 @@ ValveKind make_kind() {
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     opening_spec("0: this state, to 1: the state to open to (riis_valve_set_open_state), without which it stays 0", 0),
-  }, opening, false, make_patches, nullptr};
+  }, opening, false, check_values, make_patches, nullptr};
   const double table[n_cusps][n_of_cusp] = {
     {0.24, 1.365, 61.0, 1.58,   0.40, 1.390, 47.30, 1.82,      0.0, -1},
     {0.49, 1.495, 58.5, 2.77,   0.74, 1.355, 43.00, 4.12,    119.5, -1},
@@ -154,27 +155,29 @@ void check_reach(const Bezier &curve, const char *what, const char *parameters, 
   }
 }
 
-HalfCusp checked_half_cusp(const ParameterValues &values, std::size_t cusp) {
+// Every curve of one state; those in between two states lie in between.
+void check_values(const ParameterValues &values) {
+  check_together(values);
   const double size = std::max(values[root_radius][0], values[leaflet_height][0]);
-  const HalfCusp half = half_cusp(values, cusp);
   const char *of_symmetry = "bending_height, leaflet_height, xq, zq, *_radius_in";
   const char *of_sinus = "bending_height, leaflet_height, *_radius_out, *_angle";
-  check_reach(half.leaflet, "leaflet", "leaflet_power, leaflet_angle, t0_leaflet, t3_leaflet, leaflet_radius_*", cusp,
-              size);
-  check_reach(half.bending, "bending", "bending_power, bending_angle, t0_bending, t3_bending, bending_radius_*", cusp,
-              size);
-  for (const Bezier *curve : {&half.symmetry_below, &half.symmetry_above})
-    check_reach(*curve, "symmetry", of_symmetry, cusp, size);
-  for (const Bezier *curve : {&half.sinus_below, &half.sinus_above}) check_reach(*curve, "sinus", of_sinus, cusp, size);
-  return half;
+  for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
+    const HalfCusp half = half_cusp(values, cusp);
+    check_reach(half.leaflet, "leaflet", "leaflet_power, leaflet_angle, t0_leaflet, t3_leaflet, leaflet_radius_*", cusp,
+                size);
+    check_reach(half.bending, "bending", "bending_power, bending_angle, t0_bending, t3_bending, bending_radius_*", cusp,
+                size);
+    for (const Bezier *curve : {&half.symmetry_below, &half.symmetry_above})
+      check_reach(*curve, "symmetry", of_symmetry, cusp, size);
+    for (const Bezier *curve : {&half.sinus_below, &half.sinus_above})
+      check_reach(*curve, "sinus", of_sinus, cusp, size);
+  }
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
-  check_together(closed.values);
-  check_together(open.values);
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const HalfCusp half = checked_half_cusp(closed.values, cusp), open_half = checked_half_cusp(open.values, cusp);
+    const HalfCusp half = half_cusp(closed.values, cusp), open_half = half_cusp(open.values, cusp);
     const auto add = [&](const Curve &curve) {
       set.curves.push_back(curve);
       return Side{set.curves.size() - 1};

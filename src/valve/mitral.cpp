@@ -22,6 +22,7 @@ enum Parameter {
   translation
 };
 
+void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
 ValveKind make_kind() {
@@ -46,7 +47,7 @@ ValveKind make_kind() {
     {"triangle_size_ratio", number, "share of the annulus that each commissure's triangle takes", 1, {0.1}, 0.001, 0.45},
     opening_spec("0 closed to 1 open", 1),
     {"translation", length, "shift of the valve", 3, {0, 0, 1}, -longest, longest},
-  }, opening_, true, make_patches, nullptr};
+  }, opening_, true, check_values, make_patches, nullptr};
 }
 // clang-format on
 
@@ -60,6 +61,7 @@ struct HalfValve {
   double u_commissure;    // u_pm
   double triangle_width;  // r_tr, in u
   double bulge;           // tan(surface_angle) / 2
+  double cleft;           // parameter of the closed anterior edge where it meets the cleft
 };
 
 Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
@@ -111,9 +113,21 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
 }
 
+// A free edge that is all in one point makes no leaflet.
+double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
+  const double length = arc_length(edge);
+  if (!(length >= 1e-6 * arc_length(annulus)))
+    fail(
+        RIIS_INVALID_PARAMETER,
+        "the %s free edge is %s long, nothing beside the annulus: look at anterior_ratio, ALPM_diameter, the leaflets' "
+        "lengths and leaflet_inward_angle",
+        which, Number(length).text);
+  return length;
+}
+
 // The parameter of the closed anterior edge a third of its length from the commissure: where the cleft is.
-double cleft_parameter(const Bezier &closed_anterior) {
-  const double whole = arc_length(closed_anterior);
+double cleft_parameter(const Bezier &closed_anterior, const Bezier &annulus) {
+  const double whole = checked_length(closed_anterior, "closed", annulus);
   return parameter_at_length(closed_anterior, whole, whole / 3);
 }
 
@@ -137,6 +151,7 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   };
   const Vec3 commissure = edge_point(u_pm, commissure_length);
   half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
+  half.cleft = 0;
   if (is_open) {
     // Clefts at a third of the way; the paper swaps tips and ends of the side scallops.
     const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
@@ -145,7 +160,8 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
     half.middle_scallop = free_edge(cleft, edge_point(0, value(posterior_scallop_length2)), mirrored(cleft), arc_angle);
   } else {
     // The leaflets meet in one edge: thirds of its length are the scallops.
-    const double cleft = cleft_parameter(half.anterior);
+    half.cleft = cleft_parameter(half.anterior, half.annulus[0]);
+    const double cleft = half.cleft;
     const auto [side, rest] = split(half.anterior, cleft);
     half.side_scallop = side;
     half.middle_scallop = split(rest, (1 - 2 * cleft) / (1 - cleft)).first;
@@ -163,11 +179,12 @@ HalfValve blend(const HalfValve &closed, const HalfValve &open, double opening) 
   half.u_commissure = riis::blend(closed.u_commissure, open.u_commissure, opening);
   half.triangle_width = riis::blend(closed.triangle_width, open.triangle_width, opening);
   half.bulge = riis::blend(closed.bulge, open.bulge, opening);
+  half.cleft = riis::blend(closed.cleft, open.cleft, opening);
   return half;
 }
 
 // Lengths against the depth of the annulus.
-void check_together(const ParameterValues &values) {
+void check_values(const ParameterValues &values) {
   const std::vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
   const Measure depth{"AP_diameter", values[AP_diameter][0]};
   const auto check = [&](Parameter parameter, double least, double most) {
@@ -190,11 +207,6 @@ void check_together(const ParameterValues &values) {
          Number(triangle).text, Number(ratio).text);
 }
 
-HalfValve checked_half_valve(const ParameterValues &values, bool is_open) {
-  check_together(values);
-  return half_valve(values, is_open);
-}
-
 // Cuts an edge at the plane of symmetry.
 Bezier up_to_symmetry_plane(const Bezier &edge, double middle) {
   Bezier half = split(edge, middle).first;
@@ -204,10 +216,9 @@ Bezier up_to_symmetry_plane(const Bezier &edge, double middle) {
 
 class Patches {
  public:
-  Patches(const HalfValve &half, double cleft, bool is_closed, Vec3 shift)
-      : half_(half), annulus_(half.annulus), shift_(shift) {
-    const auto [side_edge, rest] = split(half.anterior, cleft);
-    const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - cleft) / (1 - cleft));
+  Patches(const HalfValve &half, bool is_closed, Vec3 shift) : half_(half), annulus_(half.annulus), shift_(shift) {
+    const auto [side_edge, rest] = split(half.anterior, half.cleft);
+    const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - half.cleft) / (1 - half.cleft));
     const std::size_t anterior_side = add(side_edge), anterior_middle = add(middle_edge);
     // Closed leaflets share their edge: one curve, one polyline.
     const std::size_t posterior_side = is_closed ? anterior_side : add(half.side_scallop);
@@ -244,13 +255,9 @@ class Patches {
   // The arc from the annulus at u to that point of the edge, as a side that both its patches share.
   Arc arc(double u, Vec3 on_edge) {
     const auto [on_annulus, along] = annulus_.frame(u);
-    const Vec3 across = on_edge - on_annulus, normal = cross(across, along);
-    const double size = length(normal);
-    Vec3 offset = size > 0 ? (half_.bulge * length(across) / size) * normal : Vec3{0, 0, 0};
+    Vec3 offset = arc_offset(on_edge - on_annulus, along, half_.bulge);
     if (u == 0 || u == 0.5) offset.x = 0;  // in the plane of symmetry, to the last bit
-    return {u,
-            on_annulus,
-            {add(Bezier::quadratic(on_annulus, middle_control_point(on_annulus, on_edge, offset), on_edge))}};
+    return {u, on_annulus, {add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))}};
   }
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
@@ -281,12 +288,16 @@ class Patches {
 };
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
-  const HalfValve closed_half = checked_half_valve(closed.values, false),
-                  open_half = checked_half_valve(open.values, true);
+  const HalfValve closed_half = half_valve(closed.values, false);
+  HalfValve open_half = half_valve(open.values, true);
+  open_half.cleft = &open == &closed ? closed_half.cleft : half_valve(open.values, false).cleft;
+  const HalfValve half = blend(closed_half, open_half, opening);
+  checked_length(half.anterior, "anterior", half.annulus[0]);
+  checked_length(half.side_scallop, "side scallop's", half.annulus[0]);
+  checked_length(half.middle_scallop, "middle scallop's", half.annulus[0]);
   const auto &from = closed.values[translation], &to = open.values[translation];
   const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
-  return Patches(blend(closed_half, open_half, opening), cleft_parameter(closed_half.anterior), opening == 0, shift)
-      .take();
+  return Patches(half, opening == 0, shift).take();
 }
 
 }  // namespace

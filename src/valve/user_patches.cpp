@@ -108,7 +108,8 @@ class PatchReader {
     const Vec3 p = end_of(sides[a], a_last), q = end_of(sides[b], b_last);
     if (!(distance(p, q) <= max_gap_))
       fail(RIIS_INVALID_PARAMETER,
-           "patch %lld is open: side %s %s in (%s, %s, %s), side %s %s in (%s, %s, %s); if a curve runs the other way, "
+           "patch %lld does not close: side %s %s in (%s, %s, %s), side %s %s in (%s, %s, %s); if a curve runs the "
+           "other way, "
            "reverse it",
            static_cast<long long>(patch), side_names[a], a_last ? "ends" : "begins", Number(p.x).text, Number(p.y).text,
            Number(p.z).text, side_names[b], b_last ? "ends" : "begins", Number(q.x).text, Number(q.y).text,
@@ -161,7 +162,15 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
   const std::vector<Bezier> curves = curves_of(arrays);
   PatchSet set{{curves.begin(), curves.end()}, {}};
   const PatchReader reader(arrays, curves);
-  for (std::int64_t i = 0; i < arrays.n_patches; ++i) set.patches.push_back(reader.read(i));
+  std::vector<bool> is_used(curves.size());
+  for (std::int64_t i = 0; i < arrays.n_patches; ++i) {
+    set.patches.push_back(reader.read(i));
+    const Patch &patch = set.patches.back();
+    for (const Side &side : {patch.v0, patch.v1, patch.u0, patch.u1}) is_used[side.curve] = true;
+  }
+  const auto unused = std::find(is_used.begin(), is_used.end(), false);
+  if (unused != is_used.end())
+    fail(RIIS_INVALID_PARAMETER, "curve %lld is a side of no patch", static_cast<long long>(unused - is_used.begin()));
   return set;
 }
 
@@ -172,6 +181,7 @@ const ValveKind &patches_valve_kind() {
                     0)},
       0,
       false,
+      nullptr,
       make_patches,
       check_states};
   return kind;

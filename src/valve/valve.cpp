@@ -89,7 +89,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
 void Valve::set_open_state(const Valve &open) {
   if (open.kind_ != kind_)
     fail(RIIS_INVALID_PARAMETER,
-         "the open state is of a %s valve, the valve is %s: a valve opens to one of its own kind", open.kind_->name,
+         "the open state is of the kind %s, the valve of the kind %s: a valve opens to one of its own", open.kind_->name,
          kind_->name);
   if (kind_->check_states) kind_->check_states(state_, open.state_);
   open_ = open.state_;
@@ -103,7 +103,19 @@ PatchSet Valve::make_patches() const {
         "opening is %s, but the %s valve has one state only: give it another to open to with riis_valve_set_open_state "
         "or riis-mark --params-open",
         Number(opening).text, kind_->name);
+  if (kind_->check_values) {
+    kind_->check_values(state_.values);
+    if (open_) check_open_values();
+  }
   return kind_->make_patches(state_, open_ ? *open_ : state_, opening);
+}
+
+void Valve::check_open_values() const {
+  try {
+    kind_->check_values(open_->values);
+  } catch (const Error &error) {
+    fail(error.status, "in the open state: %s", error.text);
+  }
 }
 
 Bezier blend(const Bezier &closed, const Bezier &open, double opening) {

@@ -38,8 +38,10 @@ struct ValveKind {
   std::vector<ParameterSpec> parameters;
   std::size_t opening;   // position of the parameter of that name
   bool opens_by_itself;  // one set of parameters makes it closed and open
+  // Refuses values that do not go together; NULL: they always do.
+  void (*check_values)(const ParameterValues &values);
   // The patches at an opening from 0, which the closed state makes, to 1, which the open one makes: control points are
-  // blended. Both states may be the same. Refuses values that do not go together.
+  // blended. Both states may be the same, and have been checked.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
   // Refuses an open state that is not of the closed one's build; NULL: states of a kind always are.
   void (*check_states)(const ValveState &closed, const ValveState &open);
@@ -67,6 +69,8 @@ class Valve {
   PatchSet make_patches() const;
 
  private:
+  void check_open_values() const;
+
   const ValveKind *kind_;
   ValveState state_;
   std::optional<ValveState> open_;

@@ -13,6 +13,7 @@
 #include "geometry/coons.hpp"
 #include "geometry/curve.hpp"
 #include "parallel/parallel_for.hpp"
+#include "surface/grids.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangulate.hpp"
 #include "valve/patches.hpp"
@@ -230,6 +231,34 @@ void patch_set_free(patch_set *set) {
         static_cast<void *>(set->patch), static_cast<void *>(set->leaflet_id), static_cast<void *>(set->patch_id),
         static_cast<void *>(set->mirrored), static_cast<void *>(set->frame)})
     std::free(memory);
+}
+
+riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
+                          double max_error, int64_t *n_quads, bounded_quad **quads) {
+  return guarded([&] {
+    Valve valve(find_valve_kind(kind));
+    for (int i = 0; i < n_parameters; ++i) valve.set(names[i], 1, values + i);
+    const PatchSet set = valve.make_patches();
+    const std::vector<QuadGrid> grids = make_grids(set, max_error);
+    std::vector<bounded_quad> made;
+    for (std::size_t patch = 0; patch < grids.size(); ++patch) {
+      const QuadGrid &grid = grids[patch];
+      const PatchImage &image = set.patches[patch].images.front();
+      for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
+        for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) {
+          bounded_quad quad{
+              image.patch_id, {grid.u[i], grid.u[i + 1]}, {grid.v[j], grid.v[j + 1]}, grid.error(i, j), {}};
+          put(place(image, grid.point(i, j)), quad.corners[0]);
+          put(place(image, grid.point(i + 1, j)), quad.corners[1]);
+          put(place(image, grid.point(i + 1, j + 1)), quad.corners[2]);
+          put(place(image, grid.point(i, j + 1)), quad.corners[3]);
+          made.push_back(quad);
+        }
+    }
+    *n_quads = static_cast<int64_t>(made.size());
+    *quads = room<bounded_quad>(made.size());
+    std::copy(made.begin(), made.end(), *quads);
+  });
 }
 
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,

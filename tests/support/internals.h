@@ -69,6 +69,16 @@ riis_status aortic_patches(const char *name, double value, patch_set *set);
 void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed);
 void patch_set_free(patch_set *set);
 
+/* The quads of a valve's patches, placed, with the bound on how far each is from its smooth patch at equal (u, v): those of every
+ * patch's first image. The valve is of that kind with those parameters, one value each. */
+typedef struct bounded_quad {
+  int32_t patch_id;
+  double u[2], v[2], error;
+  double corners[4][3]; /* at (u0, v0), (u1, v0), (u1, v1), (u0, v1) */
+} bounded_quad;
+riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
+                          double max_error, int64_t *n_quads, bounded_quad **quads);
+
 /* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the
  * closest triangle to each point; returns for how many points squared distance (bits) or triangle differ. Points beyond
  * the limit must give none. */

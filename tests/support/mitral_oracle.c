@@ -16,7 +16,7 @@ typedef struct cubic {
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
   real u_pm, u_al, triangle, bulge; /* bulge: tan(surface_angle) / 2 */
-  real cleft; /* parameter at which the closed anterior edge has a third of its length behind it */
+  real cleft; /* parameter at which closed anterior edges have a third of their length behind them, blended */
   real translation[3];
 };
 
@@ -212,7 +212,16 @@ static void blend_curve(real opening, real closed[4][3], real open[4][3], cubic 
 
 typedef struct states { /* on the heap: tables of 14 curves */
   cubic closed_annulus[6], open_annulus[6], closed_anterior, open_anterior;
+  cubic cleft_annulus[6], cleft_anterior;
 } states;
+
+/* The parameter of the set's closed anterior edge with a third of the length behind it. */
+static real cleft_of(const mitral_parameters *p, cubic annulus[6], cubic *anterior) {
+  annulus_curves(p, 0, annulus);
+  anterior_curve(p, annulus, 0, anterior->point);
+  measure(anterior);
+  return parameter_at(anterior, length(anterior) / 3);
+}
 
 static void build(mitral_oracle *o, states *s, const mitral_parameters *closed, const mitral_parameters *open) {
   const real opening = closed->opening;
@@ -226,7 +235,8 @@ static void build(mitral_oracle *o, states *s, const mitral_parameters *closed, 
   blend_curve(opening, s->closed_anterior.point, s->open_anterior.point, &o->anterior);
 
   measure(&s->closed_anterior);
-  o->cleft = parameter_at(&s->closed_anterior, length(&s->closed_anterior) / 3);
+  o->cleft = blend(opening, cleft_of(closed, s->cleft_annulus, &s->cleft_anterior),
+                   cleft_of(open, s->cleft_annulus, &s->cleft_anterior));
   for (int i = 0; i < 3; ++i) {
     const real third = length(&s->closed_anterior) / 3;
     const real from = i == 0 ? 0 : parameter_at(&s->closed_anterior, i * third);

@@ -21,8 +21,8 @@ typedef struct mitral_oracle mitral_oracle;
 mitral_parameters mitral_defaults(void);
 
 /* The valve at closed->opening (open->opening is not read). Control points of the closed state come from *closed, of
- * the open state from *open; they, anterior_ratio, triangle_size_ratio, tan(surface_angle) and the translation are
- * blended linearly. A valve with one set of parameters passes it twice. NULL: out of memory. */
+ * the open state from *open; they, anterior_ratio, triangle_size_ratio, tan(surface_angle), the translation and the
+ * cleft's parameter are blended linearly. A valve with one set of parameters passes it twice. NULL: out of memory. */
 mitral_oracle *mitral_oracle_create(const mitral_parameters *closed, const mitral_parameters *open);
 void mitral_oracle_destroy(mitral_oracle *oracle);
 

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Meshes with an adjacency made by hand, and what searches found in them, compared bit by bit. Include after riis.h,
+ * test_support.h and handles.h. */
+#ifndef RIIS_TEST_SEARCHES_H
+#define RIIS_TEST_SEARCHES_H
+
+typedef struct found_nodes {
+  int64_t n;
+  const int64_t *node_id, *triangle_id;
+  const double *distance;
+  const int32_t *leaflet_id;
+} found_nodes;
+
+static inline found_nodes marked_in(const riis_mark_result *result) {
+  found_nodes f;
+  CHECK_OK(riis_mark_result_marked(result, &f.n, &f.node_id, &f.distance, &f.triangle_id, &f.leaflet_id));
+  return f;
+}
+
+static inline found_nodes within_in(const riis_mark_result *result) {
+  found_nodes f;
+  CHECK_OK(riis_mark_result_within_limit(result, &f.n, &f.node_id, &f.distance, &f.triangle_id, &f.leaflet_id));
+  return f;
+}
+
+static inline riis_mark_stats stats_of(const riis_mark_result *result) {
+  riis_mark_stats stats;
+  CHECK_OK(riis_mark_result_stats(result, &stats, sizeof stats));
+  return stats;
+}
+
+static inline riis_mark_result *new_result(void) {
+  riis_mark_result *result = NULL;
+  CHECK_OK(riis_mark_result_create(&result));
+  return result;
+}
+
+static inline int same_nodes(found_nodes a, found_nodes b) {
+  if (a.n != b.n) return 0;
+  if (a.n == 0) return 1;
+  const size_t m = (size_t)a.n;
+  return memcmp(a.node_id, b.node_id, m * sizeof *a.node_id) == 0 &&
+         memcmp(a.distance, b.distance, m * sizeof *a.distance) == 0 &&
+         memcmp(a.triangle_id, b.triangle_id, m * sizeof *a.triangle_id) == 0 &&
+         memcmp(a.leaflet_id, b.leaflet_id, m * sizeof *a.leaflet_id) == 0;
+}
+
+/* The same nodes, marked and within the limit, with the same bits. Asserts nothing: any thread may ask. */
+static inline int same_results(const riis_mark_result *a, const riis_mark_result *b) {
+  const riis_mark_result *of[2] = {a, b};
+  found_nodes m[2], w[2];
+  for (int i = 0; i < 2; ++i) {
+    found_nodes *f = m + i;
+    if (riis_mark_result_marked(of[i], &f->n, &f->node_id, &f->distance, &f->triangle_id, &f->leaflet_id)) return 0;
+    f = w + i;
+    if (riis_mark_result_within_limit(of[i], &f->n, &f->node_id, &f->distance, &f->triangle_id, &f->leaflet_id))
+      return 0;
+  }
+  return same_nodes(m[0], m[1]) && same_nodes(w[0], w[1]);
+}
+
+/* Nodes and which are neighbours: n + 1 offsets and their columns, from 0. All on the heap. */
+typedef struct test_mesh {
+  int64_t n;
+  double *xyz;
+  int64_t *offsets, *columns;
+} test_mesh;
+
+static inline void free_test_mesh(test_mesh *mesh) {
+  free(mesh->xyz), free(mesh->offsets), free(mesh->columns);
+  memset(mesh, 0, sizeof *mesh);
+}
+
+/* Rows from pairs, (2, n_pairs): each joins both ways. */
+static inline void set_rows(test_mesh *mesh, int64_t n_pairs, const int64_t *pairs) {
+  const size_t n = (size_t)mesh->n;
+  int64_t *next = calloc(n + 1, sizeof *next);
+  free(mesh->offsets), free(mesh->columns);
+  mesh->offsets = calloc(n + 1, sizeof *mesh->offsets);
+  mesh->columns = malloc((size_t)(2 * n_pairs + 1) * sizeof *mesh->columns);
+  for (int64_t k = 0; k < 2 * n_pairs; ++k) ++mesh->offsets[pairs[k] + 1];
+  for (int64_t i = 0; i < mesh->n; ++i) mesh->offsets[i + 1] += mesh->offsets[i];
+  memcpy(next, mesh->offsets, n * sizeof *next);
+  for (int64_t k = 0; k < n_pairs; ++k) {
+    const int64_t a = pairs[2 * k], b = pairs[2 * k + 1];
+    mesh->columns[next[a]++] = b;
+    mesh->columns[next[b]++] = a;
+  }
+  free(next);
+}
+
+/* counts[0] * counts[1] * counts[2] nodes between two corners, each with up to 6 neighbours. */
+static inline test_mesh lattice(const int64_t *counts, const double *lower, const double *upper) {
+  const int64_t step[3] = {1, counts[0], counts[0] * counts[1]};
+  test_mesh mesh = {.n = step[2] * counts[2]};
+  mesh.xyz = malloc((size_t)mesh.n * 3 * sizeof *mesh.xyz);
+  int64_t *pairs = malloc((size_t)mesh.n * 6 * sizeof *pairs), n_pairs = 0;
+  for (int64_t i = 0; i < mesh.n; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const int64_t at = i / step[c] % counts[c];
+      mesh.xyz[3 * i + c] =
+          counts[c] == 1 ? lower[c] : lower[c] + (upper[c] - lower[c]) * (double)at / (double)(counts[c] - 1);
+      if (at + 1 == counts[c]) continue;
+      pairs[2 * n_pairs] = i;
+      pairs[2 * n_pairs++ + 1] = i + step[c];
+    }
+  set_rows(&mesh, n_pairs, pairs);
+  free(pairs);
+  return mesh;
+}
+
+/* A lattice with about that spacing, as wide as the surface and a margin around it. */
+static inline test_mesh lattice_around(const riis_surface *surface, double spacing, double margin) {
+  const riis_surface_info info = info_of(surface);
+  double lower[3], upper[3];
+  int64_t counts[3];
+  for (int c = 0; c < 3; ++c) {
+    lower[c] = info.lower[c] - margin, upper[c] = info.upper[c] + margin;
+    counts[c] = 1 + (int64_t)ceil((upper[c] - lower[c]) / spacing);
+  }
+  return lattice(counts, lower, upper);
+}
+
+static inline riis_csr csr_of(const test_mesh *mesh) {
+  riis_csr csr;
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = mesh->n;
+  csr.offsets = mesh->offsets;
+  csr.columns = mesh->columns;
+  csr.offset_bits = csr.column_bits = 64;
+  return csr;
+}
+
+/* Borrows all of it. */
+static inline riis_mesh *mesh_from(const test_mesh *from) {
+  riis_mesh *mesh = NULL;
+  const riis_csr csr = csr_of(from);
+  CHECK_OK(riis_mesh_create(from->n, from->xyz, from->xyz + 1, from->xyz + 2, 3, &mesh));
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  return mesh;
+}
+
+#endif
