@@ -5,37 +5,17 @@
 #include <riis/riis.h>
 
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
+#include <cmath>
 #include <random>
 #include <vector>
 
 #include "api/handles.hpp"
 #include "distance/point_triangle.hpp"
+#include "handles.hpp"
 
 namespace {
 
-void check(riis_status status) {
-  if (status == RIIS_OK) return;
-  std::fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
-  std::exit(1);
-}
-
-template <class Handle, void (*destroy)(Handle **)>
-struct Destroy {
-  void operator()(Handle *handle) const { destroy(&handle); }
-};
-using Valve = std::unique_ptr<riis_valve, Destroy<riis_valve, riis_valve_destroy>>;
-using Surface = std::unique_ptr<riis_surface, Destroy<riis_surface, riis_surface_destroy>>;
-using Mesh = std::unique_ptr<riis_mesh, Destroy<riis_mesh, riis_mesh_destroy>>;
-using Result = std::unique_ptr<riis_mark_result, Destroy<riis_mark_result, riis_mark_result_destroy>>;
-
-Valve aortic_valve() {
-  riis_valve *valve = nullptr;
-  check(riis_valve_create("aortic", &valve));
-  return Valve(valve);
-}
+using namespace bench;
 
 riis_surface_options with_tolerance(double tolerance) {
   riis_surface_options options;
@@ -47,7 +27,7 @@ riis_surface_options with_tolerance(double tolerance) {
 Surface aortic_surface(double tolerance) {
   riis_surface *surface = nullptr;
   const riis_surface_options options = with_tolerance(tolerance);
-  check(riis_surface_create(aortic_valve().get(), &options, &surface));
+  check(riis_surface_create(make_valve("aortic").get(), &options, &surface));
   return Surface(surface);
 }
 
@@ -77,16 +57,10 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-double n_triangles_of(const riis_surface *surface) {
-  riis_surface_info info;
-  check(riis_surface_get_info(surface, &info, sizeof info));
-  return static_cast<double>(info.n_triangles);
-}
-
 // Parameters to triangles to scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per
 // cent.
 void surface_update(benchmark::State &state) {
-  const Valve valve = aortic_valve();
+  const Valve valve = make_valve("aortic");
   const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);
   const Surface surface = aortic_surface(0.05);
   double seconds_triangles = 0, seconds_scene = 0;
@@ -119,9 +93,7 @@ BENCHMARK(closest_point)->Arg(50)->Arg(5)->Unit(benchmark::kMicrosecond);
 void mark_exhaustive(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const Mesh mesh = box_mesh();
-  riis_mark_result *made = nullptr;
-  check(riis_mark_result_create(&made));
-  const Result result(made);
+  const Result result = make_result();
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.search = RIIS_SEARCH_EXHAUSTIVE;
@@ -149,9 +121,7 @@ void brute_force_over_marking(benchmark::State &state) {
   riis_mesh *sampled = nullptr;
   check(riis_mesh_create(n_sample, xyz, xyz + 1, xyz + 2, 300, &sampled));
   const Mesh mesh(sampled);
-  riis_mark_result *made = nullptr;
-  check(riis_mark_result_create(&made));
-  const Result result(made);
+  const Result result = make_result();
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;
@@ -181,5 +151,3 @@ void brute_force_over_marking(benchmark::State &state) {
 BENCHMARK(brute_force_over_marking)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-
-BENCHMARK_MAIN();

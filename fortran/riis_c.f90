@@ -17,11 +17,13 @@
 ! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them back to it.
 ! - Whatever a call writes is intent(inout), not out, because a call that is refused leaves it as it was.
 ! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element with a
-!   stride. The coordinates of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc asks for TARGET, and
-!   no compiler can slip in a temporary copy. Keep the array where it is (not a local that ends, not reallocated).
+!   stride. The coordinates and the rows of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc asks for
+!   TARGET, and no compiler can slip in a temporary copy. Keep the array where it is (not a local that ends, not
+!   reallocated).
 ! - Arrays that the library owns come as type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to
 !   them. They are c_null_ptr when there is nothing in them.
-! - Ids count from 0, also here: node_id + 1 is the column of xyz(3, n).
+! - Ids that come out count from 0, also here: node_id + 1 is the column of xyz(3, n). Ids that go in by a struct count
+!   from its index_base, so set that to 1; of which kind they are its *_bits say: storage_size(the array).
 ! - Structs: have the init function fill them, with c_sizeof(the variable) as struct_size, then set what differs:
 !     status = riis_mark_options_init(options, c_sizeof(options))
 ! - Texts go in through riis_c_string and come out through riis_c_text. A bare literal compiles, too, and is wrong: it
@@ -67,6 +69,8 @@ module riis_c
 
   integer(c_int32_t), parameter :: RIIS_SEARCH_AUTO = 0
   integer(c_int32_t), parameter :: RIIS_SEARCH_EXHAUSTIVE = 1
+  integer(c_int32_t), parameter :: RIIS_SEARCH_NEIGHBOR = 2
+  integer(c_int32_t), parameter :: RIIS_SEARCH_PAPER = 3
 
   real(c_double), parameter :: RIIS_AUTO = -1.0_c_double
   real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.0e30_c_double
@@ -164,6 +168,44 @@ module riis_c
     type(c_ptr) :: side
   end type riis_closest_arrays
 
+  type, bind(c) :: riis_csr
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_rows
+    integer(c_int64_t) :: n_all
+    type(c_ptr) :: offsets             ! integer(c_int32_t) or (c_int64_t), (n_rows + 1)
+    type(c_ptr) :: columns             ! integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
+    integer(c_int32_t) :: offset_bits  ! storage_size(offsets)
+    integer(c_int32_t) :: column_bits  ! storage_size(columns)
+    integer(c_int32_t) :: index_base   ! 1 for offsets and columns that count as Fortran does
+    integer(c_int32_t) :: reserved
+  end type riis_csr
+
+  type, bind(c) :: riis_cells
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_nodes
+    integer(c_int64_t) :: n_cells
+    type(c_ptr) :: node_ids            ! integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
+    type(c_ptr) :: offsets             ! of the kind of node_ids, (n_cells + 1), from 0 also with index_base 1; or
+                                       ! c_null_ptr
+    integer(c_int32_t) :: nodes_per_cell
+    integer(c_int32_t) :: id_bits      ! storage_size(node_ids)
+    integer(c_int32_t) :: index_base   ! 1 for node_ids that count as Fortran does
+    integer(c_int32_t) :: n_threads
+  end type riis_cells
+
+  type, bind(c) :: riis_faces
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_cells
+    integer(c_int64_t) :: n_faces
+    type(c_ptr) :: owner               ! integer(c_int32_t) or (c_int64_t), like the next;
+    type(c_ptr) :: neighbor            ! face_cells(2, n_faces): c_loc(face_cells(1, 1)), c_loc(face_cells(2, 1))
+    integer(c_int64_t) :: stride       ! and 2
+    integer(c_int32_t) :: id_bits      ! storage_size(face_cells)
+    integer(c_int32_t) :: index_base   ! 1 for cells that count as Fortran does; neighbor is then 0 at the boundary
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: reserved
+  end type riis_faces
+
   type, bind(c) :: riis_mark_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: distance_limit
@@ -182,6 +224,7 @@ module riis_c
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: complete
     integer(c_int32_t) :: reserved
+    integer(c_int64_t) :: n_unreached
   end type riis_mark_stats
 
   ! -------------------------------------------------------------------------------------------------------------------
@@ -534,6 +577,96 @@ module riis_c
       implicit none
       type(c_ptr), intent(inout) :: mesh
     end subroutine riis_mesh_destroy
+
+    !   struct_size  c_sizeof(csr)
+    function riis_csr_init(csr, struct_size) result(status) bind(c, name='riis_csr_init')
+      import :: c_int64_t, riis_csr, riis_status
+      implicit none
+      type(riis_csr), intent(inout) :: csr
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_csr_init
+
+    !   csr  what its pointers point to is borrowed until the mesh is destroyed or given another, csr itself is not;
+    !        left out: the mesh has none any more
+    function riis_mesh_set_adjacency(mesh, csr) result(status) bind(c, name='riis_mesh_set_adjacency')
+      import :: c_ptr, riis_csr, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      type(riis_csr), intent(in), optional :: csr
+      integer(riis_status) :: status
+    end function riis_mesh_set_adjacency
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Adjacency
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !   struct_size  c_sizeof(cells)
+    function riis_cells_init(cells, struct_size) result(status) bind(c, name='riis_cells_init')
+      import :: c_int64_t, riis_cells, riis_status
+      implicit none
+      type(riis_cells), intent(inout) :: cells
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_cells_init
+
+    !   cells  what its pointers point to is read during the call only
+    function riis_adjacency_create_from_cells(cells, adjacency) result(status) &
+        bind(c, name='riis_adjacency_create_from_cells')
+      import :: c_ptr, riis_cells, riis_status
+      implicit none
+      type(riis_cells), intent(in) :: cells
+      type(c_ptr), intent(inout) :: adjacency
+      integer(riis_status) :: status
+    end function riis_adjacency_create_from_cells
+
+    !   struct_size  c_sizeof(faces)
+    function riis_faces_init(faces, struct_size) result(status) bind(c, name='riis_faces_init')
+      import :: c_int64_t, riis_faces, riis_status
+      implicit none
+      type(riis_faces), intent(inout) :: faces
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_faces_init
+
+    !   faces  what its pointers point to is read during the call only
+    function riis_adjacency_create_from_faces(faces, adjacency) result(status) &
+        bind(c, name='riis_adjacency_create_from_faces')
+      import :: c_ptr, riis_faces, riis_status
+      implicit none
+      type(riis_faces), intent(in) :: faces
+      type(c_ptr), intent(inout) :: adjacency
+      integer(riis_status) :: status
+    end function riis_adjacency_create_from_faces
+
+    !   ni, nj, nk  the extents of xyz(3, ni, nj, nk)
+    function riis_adjacency_create_from_grid(ni, nj, nk, n_threads, adjacency) result(status) &
+        bind(c, name='riis_adjacency_create_from_grid')
+      import :: c_int32_t, c_int64_t, c_ptr, riis_status
+      implicit none
+      integer(c_int64_t), value :: ni, nj, nk
+      integer(c_int32_t), value :: n_threads
+      type(c_ptr), intent(inout) :: adjacency
+      integer(riis_status) :: status
+    end function riis_adjacency_create_from_grid
+
+    !   csr          ready for riis_mesh_set_adjacency. Its offsets are integer(c_int64_t), (n_rows + 1), from 0; its
+    !                columns integer(c_int32_t), or (c_int64_t) where column_bits is 64, (offsets(n_rows + 1)), from 0
+    !   struct_size  c_sizeof(csr)
+    function riis_adjacency_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_csr')
+      import :: c_int64_t, c_ptr, riis_csr, riis_status
+      implicit none
+      type(c_ptr), value :: adjacency
+      type(riis_csr), intent(inout) :: csr
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_adjacency_csr
+
+    subroutine riis_adjacency_destroy(adjacency) bind(c, name='riis_adjacency_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: adjacency
+    end subroutine riis_adjacency_destroy
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Marking

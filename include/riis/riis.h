@@ -19,7 +19,8 @@
  * Conventions, true for every function unless it says otherwise:
  *
  * - Lengths are in one unit of the caller's choice. The valve tables are in centimetres; a placement's scale turns them
- *   into the mesh's unit (0.01 for metres). Angles are degrees. Anything called *_id counts from 0.
+ *   into the mesh's unit (0.01 for metres). Angles are degrees. Anything called *_id counts from 0,
+ *   in texts, too; ids that go in count from the base that is given with them.
  * - A function that can fail returns a riis_status: 0 is success; > 0 means that the call was refused and no object
  *   changed; < 0 means that an object passed for writing is only fit to be destroyed. riis_last_error() has the text.
  *   No function aborts, prints, throws, or lets an exception out. Any function that takes them answers a NULL that is not
@@ -148,8 +149,9 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  * opening 1. In between the control points of every curve are blended linearly, and with them what is no control point:
  * aortic rotations and translations; anterior_ratio, triangle_size_ratio, translation and the tangent of surface_angle of the
  * mitral valve, whose closed curves come from the first and open curves from the second state.
- *   open  of the same kind; for valves from patches of the same curves, degrees and sides. Copied: it may go; its own
- *         opening, and a second state of its own, do not matter
+ *   open  of the same kind; for valves from patches of the same curves, degrees (1 and 2 mix) and sides. Copied: it may go;
+ *         its own opening, leaflet ids and second state do not matter. It stays for good: for another, set it again
+ * A mitral valve is at opening 1 by default, and then is the second state, whatever is set of the first.
  * Errors: RIIS_INVALID_PARAMETER for a valve of another kind or build; the valve is then unchanged. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -161,7 +163,7 @@ RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_val
  * named twice: they become one polyline, and the patches meet without cracks. A side may be collapsed to a point. */
 typedef struct riis_patches {
   int64_t struct_size;
-  int64_t n_curves;          /* 1 to 4,000,000 */
+  int64_t n_curves;          /* 1 to 4,000,000; each the side of some patch */
   const int32_t *degree;     /* (n_curves): 1, 2 or 3, Bezier curves with degree + 1 control points */
   const double *control;     /* (3, sum of all degree + 1): the control points, curve after curve; finite, magnitude at most
                                 1e30 */
@@ -392,6 +394,81 @@ RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const do
                                       int64_t stride);
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 
+/* Which nodes are neighbours, as compressed sparse rows: those of node i are columns[offsets[i]] to columns[offsets[i + 1] - 1], less
+ * the base. Filled by its init function; then set what there is. */
+typedef struct riis_csr {
+  int64_t struct_size;
+  int64_t n_rows;        /* the mesh's n_nodes */
+  int64_t n_all;         /* columns are nodes below this: those from n_rows on are ghosts, other ranks' nodes, which are legal and
+                            ignored. At least n_rows; default 0 stands for n_rows */
+  const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty */
+  const void *columns;   /* (offsets[n_rows] - base), in any order; a node itself and repetitions do no harm. NULL only if empty */
+  int32_t offset_bits;   /* 32 or 64: int32_t or int64_t. Default 32 */
+  int32_t column_bits;   /* 32 or 64. Default 32 */
+  int32_t index_base;    /* 0 or 1: where both offsets and columns count from. Default 0 */
+  int32_t reserved;      /* 0 */
+} riis_csr;
+RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size);
+
+/* Gives the mesh the adjacency that the neighbour search walks along. Borrowed: the arrays must stay in place, unchanged, until the
+ * handle is destroyed or given another. Checked once. NULL takes it away; riis_mesh_update with another n_nodes does, too.
+ * Errors: RIIS_INVALID_ARGUMENT for a field out of range, RIIS_INVALID_MESH naming the row and its value; the mesh then keeps
+ * what it had. */
+RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
+
+/* ------------------------------------------------------------------------------------------------------------------ *
+ * Adjacency from what solvers have: cells, faces, a structured grid
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* Compressed sparse rows that the library made and owns: ascending columns without repetition, symmetric, base 0. */
+typedef struct riis_adjacency riis_adjacency;
+
+/* Cells by their nodes. Filled by its init function. What a cell is, its number of nodes says: 4 tetrahedron, 5 pyramid, 6 prism,
+ * 8 hexahedron, in VTK's order of nodes (base first, then apex or the nodes above: also Abaqus', CGNS', Gmsh's). */
+typedef struct riis_cells {
+  int64_t struct_size;
+  int64_t n_nodes;         /* of the mesh, >= 1 */
+  int64_t n_cells;         /* >= 1 */
+  const void *node_ids;    /* the nodes of cell after cell */
+  const void *offsets;     /* (n_cells + 1), ascending from 0 or from the base: where each cell's nodes begin in node_ids, and
+                              where the last's end; of the type of node_ids. NULL: all cells have nodes_per_cell nodes */
+  int32_t nodes_per_cell;  /* 4, 5, 6 or 8; not used with offsets. Default 4 */
+  int32_t id_bits;         /* 32 or 64: int32_t or int64_t. Default 32 */
+  int32_t index_base;      /* 0 or 1: the number of the first node. Default 0 */
+  int32_t n_threads;       /* 1 to 1024, or 0, the default: the processors the calling thread may use */
+} riis_cells;
+RIIS_API riis_status riis_cells_init(riis_cells *cells, int64_t struct_size);
+/* Neighbours are nodes that an edge of a cell joins. The arrays are read during the call only.
+ * Errors: RIIS_INVALID_ARGUMENT for a field out of range, RIIS_INVALID_MESH naming the cell and its value. */
+RIIS_API riis_status riis_adjacency_create_from_cells(const riis_cells *cells, riis_adjacency **adjacency);
+
+/* Faces between cells, for codes that mark cell centres. Filled by its init function. */
+typedef struct riis_faces {
+  int64_t struct_size;
+  int64_t n_cells;         /* >= 1: the nodes of the mesh are cell centres */
+  int64_t n_faces;         /* >= 0 */
+  const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
+  const void *neighbor;    /* base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
+  int64_t stride;          /* in entries, 1 to 1024: 1 for separate arrays, 2 for face_cells(2, n_faces). Default 1 */
+  int32_t id_bits;         /* as in riis_cells, like the next two */
+  int32_t index_base;
+  int32_t n_threads;
+  int32_t reserved;        /* 0 */
+} riis_faces;
+RIIS_API riis_status riis_faces_init(riis_faces *faces, int64_t struct_size);
+/* Neighbours are cells with a common face. Arrays and errors as above. */
+RIIS_API riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency);
+
+/* A structured grid of ni * nj * nk nodes, each >= 1; node i + ni (j + nj k). Neighbours differ by 1 in one of i, j, k.
+ *   n_threads  as in riis_cells */
+RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
+                                                     riis_adjacency **adjacency);
+/* Fills *csr for riis_mesh_set_adjacency. Its arrays are the adjacency's: destroy it after the mesh, not before. Offsets are
+ * int64_t; columns int32_t as long as there are fewer than 2^31 nodes: column_bits says.
+ *   struct_size  sizeof(riis_csr) of the caller; no more than that is written */
+RIIS_API riis_status riis_adjacency_csr(const riis_adjacency *adjacency, riis_csr *csr, int64_t struct_size);
+RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
+
 /* ------------------------------------------------------------------------------------------------------------------ *
  * Marking (paper, 4.2)
  * ------------------------------------------------------------------------------------------------------------------ */
@@ -403,8 +480,17 @@ RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 
 /* How nodes are sought. */
 enum {
-  RIIS_SEARCH_AUTO = 0,      /* the library's choice; never incomplete */
-  RIIS_SEARCH_EXHAUSTIVE = 1 /* every node is asked (paper, algorithm "Exhaustive node iteration") */
+  RIIS_SEARCH_AUTO = 0,       /* the library's choice, never incomplete: in this release the exhaustive search, which was the faster
+                                 one nearly everywhere it was measured (docs/performance.md) */
+  RIIS_SEARCH_EXHAUSTIVE = 1, /* every node is asked (paper, algorithm "Exhaustive node iteration") */
+  RIIS_SEARCH_NEIGHBOR = 2,   /* from marked nodes to their neighbours (paper, algorithm "Recursive neighbor search"), started from
+                                 the nodes that the result last had, or in every group of nodes that the surface may be near to;
+                                 then every node that was not reached is proven far, by its group, or asked. So it is complete
+                                 whatever the adjacency, the mask, and the pieces that the band falls into. The mesh must have an
+                                 adjacency. The first search of a mesh makes the groups */
+  RIIS_SEARCH_PAPER = 3       /* the paper's algorithm to the letter, for comparison: one start, the node nearest to the surface's
+                                 first vertex; only marked nodes pass it on. Misses what is not connected to that, and never says
+                                 complete. The mesh must have an adjacency */
 };
 
 typedef struct riis_mark_options {
@@ -423,8 +509,8 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  *   surface, mesh  read; may be shared with other calls under way
  *   options        NULL for defaults
  *   result         its former content is replaced; pointers got from it before end
- * Errors: RIIS_INVALID_MESH if a coordinate was made non-finite behind the mesh handle's back. On an error > 0 the content of
- * the result is as it was, though its arrays may have moved: get the pointers again. */
+ * Errors: RIIS_INVALID_MESH if the coordinate of a node that is asked, or grouped, was made non-finite behind the mesh handle's
+ * back. On an error > 0 the content of the result is as it was, though its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                                      riis_mark_result *result);
 
@@ -457,12 +543,14 @@ typedef struct riis_mark_stats {
   int64_t n_nodes;
   int64_t n_marked;
   int64_t n_within_limit;
-  int64_t n_queries;    /* closest-point queries that were made; nodes outside the surface's inflated bounds need none */
+  int64_t n_queries;    /* closest-point queries that were made, of nodes and, by the neighbour search, of groups of nodes */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
   int32_t n_threads;    /* threads that really ran */
-  int32_t complete;     /* 1: every node within the limit was found */
+  int32_t complete;     /* 1: every node within the limit was found, which is certain; 0: it is not (RIIS_SEARCH_PAPER) */
   int32_t reserved;
+  int64_t n_unreached;  /* nodes within the limit that the neighbour search did not reach from neighbour to neighbour, and that
+                           its proof found */
 } riis_mark_stats;
 /* struct_size is sizeof(riis_mark_stats) of the caller; no more than that is written. */
 RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size);

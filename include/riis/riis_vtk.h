@@ -35,6 +35,15 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
  * may be NULL. Owned by the mesh, valid until its destruction. */
 RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells, const double **xyz);
 
+/* Makes the adjacency of the nodes for riis_mesh_set_adjacency: neighbours are nodes that an edge of a tetrahedron, pyramid, wedge,
+ * hexahedron or voxel joins. Other cells are left out: those of a boundary say nothing more; of polyhedra, prisms of more sides
+ * and cells of higher order no edges are known here. Nodes of these alone get empty rows, as all do in a mesh without any
+ * of the above: RIIS_SEARCH_NEIGHBOR finds the same nodes all the same, by its proof, RIIS_SEARCH_PAPER does not.
+ *   n_threads  1 to 1024, or 0: the processors the calling thread may use
+ *   adjacency  for riis_adjacency_destroy; it borrows nothing from the mesh
+ * Errors: RIIS_INVALID_ARGUMENT for n_threads. */
+RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads, riis_adjacency **adjacency);
+
 /* Adds, or replaces, the point arrays of a marking: riis_marked (UInt8, 0 or 1), riis_distance (Float64, far_distance beyond
  * the limit), riis_leaflet (Int32, -1 beyond the limit). far_distance as in riis_mark_result_dense.
  * Errors: RIIS_INVALID_ARGUMENT if the result is not of a mesh with as many nodes. */

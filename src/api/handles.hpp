@@ -20,6 +20,7 @@ enum class HandleKind : std::uint64_t {
   valve = 0x7269697376616c76,
   surface = 0x7269697373757266,
   mesh = 0x726969736d657368,
+  adjacency = 0x7269697361646a63,
   mark_result = 0x7269697372736c74
 };
 
@@ -60,7 +61,12 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
 };
 
 struct riis_mesh : riis::Handle<riis::HandleKind::mesh> {
+  explicit riis_mesh(const riis::StridedPoints &nodes) : mesh(nodes) {}
   riis::Mesh mesh;
+};
+
+struct riis_adjacency : riis::Handle<riis::HandleKind::adjacency> {
+  riis::OwnAdjacency adjacency;
 };
 
 struct riis_mark_result : riis::Handle<riis::HandleKind::mark_result> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mesh_*, riis_mark_*: argument checks around marking.
+// riis_mesh_*, riis_adjacency_*, riis_mark_*: argument checks around marking.
 #include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "api/structs.hpp"
@@ -12,9 +12,13 @@ using riis::require_handle;
 namespace {
 
 // Sizes of the first release.
-constexpr std::size_t options_size = 32, stats_size = 56;
+constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64;
 
 const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0};
+
+const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
+const riis_cells default_cells{sizeof(riis_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
+const riis_faces default_faces{sizeof(riis_faces), 0, 0, nullptr, nullptr, 1, 32, 0, 0, 0};
 
 double limit_of(const riis_mark_options &options, double half_thickness) {
   if (options.distance_limit == RIIS_AUTO) return half_thickness;
@@ -24,15 +28,15 @@ double limit_of(const riis_mark_options &options, double half_thickness) {
   return options.distance_limit;
 }
 
-riis::Mesh checked_mesh(const riis::StridedPoints &nodes) {
+riis::StridedPoints checked_nodes(const riis::StridedPoints &nodes) {
   if (nodes.n < 1)
     riis::fail(RIIS_INVALID_MESH, "n_nodes is %lld; a mesh has at least 1 node", static_cast<long long>(nodes.n));
   riis::check_points(nodes, "node", RIIS_INVALID_MESH);
-  return {nodes};
+  return nodes;
 }
 
 void check_search(std::int32_t search) {
-  if (search != RIIS_SEARCH_AUTO && search != RIIS_SEARCH_EXHAUSTIVE)
+  if (search < RIIS_SEARCH_AUTO || search > RIIS_SEARCH_PAPER)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", search);
 }
 
@@ -54,16 +58,76 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
                              riis_mesh **mesh) {
   return guarded([&] {
     require(mesh, "mesh");
-    *mesh = new riis_mesh{{}, checked_mesh({n_nodes, x, y, z, stride})};
+    *mesh = new riis_mesh(checked_nodes({n_nodes, x, y, z, stride}));
   });
 }
 
 riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                              int64_t stride) {
-  return guarded([&] { require_handle(mesh, "mesh")->mesh = checked_mesh({n_nodes, x, y, z, stride}); });
+  return guarded([&] { require_handle(mesh, "mesh")->mesh.set_nodes(checked_nodes({n_nodes, x, y, z, stride})); });
 }
 
 void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
+
+riis_status riis_csr_init(riis_csr *csr, int64_t struct_size) {
+  return guarded([&] { riis::init_struct<csr_size>(csr, struct_size, "csr", default_csr); });
+}
+
+riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
+  return guarded([&] {
+    riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
+    if (csr)
+      content.set_adjacency(
+          riis::checked_adjacency(riis::completed<csr_size>(csr, "csr", default_csr), content.nodes().n));
+    else
+      content.set_adjacency(std::nullopt);
+  });
+}
+
+riis_status riis_cells_init(riis_cells *cells, int64_t struct_size) {
+  return guarded([&] { riis::init_struct<cells_size>(cells, struct_size, "cells", default_cells); });
+}
+
+riis_status riis_adjacency_create_from_cells(const riis_cells *cells, riis_adjacency **adjacency) {
+  return guarded([&] {
+    require(adjacency, "adjacency");
+    const riis_cells whole = riis::completed<cells_size>(require(cells, "cells"), "cells", default_cells);
+    const int n_threads = riis::threads_asked_for(whole.n_threads, "cells.n_threads");
+    *adjacency = new riis_adjacency{{}, riis::adjacency_from_cells(whole, n_threads)};
+  });
+}
+
+riis_status riis_faces_init(riis_faces *faces, int64_t struct_size) {
+  return guarded([&] { riis::init_struct<faces_size>(faces, struct_size, "faces", default_faces); });
+}
+
+riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency) {
+  return guarded([&] {
+    require(adjacency, "adjacency");
+    const riis_faces whole = riis::completed<faces_size>(require(faces, "faces"), "faces", default_faces);
+    const int n_threads = riis::threads_asked_for(whole.n_threads, "faces.n_threads");
+    *adjacency = new riis_adjacency{{}, riis::adjacency_from_faces(whole, n_threads)};
+  });
+}
+
+riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
+                                            riis_adjacency **adjacency) {
+  return guarded([&] {
+    require(adjacency, "adjacency");
+    const int n = riis::threads_asked_for(n_threads, "n_threads");
+    *adjacency = new riis_adjacency{{}, riis::adjacency_from_grid(ni, nj, nk, n)};
+  });
+}
+
+riis_status riis_adjacency_csr(const riis_adjacency *adjacency, riis_csr *csr, int64_t struct_size) {
+  return guarded([&] {
+    riis_csr value = require_handle(adjacency, "adjacency")->adjacency.csr();
+    value.struct_size = struct_size;
+    riis::write_struct<csr_size>(csr, struct_size, "csr", value);
+  });
+}
+
+void riis_adjacency_destroy(riis_adjacency **adjacency) { riis::destroy_handle(adjacency, "adjacency"); }
 
 riis_status riis_mark_result_create(riis_mark_result **result) {
   return guarded([&] {
@@ -88,7 +152,7 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
                                       riis::threads_asked_for(whole.n_threads, "options.n_threads")};
     check_search(whole.search);
-    riis::mark_nodes(request, result->result);
+    riis::mark_nodes(request, whole.search, result->result);
   });
 }
 

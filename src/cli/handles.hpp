@@ -19,6 +19,7 @@ using Handle = std::unique_ptr<T, Destroy<T, destroy>>;
 using Valve = Handle<riis_valve, riis_valve_destroy>;
 using Surface = Handle<riis_surface, riis_surface_destroy>;
 using Mesh = Handle<riis_mesh, riis_mesh_destroy>;
+using Adjacency = Handle<riis_adjacency, riis_adjacency_destroy>;
 using MarkResult = Handle<riis_mark_result, riis_mark_result_destroy>;
 using MeshFile = Handle<riis_vtk_mesh, riis_vtk_mesh_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;

@@ -11,7 +11,18 @@
 namespace riis::cli {
 namespace {
 
-const char *search_name(int32_t search) { return search == RIIS_SEARCH_EXHAUSTIVE ? "exhaustive" : "unknown"; }
+const char *search_name(int32_t search) {
+  switch (search) {
+    case RIIS_SEARCH_EXHAUSTIVE:
+      return "exhaustive";
+    case RIIS_SEARCH_NEIGHBOR:
+      return "neighbor";
+    case RIIS_SEARCH_PAPER:
+      return "paper";
+    default:
+      return "unknown";
+  }
+}
 
 std::string grouped(int64_t n) {
   std::string digits = std::to_string(n);
@@ -36,14 +47,16 @@ void add_marks(const Report &report, std::ostringstream &out) {
   if (report.distance_limit > report.surface.half_thickness) {
     out << ", " << grouped(marks.n_within_limit) << " within " << report.distance_limit;
   }
-  out << "\nsearch    " << search_name(marks.search) << ", " << counted(marks.n_threads, "thread")
-      << (marks.complete ? "" : ", may be incomplete") << "\n";
+  out << "\nsearch    " << search_name(marks.search) << ", " << counted(marks.n_threads, "thread");
+  if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
+  out << "\n";
+  if (!marks.complete) out << "complete  unknown: what is not connected to the search's one start is missing\n";
 }
 
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
   out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
-      << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", search " << seconds.search << ", write "
-      << seconds.write << ", picture " << seconds.picture << "\n";
+      << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
+      << seconds.search << ", write " << seconds.write << ", picture " << seconds.picture << "\n";
 }
 
 }  // namespace
@@ -73,11 +86,13 @@ std::string json_of(const Report &report) {
                {"search", search_name(marks.search)},
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
+               {"n_unreached", marks.n_unreached},
                {"seconds",
                 {{"read", seconds.read},
                  {"surface", seconds.surface},
                  {"scene", seconds.scene},
                  {"mesh", seconds.mesh},
+                 {"adjacency", seconds.adjacency},
                  {"search", seconds.search},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});

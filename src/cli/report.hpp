@@ -15,6 +15,7 @@ struct Seconds {
   double surface = 0;  // triangles
   double scene = 0;    // Embree
   double mesh = 0;     // checking the nodes
+  double adjacency = 0;
   double search = 0;
   double write = 0;  // files
   double picture = 0;

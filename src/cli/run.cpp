@@ -94,7 +94,9 @@ void rehearse_marking(const Options &options, const riis_surface *surface) {
   riis_mark_result *result_handle = nullptr;
   check(riis_mark_result_create(&result_handle));
   const MarkResult result(result_handle);
-  check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()));
+  riis_mark_options mark_options = options.mark_options;
+  mark_options.search = RIIS_SEARCH_EXHAUSTIVE;  // the others need an adjacency
+  check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
   check(riis_mark_result_dense(result.get(), 1, options.far_distance, nullptr, nullptr, nullptr, nullptr));
 }
 
@@ -115,6 +117,29 @@ Mesh borrow_nodes(const Options &options, const riis_vtk_mesh *file, Report &rep
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), options.mesh);
   report.seconds.mesh = stage.seconds();
   return Mesh(mesh);
+}
+
+bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
+
+// The mesh borrows the adjacency.
+Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
+  const Stage stage("finding the nodes' neighbours", options.quiet);
+  riis_adjacency *handle = nullptr;
+  check(riis_vtk_mesh_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
+  Adjacency adjacency(handle);
+  riis_csr rows;
+  check(riis_adjacency_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
+  report.seconds.adjacency = stage.seconds();
+  return adjacency;
+}
+
+// Said however quiet the user wants it: the marks may be fewer than they should.
+void warn_of_incomplete_marks() {
+  std::fputs(
+      "riis-mark: the marks may be incomplete: --search paper misses what is not connected to its one start; "
+      "--search neighbor does not\n",
+      stderr);
 }
 
 // Mostly the units: one line that shows them.
@@ -138,6 +163,8 @@ void explain_no_marks(const riis_surface_info &surface, const riis_vtk_mesh *fil
 
 void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
   const Mesh mesh = borrow_nodes(options, file, report);
+  const Adjacency adjacency =
+      needs_adjacency(options.mark_options.search) ? give_adjacency(options, file, mesh.get(), report) : nullptr;
   riis_mark_result *handle = nullptr;
   check(riis_mark_result_create(&handle));
   const MarkResult result(handle);
@@ -146,7 +173,8 @@ void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *fi
   report.seconds.search = stage.seconds();
   check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
   check(riis_vtk_mesh_set_marks(file, result.get(), options.far_distance));
-  if (report.marks.n_marked == 0 && !options.quiet) explain_no_marks(report.surface, file);
+  if (!report.marks.complete) warn_of_incomplete_marks();
+  if (report.marks.n_marked == 0 && report.marks.complete && !options.quiet) explain_no_marks(report.surface, file);
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.mesh_name = options.mesh;

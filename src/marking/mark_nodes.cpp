@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "api/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -42,11 +43,40 @@ void fill_lists(const TriangleSet &triangles, double half_thickness, bool limit_
   });
 }
 
+// The library's choice is what was fastest where it was measured (docs/performance.md): a walk asks the same near nodes, and
+// more for its proof.
+std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
+  if (asked_for == RIIS_SEARCH_AUTO) return RIIS_SEARCH_EXHAUSTIVE;
+  const bool has_adjacency = request.mesh.adjacency().has_value();
+  if (asked_for != RIIS_SEARCH_EXHAUSTIVE && !has_adjacency)
+    fail(RIIS_INVALID_ARGUMENT,
+         "options.search is %d, which walks along the mesh's adjacency, but the mesh has none: "
+         "see riis_mesh_set_adjacency",
+         asked_for);
+  return asked_for;
+}
+
+SearchReport run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
+  static const std::vector<std::int64_t> nowhere;
+  switch (search) {
+    case RIIS_SEARCH_NEIGHBOR: {
+      // The last marking is where a moving valve is again, nearly; if it was of another mesh, its nodes are as good as any.
+      const bool fits = result.has_content && result.stats.n_nodes == request.mesh.nodes().n;
+      return search_neighbors(request, fits ? result.within.node_id : nowhere, result.collection);
+    }
+    case RIIS_SEARCH_PAPER:
+      return search_as_the_paper(request, result.collection);
+    default:
+      return search_exhaustively(request, result.collection);
+  }
+}
+
 }  // namespace
 
-void mark_nodes(const SearchRequest &request, MarkResult &result) {
+void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult &result) {
   const auto start = std::chrono::steady_clock::now();
-  const SearchReport report = search_exhaustively(request, result.collection);
+  const std::int32_t search = search_for(request, asked_for);
+  const SearchReport report = run(request, search, result);
   const double half_thickness = request.surface.half_thickness();
   const bool limit_is_wider = request.distance_limit > half_thickness;
   fill_lists(request.surface.triangles(), half_thickness, limit_is_wider, result);
@@ -54,15 +84,17 @@ void mark_nodes(const SearchRequest &request, MarkResult &result) {
   result.distance_limit = request.distance_limit;
   result.n_threads = request.n_threads;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  result.stats = {request.mesh.nodes.n,
+  result.has_content = true;
+  result.stats = {request.mesh.nodes().n,
                   static_cast<std::int64_t>(result.marked_nodes().size()),
                   static_cast<std::int64_t>(result.within.size()),
                   report.n_queries,
                   elapsed.count(),
-                  RIIS_SEARCH_EXHAUSTIVE,
+                  search,
                   report.n_threads,
-                  1,
-                  0};
+                  report.complete ? 1 : 0,
+                  0,
+                  report.n_unreached};
 }
 
 void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,

@@ -2,13 +2,13 @@
 // Marking from request to result: the search, then the lists.
 #pragma once
 
-#include "marking/exhaustive.hpp"
 #include "marking/mark_result.hpp"
+#include "marking/search.hpp"
 
 namespace riis {
 
-// By the exhaustive search, the only one so far. A failure leaves the content of the result as it was.
-void mark_nodes(const SearchRequest &request, MarkResult &result);
+// search: RIIS_SEARCH_*. A failure leaves the content of the result as it was.
+void mark_nodes(const SearchRequest &request, std::int32_t search, MarkResult &result);
 
 // Dense arrays of the result, any of them null; docs at riis_mark_result_dense.
 void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,

@@ -4,8 +4,13 @@
 
 #include <riis/riis.h>
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "parallel/range.hpp"
 
 namespace riis {
 
@@ -29,8 +34,8 @@ struct NodeList {
   void set(std::size_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet);
 };
 
-// Found nodes by the thread that found them, and where those of each block of nodes are. Reused: a steady step
-// allocates nothing.
+// Found nodes by the thread that found them, and where those of each block of nodes are. With what a walk needs. Reused: a steady
+// step allocates nothing of the library's own.
 struct Collection {
   struct Block {
     int thread;
@@ -38,6 +43,55 @@ struct Collection {
   };
   std::vector<std::vector<FoundNode>> by_thread;
   std::vector<Block> blocks;
+
+  // A group of nodes that may have some within the limit, and the distance of its centre.
+  struct NearGroup {
+    std::int64_t group;
+    double distance;
+  };
+
+  // Where a walk has been.
+  struct Walked {
+    // A thread's own; on cache lines of its own.
+    struct alignas(64) Thread {
+      std::vector<std::int64_t> next;
+      std::vector<NearGroup> near_groups;
+      std::int64_t n_queries = 0;
+
+      void clear() {
+        next.clear();
+        near_groups.clear();
+        n_queries = 0;
+      }
+    };
+    std::vector<Thread> threads;
+    std::vector<std::int64_t> queue;  // nodes in the order in which they were claimed
+    std::vector<Range> ranges;
+    std::vector<NearGroup> near_groups;
+
+    void prepare(std::int64_t n_nodes, int n_threads);
+    // True for the first thread that asks, for each node.
+    bool claim(std::int64_t node) {
+      std::atomic<std::uint8_t> &mark = marks_[static_cast<std::size_t>(node)];
+      return mark.load(std::memory_order_relaxed) != walk_ && mark.exchange(walk_, std::memory_order_relaxed) != walk_;
+    }
+    bool is_claimed(std::int64_t node) const {
+      return marks_[static_cast<std::size_t>(node)].load(std::memory_order_relaxed) == walk_;
+    }
+
+   private:
+    std::unique_ptr<std::atomic<std::uint8_t>[]> marks_;  // the number of the walk that claimed the node
+    std::int64_t n_marks_ = 0;
+    std::uint8_t walk_ = 0;
+  };
+  Walked walked;
+
+  void prepare(int n_threads);
+  // Puts what the threads found into blocks, ascending by node.
+  void sort(std::int64_t n_nodes);
+
+ private:
+  std::vector<FoundNode> sorted_;
 };
 
 struct MarkResult {
@@ -46,6 +100,7 @@ struct MarkResult {
   bool limit_is_wider = false;
   double distance_limit = 0;
   int n_threads = 1;  // as asked for
+  bool has_content = false;
   riis_mark_stats stats{};
   Collection collection;
 

@@ -1,13 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's nodes, borrowed; checked when the handle is made or updated.
+// The caller's nodes and adjacency, borrowed; checked when they are given. And what searches want to know of them, made when it is first
+// asked for.
 #pragma once
 
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+
 #include "geometry/strided.hpp"
+#include "marking/adjacency.hpp"
+#include "marking/node_groups.hpp"
 
 namespace riis {
 
-struct Mesh {
-  StridedPoints nodes;
+class Mesh {
+ public:
+  explicit Mesh(const StridedPoints &nodes) : nodes_(nodes) {}
+
+  const StridedPoints &nodes() const { return nodes_; }
+  const std::optional<Adjacency> &adjacency() const { return adjacency_; }
+
+  // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
+  void set_nodes(const StridedPoints &nodes);
+  void set_adjacency(const std::optional<Adjacency> &adjacency) { adjacency_ = adjacency; }
+
+  // The nodes in groups of near ones. May be asked for by several threads at once.
+  const NodeGroups &groups(int n_threads) const;
+
+ private:
+  StridedPoints nodes_;
+  std::optional<Adjacency> adjacency_;
+  mutable std::mutex groups_mutex_;
+  mutable NodeGroups groups_;
+  mutable std::atomic<bool> has_groups_{false};
 };
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h: a file to a grid with double points, marks into its point arrays, the grid to a .vtu
-// file.
+// Volume meshes of riis_vtk.h: a file to a grid with double points, its cells to an adjacency, marks into its point arrays,
+// the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <memory>
@@ -16,6 +16,7 @@
 #include "vtk/files.hpp"
 #include "vtk/grid_files.hpp"
 #include "vtk/mesh.hpp"
+#include "vtk/volume_cells.hpp"
 #include "vtk/vtk_errors.hpp"
 #include "vtk/xml_writing.hpp"
 
@@ -61,6 +62,39 @@ void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double
   }
 }
 
+// The core names the field of its own struct; the caller gave a plain argument.
+void check_adjacency(riis_status status, const std::string &structure) {
+  if (status == RIIS_OK) return;
+  const std::string text = riis_last_error();
+  fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
+}
+
+riis_adjacency *adjacency_without_edges(std::int64_t n_nodes, std::int32_t n_threads) {
+  riis_faces faces;
+  check_core(riis_faces_init(&faces, sizeof faces));
+  faces.n_cells = n_nodes;
+  faces.n_threads = n_threads;
+  riis_adjacency *made = nullptr;
+  check_adjacency(riis_adjacency_create_from_faces(&faces, &made), "faces.");
+  return made;
+}
+
+riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) {
+  const VolumeCells volumes = volume_cells_of(grid);
+  if (volumes.node_ids.empty()) return adjacency_without_edges(grid->GetNumberOfPoints(), n_threads);
+  riis_cells cells;
+  check_core(riis_cells_init(&cells, sizeof cells));
+  cells.n_nodes = grid->GetNumberOfPoints();
+  cells.n_cells = static_cast<std::int64_t>(volumes.offsets.size()) - 1;
+  cells.node_ids = volumes.node_ids.data();
+  cells.offsets = volumes.offsets.data();
+  cells.id_bits = 64;
+  cells.n_threads = n_threads;
+  riis_adjacency *made = nullptr;
+  check_adjacency(riis_adjacency_create_from_cells(&cells, &made), "cells.");
+  return made;
+}
+
 }  // namespace
 }  // namespace riis::vtk
 
@@ -92,6 +126,14 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
     if (n_nodes) *n_nodes = grid->GetNumberOfPoints();
     if (n_cells) *n_cells = grid->GetNumberOfCells();
     if (xyz) *xyz = vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads, riis_adjacency **adjacency) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(adjacency, "adjacency");
+    *adjacency = adjacency_of(mesh->grid, n_threads);
   });
 }
 

@@ -108,6 +108,40 @@ static void test_structs(void **state) {
   FIELD(riis_closest_arrays, leaflet_id, 48, 8);
   FIELD(riis_closest_arrays, side, 56, 8);
 
+  SIZE(riis_csr, 56);
+  FIELD(riis_csr, struct_size, 0, 8);
+  FIELD(riis_csr, n_rows, 8, 8);
+  FIELD(riis_csr, n_all, 16, 8);
+  FIELD(riis_csr, offsets, 24, 8);
+  FIELD(riis_csr, columns, 32, 8);
+  FIELD(riis_csr, offset_bits, 40, 4);
+  FIELD(riis_csr, column_bits, 44, 4);
+  FIELD(riis_csr, index_base, 48, 4);
+  FIELD(riis_csr, reserved, 52, 4);
+
+  SIZE(riis_cells, 56);
+  FIELD(riis_cells, struct_size, 0, 8);
+  FIELD(riis_cells, n_nodes, 8, 8);
+  FIELD(riis_cells, n_cells, 16, 8);
+  FIELD(riis_cells, node_ids, 24, 8);
+  FIELD(riis_cells, offsets, 32, 8);
+  FIELD(riis_cells, nodes_per_cell, 40, 4);
+  FIELD(riis_cells, id_bits, 44, 4);
+  FIELD(riis_cells, index_base, 48, 4);
+  FIELD(riis_cells, n_threads, 52, 4);
+
+  SIZE(riis_faces, 64);
+  FIELD(riis_faces, struct_size, 0, 8);
+  FIELD(riis_faces, n_cells, 8, 8);
+  FIELD(riis_faces, n_faces, 16, 8);
+  FIELD(riis_faces, owner, 24, 8);
+  FIELD(riis_faces, neighbor, 32, 8);
+  FIELD(riis_faces, stride, 40, 8);
+  FIELD(riis_faces, id_bits, 48, 4);
+  FIELD(riis_faces, index_base, 52, 4);
+  FIELD(riis_faces, n_threads, 56, 4);
+  FIELD(riis_faces, reserved, 60, 4);
+
   SIZE(riis_mark_options, 32);
   FIELD(riis_mark_options, struct_size, 0, 8);
   FIELD(riis_mark_options, distance_limit, 8, 8);
@@ -115,7 +149,7 @@ static void test_structs(void **state) {
   FIELD(riis_mark_options, search, 24, 4);
   FIELD(riis_mark_options, n_threads, 28, 4);
 
-  SIZE(riis_mark_stats, 56);
+  SIZE(riis_mark_stats, 64);
   FIELD(riis_mark_stats, n_nodes, 0, 8);
   FIELD(riis_mark_stats, n_marked, 8, 8);
   FIELD(riis_mark_stats, n_within_limit, 16, 8);
@@ -125,6 +159,7 @@ static void test_structs(void **state) {
   FIELD(riis_mark_stats, n_threads, 44, 4);
   FIELD(riis_mark_stats, complete, 48, 4);
   FIELD(riis_mark_stats, reserved, 52, 4);
+  FIELD(riis_mark_stats, n_unreached, 56, 8);
 
   SIZE(riis_vtk_picture_options, 48);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
@@ -161,6 +196,8 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
   assert_int_equal(RIIS_SEARCH_AUTO, 0);
   assert_int_equal(RIIS_SEARCH_EXHAUSTIVE, 1);
+  assert_int_equal(RIIS_SEARCH_NEIGHBOR, 2);
+  assert_int_equal(RIIS_SEARCH_PAPER, 3);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
   assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
   assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
@@ -212,6 +249,15 @@ static void test_signatures(void **state) {
             (int64_t, const double *, const double *, const double *, int64_t, riis_mesh **));
   SIGNATURE(riis_mesh_update, int32_t, (riis_mesh *, int64_t, const double *, const double *, const double *, int64_t));
   SIGNATURE(riis_mesh_destroy, void, (riis_mesh **));
+  SIGNATURE(riis_csr_init, int32_t, (riis_csr *, int64_t));
+  SIGNATURE(riis_mesh_set_adjacency, int32_t, (riis_mesh *, const riis_csr *));
+  SIGNATURE(riis_cells_init, int32_t, (riis_cells *, int64_t));
+  SIGNATURE(riis_adjacency_create_from_cells, int32_t, (const riis_cells *, riis_adjacency **));
+  SIGNATURE(riis_faces_init, int32_t, (riis_faces *, int64_t));
+  SIGNATURE(riis_adjacency_create_from_faces, int32_t, (const riis_faces *, riis_adjacency **));
+  SIGNATURE(riis_adjacency_create_from_grid, int32_t, (int64_t, int64_t, int64_t, int32_t, riis_adjacency **));
+  SIGNATURE(riis_adjacency_csr, int32_t, (const riis_adjacency *, riis_csr *, int64_t));
+  SIGNATURE(riis_adjacency_destroy, void, (riis_adjacency **));
   SIGNATURE(riis_mark_result_create, int32_t, (riis_mark_result **));
   SIGNATURE(riis_mark_result_destroy, void, (riis_mark_result **));
   SIGNATURE(riis_mark_options_init, int32_t, (riis_mark_options *, int64_t));
@@ -229,6 +275,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
+  SIGNATURE(riis_vtk_mesh_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
   SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, riis_vtk_surface **));

@@ -38,6 +38,8 @@ static void test_help(void **state) {
                          "--distance-limit",
                          "--far-distance",
                          "--search",
+                         "neighbor or paper",
+                         "auto is exhaustive",
                          "--threads",
                          "--output",
                          "--surface-output",

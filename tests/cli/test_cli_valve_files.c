@@ -179,7 +179,7 @@ static void test_bad_files(void **state) {
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");
-  RUN_REFUSED(1, "v.json: the valve's parameters leave it without any area", scratch_path("in.vtu"), "--valve",
+  RUN_REFUSED(1, "v.json: the valve has no area", scratch_path("in.vtu"), "--valve",
               scratch_path("v.json"));
   RUN_REFUSED(1, "missing.json: cannot be read: No such file", scratch_path("in.vtu"), "--valve",
               scratch_path("missing.json"));
@@ -219,16 +219,16 @@ static void test_changed_files(void **state) {
       {0, "[{", "[3, {", "v.json: patch 0 must be an object with v0, v1, u0, u1, leaflet, not of type number"},
       {0, "\"tip\":", "\"idle\": [[0, 0, 0]], \"tip\":", "v.json: curve \"idle\" is a side of no patch"},
       {0, "\"-rim\"", "\"rim\"",
-       "v.json: patch 0 is open: v1 \"rim\" begins in (0, 1.2, -0.3), u0 \"left\" ends in (-1, 1, 0)"},
+       "v.json: patch 0 does not close: v1 \"rim\" begins in (0, 1.2, -0.3), u0 \"left\" ends in (-1, 1, 0)"},
       {0, "[[1, 0.5, 0]]", "[[1, 0.5, 1]]",
-       "v.json: patch 1 is open: v0 \"low\" ends in (1, 0.5, 0), u1 \"-tip\" begins in "},
-      {0, "[-1, 0.5, 0.4]", "[-1, 1e29, 0.4]", "v.json: a curve needs more than "},
+       "v.json: patch 1 does not close: v0 \"low\" ends in (1, 0.5, 0), u1 \"-tip\" begins in "},
+      {0, "[-1, 0.5, 0.4]", "[-1, 1e29, 0.4]", "v.json: control points have coordinates up to 1e+29"},
       {1, "\"open\": {", "\"open\": {\"patches\": [], ", "v.json: \"open\": \"patches\" is unknown; there are: curves"},
       {1, "\"open\": {", "\"open\": [{", "v.json: is not JSON"},
       {1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1], [1, 0.5, -1]]",
        "v.json: open: curve \"tip\" has degree 2, in the closed state 1"},
       {1, "[[1, 0.5, -1]]", "[[1, 0.5, 7]]",
-       "v.json: open: patch 1 is open: v0 \"low\" ends in (1, 0.5, -1), u1 \"-tip\""},
+       "v.json: open: patch 1 does not close: v0 \"low\" ends in (1, 0.5, -1), u1 \"-tip\""},
       {1, "[[1, 0.5, -1]]", "[[1, 0.5]]", "v.json: open: curve \"tip\": point 0 is [1,0.5]"},
       {1, "\"tip\": [[1, 0.5, -1]],", "", "v.json: open: curve \"tip\" is missing"},
       {1, "\"tip\": [[1, 0.5, -1]]", "\"top\": [[1, 0.5, -1]]",

@@ -9,8 +9,9 @@
 static riis_valve *valve;
 static riis_surface *surface, *plate, *mitral, *opening, *patches;
 static riis_mesh *mesh;
+static riis_adjacency *of_cells, *of_faces, *of_grid;
 static riis_mark_result *result;
-static void *memory[16];
+static void *memory[24];
 static int n_memory;
 
 static void *allocate(int64_t n, size_t size) {
@@ -163,18 +164,22 @@ static riis_status find_closest(int64_t n_nodes, const double *xyz, twin_numbers
   return riis_closest_points(plate, n_nodes, xyz, xyz + 1, xyz + 2, 3, &options, all);
 }
 
+static const uint8_t *mask_every_seventh(int64_t n_nodes) {
+  uint8_t *node_mask = allocate(n_nodes, sizeof *node_mask);
+  for (int64_t i = 0; i < n_nodes; ++i) node_mask[i] = i % 7 != 0;
+  return node_mask;
+}
+
 static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
   TRY(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &mesh));
   TRY(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
   TRY(riis_mark_result_create(&result));
   TRY(riis_mark_nodes(surface, mesh, NULL, result));
 
-  uint8_t *node_mask = allocate(n_nodes, sizeof *node_mask);
-  for (int64_t i = 0; i < n_nodes; ++i) node_mask[i] = i % 7 != 0;
   riis_mark_options options;
   TRY(riis_mark_options_init(&options, sizeof options));
   options.distance_limit = 2.5;
-  options.node_mask = node_mask;
+  options.node_mask = mask_every_seventh(n_nodes);
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   options.n_threads = 2;
   TRY(riis_mark_nodes(surface, mesh, &options, result));
@@ -197,19 +202,99 @@ static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *number
   return riis_mark_result_stats(result, &numbers->stats, sizeof numbers->stats);
 }
 
-riis_status twin_run(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
+/* Every cube of the grid as six tetrahedra, each along a path from its first corner to its last. */
+static riis_status make_cells(int64_t n) {
+  const int64_t nn = n * n, paths[6][2] = {{1, n}, {1, nn}, {n, 1}, {n, nn}, {nn, 1}, {nn, n}};
+  const int64_t n_cells = 6 * (n - 1) * (n - 1) * (n - 1);
+  int64_t *node_ids = allocate(4 * n_cells, sizeof *node_ids), *next = node_ids;
+  for (int64_t k = 0; k < n - 1; ++k)
+    for (int64_t j = 0; j < n - 1; ++j)
+      for (int64_t i = 0; i < n - 1; ++i)
+        for (int path = 0; path < 6; ++path) {
+          *next++ = i + n * (j + n * k);
+          for (int step = 0; step < 2; ++step, ++next) *next = next[-1] + paths[path][step];
+          *next++ = (i + 1) + n * (j + 1 + n * (k + 1));
+        }
+  riis_cells cells;
+  TRY(riis_cells_init(&cells, sizeof cells));
+  cells.n_nodes = n * n * n;
+  cells.n_cells = n_cells;
+  cells.node_ids = node_ids;
+  cells.id_bits = 64;
+  return riis_adjacency_create_from_cells(&cells, &of_cells);
+}
+
+/* The grid's nodes as cell centres; with faces at one of its boundaries. */
+static riis_status make_faces(int64_t n) {
+  const int64_t steps[3] = {1, n, n * n};
+  int64_t n_faces = 0, *owner = allocate(3 * n * n * n, sizeof *owner);
+  int64_t *neighbor = allocate(3 * n * n * n, sizeof *neighbor);
+  for (int64_t node = 0; node < n * n * n; ++node)
+    for (int axis = 0; axis < 3; ++axis, ++n_faces) {
+      const int is_last = node / steps[axis] % n == n - 1;
+      owner[n_faces] = node;
+      neighbor[n_faces] = is_last ? -1 : node + steps[axis];
+    }
+  riis_faces faces;
+  TRY(riis_faces_init(&faces, sizeof faces));
+  faces.n_cells = n * n * n;
+  faces.n_faces = n_faces;
+  faces.owner = owner;
+  faces.neighbor = neighbor;
+  faces.id_bits = 64;
+  return riis_adjacency_create_from_faces(&faces, &of_faces);
+}
+
+/* Marks along an adjacency with a new result, which remembers nothing. */
+static riis_status walk(const riis_adjacency *along, int32_t search, const uint8_t *node_mask, riis_csr *csr,
+                        riis_mark_stats *stats) {
+  riis_mark_options options;
+  riis_mark_result *walked = NULL;
+  TRY(riis_adjacency_csr(along, csr, sizeof *csr));
+  TRY(riis_mesh_set_adjacency(mesh, csr));
+  TRY(riis_mark_options_init(&options, sizeof options));
+  options.distance_limit = 2.5;
+  options.node_mask = node_mask;
+  options.search = search;
+  options.n_threads = 2;
+  TRY(riis_mark_result_create(&walked));
+  TRY(riis_mark_nodes(surface, mesh, &options, walked));
+  TRY(riis_mark_result_stats(walked, stats, sizeof *stats));
+  riis_mark_result_destroy(&walked);
+  return riis_mesh_set_adjacency(mesh, NULL);
+}
+
+static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
+  const int64_t n_nodes = per_side * per_side * per_side;
+  const uint8_t *node_mask = mask_every_seventh(n_nodes);
+  riis_csr csr;
+  TRY(make_cells(per_side));
+  TRY(make_faces(per_side));
+  TRY(riis_adjacency_create_from_grid(per_side, per_side, per_side, 2, &of_grid));
+  TRY(walk(of_cells, RIIS_SEARCH_NEIGHBOR, node_mask, &numbers->cells.csr, &numbers->cells.stats));
+  TRY(walk(of_faces, RIIS_SEARCH_NEIGHBOR, node_mask, &numbers->faces.csr, &numbers->faces.stats));
+  TRY(walk(of_grid, RIIS_SEARCH_NEIGHBOR, node_mask, &numbers->grid.csr, &numbers->grid.stats));
+  return walk(of_grid, RIIS_SEARCH_PAPER, node_mask, &csr, &numbers->paper);
+}
+
+riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers) {
+  const int64_t n_nodes = per_side * per_side * per_side;
   TRY(make_surface(numbers));
   TRY(make_mitral(numbers));
   TRY(make_opening(numbers));
   TRY(make_patches(numbers));
   TRY(make_plate());
   TRY(find_closest(n_nodes, xyz, numbers));
-  return mark(n_nodes, xyz, numbers);
+  TRY(mark(n_nodes, xyz, numbers));
+  return walk_along_all(per_side, numbers);
 }
 
 void twin_end(void) {
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);
+  riis_adjacency_destroy(&of_grid);
+  riis_adjacency_destroy(&of_faces);
+  riis_adjacency_destroy(&of_cells);
   riis_surface_destroy(&patches);
   riis_surface_destroy(&opening);
   riis_surface_destroy(&mitral);
@@ -244,9 +329,15 @@ int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers)
   LAYOUT(riis_closest_options, AT(struct_size), AT(distance_limit), AT(far_distance), AT(n_threads), AT(reserved))
   LAYOUT(riis_closest_arrays, AT(struct_size), AT(distance), AT(point), AT(barycentric), AT(normal), AT(triangle_id),
          AT(leaflet_id), AT(side))
+  LAYOUT(riis_csr, AT(struct_size), AT(n_rows), AT(n_all), AT(offsets), AT(columns), AT(offset_bits), AT(column_bits),
+         AT(index_base), AT(reserved))
+  LAYOUT(riis_cells, AT(struct_size), AT(n_nodes), AT(n_cells), AT(node_ids), AT(offsets), AT(nodes_per_cell),
+         AT(id_bits), AT(index_base), AT(n_threads))
+  LAYOUT(riis_faces, AT(struct_size), AT(n_cells), AT(n_faces), AT(owner), AT(neighbor), AT(stride), AT(id_bits),
+         AT(index_base), AT(n_threads), AT(reserved))
   LAYOUT(riis_mark_options, AT(struct_size), AT(distance_limit), AT(node_mask), AT(search), AT(n_threads))
   LAYOUT(riis_mark_stats, AT(n_nodes), AT(n_marked), AT(n_within_limit), AT(n_queries), AT(seconds), AT(search),
-         AT(n_threads), AT(complete), AT(reserved))
+         AT(n_threads), AT(complete), AT(reserved), AT(n_unreached))
   return 0;
 }
 

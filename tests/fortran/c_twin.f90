@@ -5,7 +5,8 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_numbers, twin_run, twin_end, twin_layout, twin_auto, twin_far_distance
+  public :: twin_list, twin_surface, twin_walk, twin_numbers, twin_run, twin_end, twin_layout, twin_auto, &
+    twin_far_distance
 
   type, bind(c) :: twin_list
     integer(c_int64_t) :: n
@@ -18,6 +19,11 @@ module c_twin
     type(c_ptr) :: vertex_id, triangle_id, leaflet_id, patch_id
   end type twin_surface
 
+  type, bind(c) :: twin_walk
+    type(riis_csr) :: csr
+    type(riis_mark_stats) :: stats
+  end type twin_walk
+
   type, bind(c) :: twin_numbers
     integer(c_int64_t) :: n_parameters
     type(c_ptr) :: parameters
@@ -27,13 +33,15 @@ module c_twin
     type(twin_list) :: marked, within_limit
     type(c_ptr) :: dense_mark, dense_distance, dense_triangle_id, dense_leaflet_id
     type(riis_mark_stats) :: stats
+    type(twin_walk) :: cells, faces, grid
+    type(riis_mark_stats) :: paper
   end type twin_numbers
 
   interface
-    function twin_run(n_nodes, xyz, numbers) result(status) bind(c, name='twin_run')
+    function twin_run(per_side, xyz, numbers) result(status) bind(c, name='twin_run')
       import :: c_int64_t, c_ptr, riis_status, twin_numbers
       implicit none
-      integer(c_int64_t), value :: n_nodes
+      integer(c_int64_t), value :: per_side
       type(c_ptr), value :: xyz
       type(twin_numbers), intent(out) :: numbers
       integer(riis_status) :: status

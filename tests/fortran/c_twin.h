@@ -22,6 +22,12 @@ typedef struct twin_surface {
   const int32_t *leaflet_id, *patch_id;
 } twin_surface;
 
+/* A mesh's rows and the statistics of a marking by walking along them. */
+typedef struct twin_walk {
+  riis_csr csr;
+  riis_mark_stats stats;
+} twin_walk;
+
 /* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
 typedef struct twin_numbers {
   int64_t n_parameters;
@@ -38,10 +44,13 @@ typedef struct twin_numbers {
   const int64_t *dense_triangle_id;
   const int32_t *dense_leaflet_id;
   riis_mark_stats stats;
+  twin_walk cells, faces, grid; /* RIIS_SEARCH_NEIGHBOR */
+  riis_mark_stats paper;        /* RIIS_SEARCH_PAPER along the grid */
 } twin_numbers;
 
-/* Makes the calls that test_calls.f90 makes, from C. Returns the first status that is not RIIS_OK. */
-riis_status twin_run(int64_t n_nodes, const double *xyz, twin_numbers *numbers);
+/* Makes the calls that test_calls.f90 makes, from C, on its grid of per_side^3 nodes. Returns the first status that is
+ * not RIIS_OK. */
+riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers);
 void twin_end(void);
 
 /* Size and field offsets of a struct by name, in at most capacity numbers; returns how many there are. */

@@ -45,7 +45,7 @@ program test_calls
   do i = 0, n_nodes - 1
     xyz(:, i + 1) = -17 + 1.8d0 * [mod(i, per_side), mod(i / per_side, per_side), i / per_side**2]
   end do
-  call check_ok(twin_run(n_nodes, c_loc(xyz), twin), 'the calls from C')
+  call check_ok(twin_run(per_side, c_loc(xyz), twin), 'the calls from C')
 
   call check(riis_c_text(riis_last_error()) == '', 'no error text before the first error')
   call test_version_and_texts()
@@ -57,6 +57,9 @@ program test_calls
   call test_surface_from_arrays()
   call test_closest_points()
   call test_marking()
+  call test_mixed_cells()
+  call test_adjacency()
+  call test_own_rows()
   call test_destroy()
   call twin_end()
   call finish()
@@ -281,7 +284,7 @@ contains
     patches%curve_id = c_loc(curve_id)
     patches%leaflet_id = c_loc(leaflet_id)
     patches%index_base = 1
-    call check_refused(riis_valve_create_from_patches(patches, given), RIIS_INVALID_PARAMETER, 'patch 1 is open')
+    call check_refused(riis_valve_create_from_patches(patches, given), RIIS_INVALID_PARAMETER, 'patch 1 does not close')
     call check(.not. c_associated(given), 'no valve is made by a call that is refused')
     patches%reversed = c_loc(reversed)
     call check_ok(riis_valve_create_from_patches(patches, given), 'create a valve from patches')
@@ -509,6 +512,267 @@ contains
     call check_same_bytes(a%triangle_id, b%triangle_id, 8 * min(a%n, b%n), what // ': triangle ids')
     call check_same_bytes(a%leaflet_id, b%leaflet_id, 4 * min(a%n, b%n), what // ': leaflet ids')
   end subroutine check_same_list
+
+  ! A hexahedron, a pyramid on it, a prism beside it and a tetrahedron between these two.
+  subroutine test_mixed_cells()
+    integer(c_int64_t), target :: node_ids(23), offsets(5)
+    type(riis_cells) :: cells
+    type(riis_csr) :: csr
+    type(c_ptr) :: adjacency = c_null_ptr
+    integer(c_int64_t), pointer :: row_offsets(:)
+    integer(c_int32_t), pointer :: columns(:)
+
+    node_ids = [1, 2, 3, 4, 5, 6, 7, 8, 5, 6, 7, 8, 9, 2, 6, 10, 3, 7, 11, 6, 7, 9, 12]
+    offsets = [0, 8, 13, 19, 23]
+    call check_refused(riis_cells_init(cells, 48_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_cells_init(cells, c_sizeof(cells)), 'default cells')
+    call check(cells%struct_size == c_sizeof(cells) .and. cells%n_cells == 0 .and. cells%nodes_per_cell == 4 .and. &
+      cells%id_bits == 32 .and. cells%index_base == 0 .and. .not. c_associated(cells%offsets), &
+      'the defaults of the cells')
+    cells%n_nodes = maxval(node_ids)
+    cells%n_cells = size(offsets) - 1
+    cells%node_ids = c_loc(node_ids)
+    cells%offsets = c_loc(offsets)
+    cells%id_bits = storage_size(node_ids)
+    cells%index_base = 1
+    call check_ok(riis_adjacency_create_from_cells(cells, adjacency), 'an adjacency from mixed cells')
+    call check_refused(riis_adjacency_csr(adjacency, csr, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'its rows')
+    call check(csr%n_rows == 12 .and. csr%offset_bits == 64 .and. csr%column_bits == 32 .and. csr%index_base == 0, &
+      'twelve rows, from 0')
+    call c_f_pointer(csr%offsets, row_offsets, [csr%n_rows + 1])
+    call c_f_pointer(csr%columns, columns, [row_offsets(csr%n_rows + 1)])
+    call check(size(columns) == 2 * (12 + 4 + 5 + 3), 'every edge twice')
+    ! The row of node 6, which is in every cell.
+    call check(all(columns(row_offsets(6) + 1:row_offsets(7)) + 1 == [2, 5, 7, 9, 10, 12]), 'the neighbours of a node')
+    call riis_adjacency_destroy(adjacency)
+    call check(.not. c_associated(adjacency), 'a destroyed handle is null')
+    call riis_adjacency_destroy(adjacency)
+
+    node_ids(20) = 13
+    call check_refused(riis_adjacency_create_from_cells(cells, adjacency), RIIS_INVALID_MESH, 'cell 3')
+    offsets = offsets + 2
+    call check_refused(riis_adjacency_create_from_cells(cells, adjacency), RIIS_INVALID_MESH, 'cells.offsets')
+    call check(.not. c_associated(adjacency), 'no adjacency is made by calls that are refused')
+  end subroutine test_mixed_cells
+
+  ! The same grid in three ways, each with ids of 32 bits from 1, where C gives ids of 64 bits from 0.
+  subroutine test_adjacency()
+    type(c_ptr) :: of_cells = c_null_ptr, of_faces = c_null_ptr, of_grid = c_null_ptr, of_nothing = c_null_ptr
+    type(riis_mark_options) :: options
+    type(riis_mark_stats) :: stats
+    type(riis_csr) :: csr
+
+    call make_tetrahedra(of_cells)
+    call make_faces(of_faces)
+    call check_ok(riis_adjacency_create_from_grid(per_side, per_side, per_side, 2, of_grid), 'an adjacency from a grid')
+    call check_refused(riis_adjacency_create_from_grid(0_c_int64_t, per_side, per_side, 2, of_nothing), &
+      RIIS_INVALID_ARGUMENT, 'ni')
+    call check_refused(riis_adjacency_csr(of_nothing, csr, c_sizeof(csr)), RIIS_INVALID_ARGUMENT, 'adjacency')
+    call check(.not. c_associated(of_nothing), 'no adjacency is made by calls that are refused')
+
+    call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
+    options%search = RIIS_SEARCH_NEIGHBOR
+    call check_refused(riis_mark_nodes(surface, mesh, options, result), RIIS_INVALID_ARGUMENT, 'adjacency')
+
+    call check_walk(of_cells, twin%cells, 'along tetrahedra')
+    call check_walk(of_faces, twin%faces, 'along faces')
+    call check_walk(of_grid, twin%grid, 'along a grid')
+
+    call set_adjacency(of_grid)
+    call mark_along(RIIS_SEARCH_AUTO, stats)
+    call check(stats%search /= RIIS_SEARCH_AUTO .and. stats%complete == 1, 'the choice is complete')
+    call mark_along(RIIS_SEARCH_EXHAUSTIVE, stats)
+    call check(stats%search == RIIS_SEARCH_EXHAUSTIVE .and. stats%n_unreached == 0, 'the exhaustive search stays')
+    call mark_along(RIIS_SEARCH_PAPER, stats)
+    call check_same_stats(stats, twin%paper, 'as the paper')
+    call check(stats%search == RIIS_SEARCH_PAPER .and. stats%complete == 0, 'the paper''s search is never complete')
+    call check_ok(riis_mesh_set_adjacency(mesh), 'take the adjacency away')
+    call mark_along(RIIS_SEARCH_AUTO, stats)
+    call check(stats%search == RIIS_SEARCH_EXHAUSTIVE, 'the exhaustive search needs no adjacency')
+
+    call riis_adjacency_destroy(of_cells)
+    call riis_adjacency_destroy(of_faces)
+    call riis_adjacency_destroy(of_grid)
+    call check(.not. (c_associated(of_cells) .or. c_associated(of_faces) .or. c_associated(of_grid)), &
+      'destroyed handles are null')
+  end subroutine test_adjacency
+
+  ! Every cube of the grid as six tetrahedra, each along a path from its first corner to its last.
+  subroutine make_tetrahedra(adjacency)
+    type(c_ptr), intent(inout) :: adjacency
+    integer(c_int32_t), parameter :: n = int(per_side, c_int32_t), nn = n * n
+    integer(c_int32_t), parameter :: paths(2, 6) = reshape([1, n, 1, nn, n, 1, n, nn, nn, 1, nn, n], [2, 6])
+    integer(c_int32_t), target, allocatable :: node_ids(:, :)
+    integer(c_int32_t) :: i, j, k, path, first, n_cells
+    type(riis_cells) :: cells
+
+    allocate (node_ids(4, 6 * (n - 1)**3))
+    n_cells = 0
+    do k = 1, n - 1
+      do j = 1, n - 1
+        do i = 1, n - 1
+          first = i + n * (j - 1) + nn * (k - 1)
+          do path = 1, 6
+            n_cells = n_cells + 1
+            node_ids(:, n_cells) = first + [0, paths(1, path), sum(paths(:, path)), 1 + n + nn]
+          end do
+        end do
+      end do
+    end do
+    call check_ok(riis_cells_init(cells, c_sizeof(cells)), 'default cells')
+    cells%n_nodes = n_nodes
+    cells%n_cells = n_cells
+    cells%node_ids = c_loc(node_ids)
+    cells%id_bits = storage_size(node_ids)
+    call check_refused(riis_adjacency_create_from_cells(cells, adjacency), RIIS_INVALID_MESH, '8000')
+    cells%index_base = 1
+    call check_ok(riis_adjacency_create_from_cells(cells, adjacency), 'an adjacency from tetrahedra')
+  end subroutine make_tetrahedra
+
+  ! The grid's nodes as cell centres; with faces at one of its boundaries.
+  subroutine make_faces(adjacency)
+    type(c_ptr), intent(inout) :: adjacency
+    integer(c_int32_t), parameter :: n = int(per_side, c_int32_t), steps(3) = [1, n, n * n]
+    integer(c_int32_t), target, allocatable :: face_cells(:, :)
+    integer(c_int32_t) :: node, axis, n_faces
+    type(riis_faces) :: faces
+
+    allocate (face_cells(2, 3 * n**3))
+    n_faces = 0
+    do node = 1, n**3
+      do axis = 1, 3
+        n_faces = n_faces + 1
+        face_cells(:, n_faces) = [node, merge(0, node + steps(axis), mod((node - 1) / steps(axis), n) == n - 1)]
+      end do
+    end do
+    call check_refused(riis_faces_init(faces, 56_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_faces_init(faces, c_sizeof(faces)), 'default faces')
+    call check(faces%struct_size == c_sizeof(faces) .and. faces%n_faces == 0 .and. faces%stride == 1 .and. &
+      faces%id_bits == 32 .and. faces%index_base == 0 .and. .not. c_associated(faces%owner), &
+      'the defaults of the faces')
+    faces%n_cells = n_nodes
+    faces%n_faces = n_faces
+    faces%owner = c_loc(face_cells(1, 1))
+    faces%neighbor = c_loc(face_cells(2, 1))
+    faces%stride = 2
+    faces%id_bits = storage_size(face_cells)
+    call check_refused(riis_adjacency_create_from_faces(faces, adjacency), RIIS_INVALID_MESH, '8000')
+    faces%index_base = 1
+    call check_ok(riis_adjacency_create_from_faces(faces, adjacency), 'an adjacency from faces')
+  end subroutine make_faces
+
+  subroutine set_adjacency(adjacency)
+    type(c_ptr), intent(in) :: adjacency
+    type(riis_csr) :: csr ! may go: what is borrowed are its arrays
+    call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
+    call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set an adjacency')
+  end subroutine set_adjacency
+
+  ! Marks as the calls from C do, with a new result, which remembers nothing. All but the paper's search find the same.
+  subroutine mark_along(search, stats)
+    integer(c_int32_t), intent(in) :: search
+    type(riis_mark_stats), intent(inout) :: stats
+    integer(c_int8_t), target :: node_mask(n_nodes)
+    type(riis_mark_options) :: options
+    type(c_ptr) :: walked
+    type(twin_list) :: list
+    integer(c_int64_t) :: n
+
+    do n = 1, n_nodes
+      node_mask(n) = merge(0_c_int8_t, 1_c_int8_t, mod(n - 1, 7_c_int64_t) == 0)
+    end do
+    call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
+    options%distance_limit = 2.5d0
+    options%node_mask = c_loc(node_mask)
+    options%search = search
+    options%n_threads = 2
+    walked = c_null_ptr
+    call check_ok(riis_mark_result_create(walked), 'create a result')
+    call check_ok(riis_mark_nodes(surface, mesh, options, walked), 'mark along an adjacency')
+    call check_ok(riis_mark_result_stats(walked, stats, c_sizeof(stats)), 'statistics')
+    if (search /= RIIS_SEARCH_PAPER) then
+      call check_ok(riis_mark_result_marked(walked, list%n, list%node_id, list%distance, list%triangle_id, &
+        list%leaflet_id), 'the marked nodes')
+      call check_same_list(list, twin%marked, 'marked along an adjacency')
+      call check_ok(riis_mark_result_within_limit(walked, list%n, list%node_id, list%distance, list%triangle_id, &
+        list%leaflet_id), 'the nodes within the limit')
+      call check_same_list(list, twin%within_limit, 'within the limit along an adjacency')
+      call check(stats%complete == 1, 'the search is complete')
+    end if
+    call riis_mark_result_destroy(walked)
+  end subroutine mark_along
+
+  subroutine check_walk(adjacency, from_c, what)
+    type(c_ptr), intent(in) :: adjacency
+    type(twin_walk), intent(in) :: from_c
+    character(len=*), intent(in) :: what
+    type(riis_csr) :: csr
+    type(riis_mark_stats) :: stats
+    integer(c_int64_t), pointer :: offsets(:)
+
+    call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), what // ': rows')
+    call check(csr%struct_size == c_sizeof(csr) .and. csr%n_rows == n_nodes .and. csr%n_all == n_nodes .and. &
+      csr%offset_bits == 64 .and. csr%column_bits == 32 .and. csr%index_base == 0, what // ': what the rows are')
+    call check_same_bytes(csr%offsets, from_c%csr%offsets, 8 * (n_nodes + 1), what // ': offsets')
+    call c_f_pointer(csr%offsets, offsets, [n_nodes + 1])
+    call check_same_bytes(csr%columns, from_c%csr%columns, 4 * offsets(n_nodes + 1), what // ': columns')
+    call set_adjacency(adjacency)
+    call mark_along(RIIS_SEARCH_NEIGHBOR, stats)
+    call check(stats%search == RIIS_SEARCH_NEIGHBOR, what // ': the search that ran')
+    call check_same_stats(stats, from_c%stats, what)
+    call check_ok(riis_mesh_set_adjacency(mesh), what // ': take it away')
+  end subroutine check_walk
+
+  ! But for the time.
+  subroutine check_same_stats(a, b, what)
+    type(riis_mark_stats), intent(in) :: a, b
+    character(len=*), intent(in) :: what
+    call check(a%n_nodes == b%n_nodes .and. a%n_marked == b%n_marked .and. a%n_within_limit == b%n_within_limit .and. &
+      a%n_queries == b%n_queries .and. a%search == b%search .and. a%complete == b%complete .and. &
+      a%n_unreached == b%n_unreached, what // ': the same statistics from Fortran and from C')
+    call check(a%n_marked > 0 .and. a%n_queries > 0 .and. a%seconds > 0, what // ': there is something to compare')
+  end subroutine check_same_stats
+
+  ! The rows of a solver in Fortran: from 1, of the default kind, with a ghost.
+  subroutine test_own_rows()
+    integer, target, allocatable :: offsets(:), columns(:)
+    integer(c_int64_t), pointer :: own_offsets(:)
+    integer(c_int32_t), pointer :: own_columns(:)
+    type(c_ptr) :: of_grid = c_null_ptr
+    type(riis_mark_stats) :: stats
+    type(riis_csr) :: csr
+
+    call check_ok(riis_adjacency_create_from_grid(per_side, per_side, per_side, 0, of_grid), 'rows of a grid')
+    call check_ok(riis_adjacency_csr(of_grid, csr, c_sizeof(csr)), 'the rows of an adjacency')
+    call c_f_pointer(csr%offsets, own_offsets, [n_nodes + 1])
+    call c_f_pointer(csr%columns, own_columns, [own_offsets(n_nodes + 1)])
+    allocate (offsets(n_nodes + 1), columns(size(own_columns) + 1))
+    offsets(:) = int(own_offsets) + 1
+    columns(:) = [own_columns + 1, int(n_nodes) + 1] ! the last row gets a ghost
+    offsets(n_nodes + 1) = offsets(n_nodes + 1) + 1
+    call riis_adjacency_destroy(of_grid)
+
+    call check_refused(riis_csr_init(csr, 48_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_csr_init(csr, c_sizeof(csr)), 'default rows')
+    call check(csr%struct_size == c_sizeof(csr) .and. csr%n_rows == 0 .and. csr%n_all == 0 .and. &
+      csr%offset_bits == 32 .and. csr%column_bits == 32 .and. csr%index_base == 0 .and. &
+      .not. c_associated(csr%columns), 'the defaults of the rows')
+    csr%n_rows = n_nodes - 1
+    csr%offsets = c_loc(offsets)
+    csr%columns = c_loc(columns)
+    csr%offset_bits = storage_size(offsets)
+    csr%column_bits = storage_size(columns)
+    csr%index_base = 1
+    call check_refused(riis_mesh_set_adjacency(mesh, csr), RIIS_INVALID_ARGUMENT, 'n_rows')
+    csr%n_rows = n_nodes
+    call check_refused(riis_mesh_set_adjacency(mesh, csr), RIIS_INVALID_MESH, '8001')
+    csr%n_all = n_nodes + 1
+    call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set own rows')
+    call mark_along(RIIS_SEARCH_NEIGHBOR, stats)
+    call check_same_stats(stats, twin%grid%stats, 'along own rows')
+    call check_ok(riis_mesh_set_adjacency(mesh), 'take own rows away')
+  end subroutine test_own_rows
 
   subroutine test_destroy()
     integer :: i

@@ -15,6 +15,9 @@ program test_layout
   type(riis_closest), target :: c
   type(riis_closest_options), target :: co
   type(riis_closest_arrays), target :: ca
+  type(riis_csr), target :: cs
+  type(riis_cells), target :: ce
+  type(riis_faces), target :: fa
   type(riis_mark_options), target :: mo
   type(riis_mark_stats), target :: ms
 
@@ -42,11 +45,20 @@ program test_layout
   call compare('riis_closest_arrays', c_sizeof(ca), c_loc(ca), [at(c_loc(ca%struct_size)), at(c_loc(ca%distance)), &
     at(c_loc(ca%point)), at(c_loc(ca%barycentric)), at(c_loc(ca%normal)), at(c_loc(ca%triangle_id)), &
     at(c_loc(ca%leaflet_id)), at(c_loc(ca%side))])
+  call compare('riis_csr', c_sizeof(cs), c_loc(cs), [at(c_loc(cs%struct_size)), at(c_loc(cs%n_rows)), &
+    at(c_loc(cs%n_all)), at(c_loc(cs%offsets)), at(c_loc(cs%columns)), at(c_loc(cs%offset_bits)), &
+    at(c_loc(cs%column_bits)), at(c_loc(cs%index_base)), at(c_loc(cs%reserved))])
+  call compare('riis_cells', c_sizeof(ce), c_loc(ce), [at(c_loc(ce%struct_size)), at(c_loc(ce%n_nodes)), &
+    at(c_loc(ce%n_cells)), at(c_loc(ce%node_ids)), at(c_loc(ce%offsets)), at(c_loc(ce%nodes_per_cell)), &
+    at(c_loc(ce%id_bits)), at(c_loc(ce%index_base)), at(c_loc(ce%n_threads))])
+  call compare('riis_faces', c_sizeof(fa), c_loc(fa), [at(c_loc(fa%struct_size)), at(c_loc(fa%n_cells)), &
+    at(c_loc(fa%n_faces)), at(c_loc(fa%owner)), at(c_loc(fa%neighbor)), at(c_loc(fa%stride)), at(c_loc(fa%id_bits)), &
+    at(c_loc(fa%index_base)), at(c_loc(fa%n_threads)), at(c_loc(fa%reserved))])
   call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), at(c_loc(mo%distance_limit)), &
     at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads))])
   call compare('riis_mark_stats', c_sizeof(ms), c_loc(ms), [at(c_loc(ms%n_nodes)), at(c_loc(ms%n_marked)), &
     at(c_loc(ms%n_within_limit)), at(c_loc(ms%n_queries)), at(c_loc(ms%seconds)), at(c_loc(ms%search)), &
-    at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%reserved))])
+    at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%reserved)), at(c_loc(ms%n_unreached))])
 
   call check(transfer(RIIS_AUTO, 0_c_int64_t) == transfer(twin_auto(), 0_c_int64_t), 'RIIS_AUTO')
   call check(transfer(RIIS_FAR_DISTANCE, 0_c_int64_t) == transfer(twin_far_distance(), 0_c_int64_t), &

@@ -44,6 +44,9 @@ static void test_null(void **state) {
   expect_refused(riis_vtk_mesh_read(path, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_nodes(NULL, NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_fine(riis_vtk_mesh_nodes(mesh, NULL, NULL, NULL));
+  riis_adjacency *adjacency = NULL;
+  expect_refused(riis_vtk_mesh_adjacency(NULL, 1, &adjacency), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_adjacency(mesh, 1, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
   expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1), RIIS_INVALID_ARGUMENT, "result is NULL");
   expect_refused(riis_vtk_mesh_write(NULL, path), RIIS_INVALID_ARGUMENT, "mesh is NULL");

@@ -16,6 +16,7 @@
 #include <vtkCellData.h>
 #include <vtkCellLocator.h>
 #include <vtkCellType.h>
+#include <vtkDelaunay3D.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -143,6 +144,23 @@ vtkSmartPointer<vtkPointSet> read(const std::string &path) {
   return data && data->GetPoints() ? data : nullptr;
 }
 
+// Some different nodes of the first n_nodes.
+std::vector<vtkIdType> drawn(int n_nodes, int n, std::mt19937 &random) {
+  std::vector<vtkIdType> nodes(static_cast<std::size_t>(n_nodes));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  for (int i = 0; i < n; ++i) {
+    std::swap(nodes[static_cast<std::size_t>(i)],
+              nodes[static_cast<std::size_t>(i) + random() % static_cast<unsigned>(n_nodes - i)]);
+  }
+  nodes.resize(static_cast<std::size_t>(n));
+  return nodes;
+}
+
+void add_polyhedron(vtkUnstructuredGrid *grid, const std::vector<vtkIdType> &p) {
+  const vtkIdType faces[] = {3, p[0], p[1], p[2], 3, p[0], p[1], p[3], 3, p[1], p[2], p[3], 3, p[2], p[0], p[3]};
+  grid->InsertNextCell(VTK_POLYHEDRON, 4, p.data(), 4, faces);
+}
+
 class CountingWindow : public vtkOutputWindow {
  public:
   static CountingWindow *New();
@@ -231,6 +249,65 @@ int64_t shim_read_corners(const char *path, int64_t *ids) {
     }
   }
   return n;
+}
+
+int shim_write_zoo(const char *path) {
+  struct Kind {
+    int type, n_nodes;
+  };
+  const Kind kinds[] = {{VTK_TETRA, 4}, {VTK_VERTEX, 1},     {VTK_PYRAMID, 5},         {VTK_TRIANGLE, 3},
+                        {VTK_WEDGE, 6}, {VTK_LINE, 2},       {VTK_VOXEL, 8},           {VTK_PENTAGONAL_PRISM, 10},
+                        {VTK_QUAD, 4},  {VTK_HEXAHEDRON, 8}, {VTK_QUADRATIC_TETRA, 10}};
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  std::mt19937 random(11);
+  for (int i = 0; i < n_shim_zoo; ++i) points->InsertNextPoint(i % 4, i / 4 % 4, i / 16);
+  grid->SetPoints(points);
+  for (int round = 0; round < 3; ++round) {
+    for (const Kind &kind : kinds) {
+      const bool volume = kind.n_nodes >= 4 && kind.n_nodes <= 8 && kind.type != VTK_QUAD;
+      const std::vector<vtkIdType> nodes = drawn(volume ? n_shim_zoo - 10 : n_shim_zoo, kind.n_nodes, random);
+      grid->InsertNextCell(kind.type, kind.n_nodes, nodes.data());
+    }
+    add_polyhedron(grid, drawn(n_shim_zoo, 4, random));
+  }
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName(path);
+  writer->SetInputData(grid);
+  return writer->Write();
+}
+
+int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges) {
+  const auto data = read(path);
+  if (!data) return -1;
+  int64_t n = 0;
+  vtkNew<vtkGenericCell> cell;
+  for (vtkIdType cell_id = 0; cell_id < data->GetNumberOfCells(); ++cell_id) {
+    if (data->GetCellType(cell_id) != cell_type) continue;
+    data->GetCell(cell_id, cell);
+    for (int i = 0; i < cell->GetNumberOfEdges(); ++i, ++n) {
+      if (!edges) continue;
+      vtkIdList *ends = cell->GetEdge(i)->GetPointIds();
+      edges[2 * n] = ends->GetId(0);
+      edges[2 * n + 1] = ends->GetId(1);
+    }
+  }
+  return n;
+}
+
+int shim_write_delaunay(const char *path, int64_t n, const double *xyz) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int64_t i = 0; i < n; ++i) points->InsertNextPoint(xyz + 3 * i);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  vtkNew<vtkDelaunay3D> delaunay;
+  delaunay->SetInputData(data);
+  delaunay->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName(path);
+  writer->SetInputConnection(delaunay->GetOutputPort());
+  return writer->Write();
 }
 
 int shim_read_array(const char *path, char where, const char *name, char type[32], int64_t *n_components,

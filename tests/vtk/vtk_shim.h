@@ -31,6 +31,19 @@ int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char
 /* The corners of all cells, one after the other; returns how many, or -1. ids may be NULL. */
 int64_t shim_read_corners(const char *path, int64_t *ids);
 
+/* Writes a .vtu of cells of many types among n_shim_zoo nodes, several of each type, their nodes drawn at random: the linear
+ * volumes that have edges for riis, and vertices, lines, triangles, quads, a pentagonal prism, a quadratic tetrahedron, a
+ * polyhedron. The last nodes are in no cell of volume. Returns 1 on success. */
+enum { n_shim_zoo = 60 };
+int shim_write_zoo(const char *path);
+
+/* Edges of the cells of one VTK type by vtkCell::GetEdge, as pairs of nodes; returns how many, or -1. edges may be NULL. */
+int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
+
+/* Writes a .vtu of the tetrahedra by vtkDelaunay3D between the points, xyz (3, n), all of them in their order, as doubles.
+ * Returns 1 on success. */
+int shim_write_delaunay(const char *path, int64_t n, const double *xyz);
+
 /* An array: where is 'p' point, 'c' cell or 'f' field. Values as doubles if values is not NULL. Returns 0 if there is
  * none. */
 int shim_read_array(const char *path, char where, const char *name, char type[32], int64_t *n_components,

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's handles with their destruction, for benchmarks: what goes wrong ends the program.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+namespace bench {
+
+inline void check(riis_status status) {
+  if (status == RIIS_OK) return;
+  std::fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
+  std::exit(1);
+}
+
+template <class Handle, void (*destroy)(Handle **)>
+struct Destroy {
+  void operator()(Handle *handle) const { destroy(&handle); }
+};
+using Valve = std::unique_ptr<riis_valve, Destroy<riis_valve, riis_valve_destroy>>;
+using Surface = std::unique_ptr<riis_surface, Destroy<riis_surface, riis_surface_destroy>>;
+using Mesh = std::unique_ptr<riis_mesh, Destroy<riis_mesh, riis_mesh_destroy>>;
+using Adjacency = std::unique_ptr<riis_adjacency, Destroy<riis_adjacency, riis_adjacency_destroy>>;
+using Result = std::unique_ptr<riis_mark_result, Destroy<riis_mark_result, riis_mark_result_destroy>>;
+
+inline Valve make_valve(const char *kind) {
+  riis_valve *valve = nullptr;
+  check(riis_valve_create(kind, &valve));
+  return Valve(valve);
+}
+
+inline Result make_result() {
+  riis_mark_result *result = nullptr;
+  check(riis_mark_result_create(&result));
+  return Result(result);
+}
+
+inline double n_triangles_of(const riis_surface *surface) {
+  riis_surface_info info;
+  check(riis_surface_get_info(surface, &info, sizeof info));
+  return static_cast<double>(info.n_triangles);
+}
+
+}  // namespace bench

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which nodes are neighbours: the caller's compressed sparse rows where they lie, checked; and rows that the library makes from
+// cells, faces or a structured grid.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace riis {
+
+// Integers of the caller's, 32 or 64 bits wide.
+struct IntegerArray {
+  const void *data = nullptr;
+  bool is_64_bits = false;
+
+  std::int64_t operator[](std::int64_t i) const {
+    return is_64_bits ? static_cast<const std::int64_t *>(data)[i] : static_cast<const std::int32_t *>(data)[i];
+  }
+};
+
+struct Adjacency {
+  std::int64_t n_rows = 0;
+  IntegerArray offsets, columns;
+  std::int64_t base = 0;
+
+  // Calls visit for every neighbour of node i that is a node of the mesh: ghosts are left out.
+  template <class Visit>
+  void for_each_neighbor(std::int64_t i, const Visit &visit) const {
+    const std::int64_t begin = offsets[i] - base, end = offsets[i + 1] - base;
+    for (std::int64_t k = begin; k < end; ++k) {
+      const std::int64_t j = columns[k] - base;
+      if (j < n_rows && j != i) visit(j);
+    }
+  }
+};
+
+// Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_MESH, naming the field or the row, and the value.
+Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes);
+
+// Rows that the library owns.
+struct OwnAdjacency {
+  std::vector<std::int64_t> offsets;
+  std::vector<std::int32_t> columns_32;  // for fewer than 2^31 nodes
+  std::vector<std::int64_t> columns_64;  // otherwise
+
+  riis_csr csr() const;
+};
+
+OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads);
+OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads);
+OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads);
+
+}  // namespace riis

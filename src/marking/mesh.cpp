@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/mesh.hpp"
+
+namespace riis {
+
+void Mesh::set_nodes(const StridedPoints &nodes) {
+  if (nodes.n != nodes_.n) {
+    adjacency_.reset();
+    groups_.order.clear();
+  }
+  nodes_ = nodes;
+  has_groups_.store(false, std::memory_order_relaxed);
+}
+
+const NodeGroups &Mesh::groups(int n_threads) const {
+  if (has_groups_.load(std::memory_order_acquire)) return groups_;
+  const std::lock_guard<std::mutex> lock(groups_mutex_);
+  if (!has_groups_.load(std::memory_order_relaxed)) {
+    // Nodes that moved keep their order: it stays good as long as they do not mix.
+    if (groups_.order.empty()) sort_into_groups(nodes_, n_threads, groups_);
+    enclose(nodes_, n_threads, groups_);
+    has_groups_.store(true, std::memory_order_release);
+  }
+  return groups_;
+}
+
+}  // namespace riis

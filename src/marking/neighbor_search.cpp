@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "api/errors.hpp"
+#include "marking/search.hpp"
+#include "parallel/concurrent_walk.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// Nodes that a thread hands on together.
+constexpr std::int64_t nodes_per_range = 128;
+
+class NeighborSearch {
+ public:
+  NeighborSearch(const SearchRequest &request, Collection &collection)
+      : request_(request),
+        nodes_(request.mesh.nodes()),
+        adjacency_(*request.mesh.adjacency()),
+        scene_(request.surface.scene()),
+        limit_(request.distance_limit),
+        collection_(collection),
+        walked_(collection.walked) {
+    collection.prepare(request.n_threads);
+    walked_.prepare(nodes_.n, request.n_threads);
+  }
+
+  // Nodes to begin with; each is asked once, however often it is named.
+  void begin_at(std::int64_t node) {
+    if (!request_.is_masked_out(node) && walked_.claim(node))
+      walked_.queue[static_cast<std::size_t>(n_queued_++)] = node;
+  }
+
+  // Asks the nodes to begin with, and from each that is within the limit its neighbours.
+  void walk() {
+    std::vector<Range> &ranges = walked_.ranges;
+    ranges.clear();
+    for (std::int64_t i = 0; i < n_queued_; i += nodes_per_range)
+      ranges.push_back({i, std::min(i + nodes_per_range, n_queued_.load())});
+    const int n_ran = concurrent_walk(ranges, request_.n_threads, [&](const Range &range, const auto &add, int thread) {
+      std::vector<std::int64_t> &next = walked_.threads[static_cast<std::size_t>(thread)].next;
+      next.clear();
+      const auto hand_on = [&] {
+        const auto n = static_cast<std::int64_t>(next.size());
+        if (n == 0) return;
+        const std::int64_t begin = n_queued_.fetch_add(n, std::memory_order_relaxed);
+        std::copy(next.begin(), next.end(), walked_.queue.begin() + begin);
+        next.clear();
+        add(Range{begin, begin + n});
+      };
+      for (std::int64_t k = range.begin; k < range.end; ++k) {
+        const std::int64_t node = walked_.queue[static_cast<std::size_t>(k)];
+        if (!ask(node, thread)) continue;
+        adjacency_.for_each_neighbor(node, [&](std::int64_t j) {
+          if (request_.is_masked_out(j) || !walked_.claim(j)) return;
+          next.push_back(j);
+          if (static_cast<std::int64_t>(next.size()) == nodes_per_range) hand_on();
+        });
+      }
+      hand_on();
+    });
+    n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  // The groups of nodes that may have one within the limit, each with the distance of its centre.
+  void find_near_groups(const NodeGroups &groups) {
+    std::vector<Collection::NearGroup> &near = walked_.near_groups;
+    near.clear();
+    const auto n = static_cast<std::int64_t>(groups.supergroups.size());
+    constexpr std::int64_t per_block = 16;
+    const int n_ran =
+        parallel_for((n + per_block - 1) / per_block, request_.n_threads, [&](std::int64_t block, int thread) {
+          Collection::Walked::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
+          const auto is_near = [&](const Ball &ball, double &distance) {
+            const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
+            if (!scene_.may_be_within(ball.centre, within)) return false;
+            ++own.n_queries;
+            const ClosestTriangle closest = scene_.closest(ball.centre, within);
+            distance = std::sqrt(closest.distance_sq);
+            return closest.triangle >= 0;
+          };
+          for (std::int64_t s = block * per_block; s < std::min((block + 1) * per_block, n); ++s) {
+            double distance;
+            if (!is_near(groups.supergroups[static_cast<std::size_t>(s)], distance)) continue;
+            const Range range = groups.groups_of(s);
+            for (std::int64_t group = range.begin; group < range.end; ++group)
+              if (is_near(groups.groups[static_cast<std::size_t>(group)], distance))
+                own.near_groups.push_back({group, distance});
+          }
+        });
+    n_threads_ = std::max(n_threads_, n_ran);
+    for (const auto &own : walked_.threads) near.insert(near.end(), own.near_groups.begin(), own.near_groups.end());
+    // In an order that does not depend on the threads.
+    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.group < b.group; });
+  }
+
+  // Begins in every group that the surface may be near to.
+  void begin_in_near_groups(const NodeGroups &groups) {
+    for (const Collection::NearGroup &near : walked_.near_groups) {
+      const Range range = groups.nodes_of(near.group);
+      for (std::int64_t k = range.begin; k < range.end; ++k) {
+        const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
+        if (request_.is_masked_out(node) || is_far(groups, near, node)) continue;
+        begin_at(node);
+        break;
+      }
+    }
+  }
+
+  // Every node that was not walked to is proven far, by the distance of its group's centre, or asked.
+  void prove(const NodeGroups &groups) {
+    const auto n = static_cast<std::int64_t>(walked_.near_groups.size());
+    constexpr std::int64_t per_block = 16;
+    const int n_ran =
+        parallel_for((n + per_block - 1) / per_block, request_.n_threads, [&](std::int64_t block, int thread) {
+          const std::size_t n_before = collection_.by_thread[static_cast<std::size_t>(thread)].size();
+          for (std::int64_t g = block * per_block; g < std::min((block + 1) * per_block, n); ++g) {
+            const Collection::NearGroup &near = walked_.near_groups[static_cast<std::size_t>(g)];
+            const Range range = groups.nodes_of(near.group);
+            for (std::int64_t k = range.begin; k < range.end; ++k) {
+              const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
+              if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(groups, near, node)) continue;
+              ask(node, thread);
+            }
+          }
+          n_unreached_.fetch_add(
+              static_cast<std::int64_t>(collection_.by_thread[static_cast<std::size_t>(thread)].size() - n_before),
+              std::memory_order_relaxed);
+        });
+    n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  SearchReport report(bool complete) {
+    std::int64_t n_queries = 0;
+    for (const auto &own : walked_.threads) n_queries += own.n_queries;
+    collection_.sort(nodes_.n);
+    return {n_queries, n_threads_, complete, n_unreached_};
+  }
+
+ private:
+  // Asks for the distance of a node; true, and the node is found, if it is within the limit.
+  bool ask(std::int64_t node, int thread) {
+    const Vec3 p = nodes_[node];
+    if (!is_usable(p)) check_points(nodes_, "node", RIIS_INVALID_MESH);
+    if (!scene_.may_be_within(p, limit_)) return false;
+    ++walked_.threads[static_cast<std::size_t>(thread)].n_queries;
+    const ClosestTriangle closest = scene_.closest(p, limit_);
+    if (closest.triangle < 0) return false;
+    collection_.by_thread[static_cast<std::size_t>(thread)].push_back(
+        {node, std::sqrt(closest.distance_sq), closest.triangle});
+    return true;
+  }
+
+  // Farther from the surface than the limit, whatever direction it is in: the centre's distance less its own from the centre.
+  bool is_far(const NodeGroups &groups, const Collection::NearGroup &near, std::int64_t node) const {
+    const Vec3 centre = groups.groups[static_cast<std::size_t>(near.group)].centre;
+    const double from_centre = distance(centre, nodes_[node]);
+    return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
+  }
+
+  // For the rounding of two distances and of a ball's radius: in proportion to them, to the nodes' coordinates, and to the
+  // triangles'.
+  double slack(double distances, Vec3 centre) const {
+    return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) + 2 * scene_.rounding();
+  }
+
+  const SearchRequest &request_;
+  const StridedPoints &nodes_;
+  const Adjacency &adjacency_;
+  const TriangleScene &scene_;
+  double limit_;
+  Collection &collection_;
+  Collection::Walked &walked_;
+  std::atomic<std::int64_t> n_queued_{0}, n_unreached_{0};
+  int n_threads_ = 1;
+};
+
+}  // namespace
+
+SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
+                              Collection &collection) {
+  const NodeGroups &groups = request.mesh.groups(request.n_threads);
+  NeighborSearch search(request, collection);
+  search.find_near_groups(groups);
+  for (const std::int64_t node : last) search.begin_at(node);
+  if (last.empty()) search.begin_in_near_groups(groups);
+  search.walk();
+  search.prove(groups);
+  return search.report(true);
+}
+
+SearchReport search_as_the_paper(const SearchRequest &request, Collection &collection) {
+  const StridedPoints &nodes = request.mesh.nodes();
+  const Vec3 start = request.surface.triangles().corners(0)[0];
+  std::int64_t nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int64_t i = 0; i < nodes.n; ++i) {
+    const double from_start = distance(nodes[i], start);
+    if (!request.is_masked_out(i) && from_start < least) least = from_start, nearest = i;
+  }
+  NeighborSearch search(request, collection);
+  if (nearest >= 0) search.begin_at(nearest);
+  search.walk();
+  return search.report(false);
+}
+
+}  // namespace riis

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seam through which work that makes more work goes; the only file that names TBB.
+#pragma once
+
+#if defined(RIIS_STD_THREADS)
+#include "parallel/walk_by_threads.hpp"
+#else
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for_each.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "parallel/float_environment.hpp"
+#include "parallel/range.hpp"
+
+namespace riis {
+
+// An arena of n_threads threads, the calling one among them. TBB gives no more threads than it may have in the process: where that is
+// fewer, and it was not the caller who said so, it may have more for as long as this lives.
+class Arena {
+ public:
+  explicit Arena(int n_threads)
+      : limit_(tbb::global_control::max_allowed_parallelism, limit_for(n_threads)), arena_(n_threads, 1) {}
+
+  template <class Work>
+  void run(const Work &work) {
+    arena_.execute(work);
+  }
+
+ private:
+  static std::size_t limit_for(int n_threads) {
+    const std::size_t active = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return active < static_cast<std::size_t>(n_threads) ? static_cast<std::size_t>(n_threads) : active;
+  }
+
+  tbb::global_control limit_;
+  tbb::task_arena arena_;
+};
+
+// Runs body(range, add, thread) for every range of the list and for all that bodies add, add(range), on up to n_threads threads, 0
+// <= thread < n_threads, in no particular order. Returns how many threads ran. The first exception is thrown again here. Starts
+// anew from anywhere: a caller's parallel regions and tasks, settings and limits stay as they are. One thread is the calling one,
+// without TBB, and the list is used up.
+template <class Body>
+int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body) {
+  if (n_threads == 1) {
+    while (!ranges.empty()) {
+      const Range range = ranges.back();
+      ranges.pop_back();
+      body(
+          range, [&](const Range &more) { ranges.push_back(more); }, 0);
+    }
+    return 1;
+  }
+  std::atomic<std::uint64_t> ran[16] = {};  // a bit a thread, of up to 1024
+  Arena arena(n_threads);
+  arena.run([&] {
+    tbb::parallel_for_each(ranges.begin(), ranges.end(), [&](const Range &range, tbb::feeder<Range> &feeder) {
+      const FloatEnvironment environment;
+      const int thread = tbb::this_task_arena::current_thread_index();
+      ran[thread / 64].fetch_or(std::uint64_t{1} << thread % 64, std::memory_order_relaxed);
+      body(
+          range, [&](const Range &more) { feeder.add(more); }, thread);
+    });
+  });
+  int n_ran = 0;
+  for (const auto &bits : ran) n_ran += __builtin_popcountll(bits.load(std::memory_order_relaxed));
+  return n_ran < 1 ? 1 : n_ran;
+}
+
+template <class Iterator, class Less>
+void concurrent_sort(Iterator begin, Iterator end, int n_threads, const Less &less) {
+  if (n_threads == 1) {
+    std::sort(begin, end, less);
+    return;
+  }
+  Arena arena(n_threads);
+  arena.run([&] { tbb::parallel_sort(begin, end, less); });
+}
+
+}  // namespace riis
+
+#endif

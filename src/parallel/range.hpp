@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace riis {
+
+// Positions in a list, begin <= i < end.
+struct Range {
+  std::int64_t begin, end;
+};
+
+}  // namespace riis

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis-mark --search: which search runs, that marks are the same, and what is said of a search that may be incomplete. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "marks.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static void mark_default_valve(double half_thickness, double distance_limit) {
+  riis_valve *valve = NULL;
+  riis_surface_options options;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = half_thickness;
+  mark_by_c(valve, &options, distance_limit, RIIS_FAR_DISTANCE);
+  riis_valve_destroy(&valve);
+}
+
+/* auto, too, which says what it chose. */
+static void test_marks_are_equal(void **state) {
+  (void)state;
+  mark_default_valve(0.2, 0.3);
+  const char *searches[] = {"auto", "exhaustive", "neighbor"};
+  const char *ran[] = {"\"exhaustive\"", "\"exhaustive\"", "\"neighbor\""};
+  for (int i = 0; i < 3; ++i) {
+    for (int n_threads = 1; n_threads <= 2; ++n_threads) {
+      RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--distance-limit", "0.3", "--search", searches[i],
+               "--threads", n_threads == 1 ? "1" : "2", "--output", scratch_path("out.vtu"), "--stats", "-");
+      expect_marked_mesh();
+      assert_true(json_has_text(program_out, "search", ran[i]));
+      assert_true(json_has_text(program_out, "complete", "true"));
+      assert_true(json_number(program_out, "n_unreached") >= 0);
+      assert_true(json_number(program_out, "n_marked") == (double)by_c.stats.n_marked);
+      assert_true(json_number(program_out, "n_within_limit") == (double)by_c.stats.n_within_limit);
+      assert_true(json_number(program_out, "threads") <= n_threads);
+      const double seconds = json_number(strstr(program_out, "\"seconds\": {"), "adjacency");
+      assert_true(i == 2 ? seconds > 0 && seconds < 100 : seconds == 0);
+    }
+  }
+}
+
+static void test_table(void **state) {
+  (void)state;
+  RUN_FINE(scratch_path("in.vtu"), "--search", "neighbor", "--threads", "1");
+  assert_non_null(strstr(program_out, "\nsearch    neighbor, 1 thread"));
+  assert_non_null(strstr(program_out, ", adjacency 0."));
+  assert_null(strstr(program_out, "\ncomplete"));
+  RUN_FINE(scratch_path("in.vtu"), "--threads", "1");
+  assert_non_null(strstr(program_out, "\nsearch    exhaustive, 1 thread\n"));
+}
+
+static void expect_warning(void) {
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_err, "riis-mark: the marks may be incomplete: --search paper"));
+  assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
+}
+
+/* Where the band hangs together the paper's search finds all of it, too; it cannot know, and says so. */
+static void test_paper(void **state) {
+  (void)state;
+  mark_default_valve(0.3, RIIS_AUTO);
+  run_program(scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--output",
+              scratch_path("out.vtu"), NULL);
+  expect_warning();
+  assert_non_null(strstr(program_out, "\nsearch    paper, "));
+  assert_non_null(strstr(program_out, "\ncomplete  unknown: "));
+  expect_marked_mesh();
+  run_program(scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--stats", "-", NULL);
+  expect_warning();
+  assert_true(json_has_text(program_out, "complete", "false"));
+  assert_true(json_has_text(program_out, "search", "\"paper\""));
+  assert_true(json_number(program_out, "n_unreached") == 0);
+  assert_true(json_number(program_out, "n_marked") == (double)by_c.stats.n_marked);
+  run_program(scratch_path("in.vtu"), "--search", "paper", "--quiet", "--output", scratch_path("quiet.vtu"), NULL);
+  expect_warning();
+  assert_string_equal(program_out, "");
+}
+
+/* Two triangles far apart: the paper's search finds what is near to the first, the neighbour search both. */
+static void test_two_pieces(void **state) {
+  (void)state;
+  scratch_write_text(
+      "pieces.stl",
+      "solid x\nfacet normal 0 0 1\nouter loop\nvertex -1.6 -1 -1\nvertex -.9 -1 -1\nvertex -1.4 -.4 -1\n"
+      "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex .5 .5 0\nvertex 1.4 .5 0\n"
+      "vertex .5 1.4 0\nendloop\nendfacet\nendsolid\n");
+  const char *searches[] = {"exhaustive", "neighbor", "paper"};
+  double n_marked[3];
+  for (int i = 0; i < 3; ++i) {
+    run_program(scratch_path("in.vtu"), "--surface", scratch_path("pieces.stl"), "--half-thickness", "0.2", "--search",
+                searches[i], "--stats", "-", NULL);
+    assert_int_equal(program_exit_code, 0);
+    n_marked[i] = json_number(program_out, "n_marked");
+    assert_true(json_has_text(program_out, "complete", i == 2 ? "false" : "true"));
+  }
+  assert_true(n_marked[0] > 0 && n_marked[0] == n_marked[1]);
+  assert_true(n_marked[2] > 0 && n_marked[2] < n_marked[0]);
+}
+
+/* Points alone: no neighbours, all marks by the proof, and the table says how many. */
+static void test_no_cells(void **state) {
+  (void)state;
+  scratch_write_text("points.vtk",
+                     "# vtk DataFile Version 3.0\npoints\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
+                     "0 0 0 .1 0 0 5 5 5\nCELLS 1 2\n1 0\nCELL_TYPES 1\n1\n");
+  scratch_write_text("one.stl",
+                     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                     "endloop\nendfacet\nendsolid\n");
+  RUN_FINE(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor");
+  assert_non_null(strstr(program_out, "2 nodes within the half thickness"));
+  assert_non_null(strstr(program_out, ", 1 node not reached from a neighbour\n"));
+  RUN_FINE(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor", "--stats", "-");
+  assert_true(json_number(program_out, "n_marked") == 2);
+  assert_true(json_number(program_out, "n_unreached") == 1);
+  run_program(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "paper", "--stats", "-",
+              NULL);
+  expect_warning();
+  assert_true(json_number(program_out, "n_marked") == 1);
+}
+
+/* What is refused without an adjacency is refused with one, before the mesh is read. */
+static void test_refusals(void **state) {
+  (void)state;
+  const char *searches[] = {"neighbor", "paper"};
+  for (int i = 0; i < 2; ++i) {
+    const char *mesh = scratch_path("missing.vtu");
+    RUN_REFUSED(2, "--search needs a MESH", "--surface-output", "a.vtp", "--search", searches[i]);
+    RUN_REFUSED(2, "--search has no effect with --print-params", "--print-params", "--search", searches[i]);
+    RUN_REFUSED(2, "--threads is -2; ", mesh, "--search", searches[i], "--threads", "-2");
+    RUN_REFUSED(2, "--distance-limit is 0.05; ", mesh, "--search", searches[i], "--distance-limit", "0.05");
+    RUN_REFUSED(1, "missing.vtu: cannot be read", mesh, "--search", searches[i]);
+  }
+  RUN_REFUSED(2, "--search", scratch_path("in.vtu"), "--search", "neighbour");
+}
+
+static int destroy_all(void **state) {
+  forget_marks();
+  return scratch_teardown(state);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_marks_are_equal), cmocka_unit_test(test_table),    cmocka_unit_test(test_paper),
+      cmocka_unit_test(test_two_pieces),      cmocka_unit_test(test_no_cells), cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, make_box, destroy_all);
+}

@@ -1,0 +1,688 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Adjacencies: the builders against lists of pairs made by other means, and what is refused of rows, cells, faces and grids.
+ */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+static random_source rng;
+
+/* --- A list of pairs, made without the library --------------------------------------------------------------------- */
+
+typedef struct pair_list {
+  int64_t n, room;
+  int64_t *ends; /* (2, n): both directions of each pair */
+} pair_list;
+
+static void add_pair(pair_list *list, int64_t a, int64_t b) {
+  if (a == b) return;
+  if (list->n + 2 > list->room) {
+    list->room = 2 * list->room + 64;
+    list->ends = realloc(list->ends, (size_t)list->room * 2 * sizeof *list->ends);
+  }
+  int64_t *to = list->ends + 2 * list->n;
+  to[0] = a, to[1] = b, to[2] = b, to[3] = a;
+  list->n += 2;
+}
+
+static int compare_pairs(const void *a, const void *b) {
+  const int64_t *p = a, *q = b;
+  if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+  return p[1] < q[1] ? -1 : p[1] > q[1];
+}
+
+/* Ascending, each once: what rows should hold, read from front to back. */
+static void tidy_pairs(pair_list *list) {
+  if (list->n == 0) return;
+  qsort(list->ends, (size_t)list->n, 2 * sizeof *list->ends, compare_pairs);
+  int64_t m = 1;
+  for (int64_t i = 1; i < list->n; ++i)
+    if (compare_pairs(list->ends + 2 * i, list->ends + 2 * (m - 1)) != 0)
+      memmove(list->ends + 2 * m++, list->ends + 2 * i, 2 * sizeof *list->ends);
+  list->n = m;
+}
+
+static void free_pairs(pair_list *list) {
+  free(list->ends);
+  memset(list, 0, sizeof *list);
+}
+
+static riis_csr rows_of(const riis_adjacency *adjacency) {
+  riis_csr csr;
+  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  return csr;
+}
+
+/* The rows are the pairs, base 0, in 64-bit offsets and 32-bit columns. */
+static void check_rows(const riis_adjacency *adjacency, int64_t n_nodes, pair_list *expected) {
+  const riis_csr csr = rows_of(adjacency);
+  tidy_pairs(expected);
+  assert_int_equal(csr.struct_size, sizeof csr);
+  assert_int_equal(csr.n_rows, n_nodes);
+  assert_int_equal(csr.n_all, n_nodes);
+  assert_int_equal(csr.offset_bits, 64);
+  assert_int_equal(csr.column_bits, 32);
+  assert_int_equal(csr.index_base, 0);
+  assert_int_equal(csr.reserved, 0);
+  const int64_t *offsets = csr.offsets;
+  const int32_t *columns = csr.columns;
+  assert_int_equal(offsets[0], 0);
+  int64_t at = 0;
+  for (int64_t i = 0; i < n_nodes; ++i) {
+    assert_int_equal(offsets[i], at);
+    for (; at < expected->n && expected->ends[2 * at] == i; ++at) {
+      assert_true(at < offsets[i + 1]);
+      assert_int_equal(columns[at], expected->ends[2 * at + 1]);
+    }
+    assert_int_equal(offsets[i + 1], at);
+  }
+  assert_int_equal(at, expected->n);
+}
+
+static int same_rows(const riis_adjacency *a, const riis_adjacency *b) {
+  const riis_csr x = rows_of(a), y = rows_of(b);
+  if (x.n_rows != y.n_rows || x.column_bits != 32 || y.column_bits != 32) return 0;
+  const size_t n = (size_t)x.n_rows, n_columns = (size_t)((const int64_t *)x.offsets)[n];
+  if (memcmp(x.offsets, y.offsets, (n + 1) * sizeof(int64_t)) != 0) return 0;
+  return n_columns == 0 || memcmp(x.columns, y.columns, n_columns * sizeof(int32_t)) == 0;
+}
+
+/* --- Cells ----------------------------------------------------------------------------------------------------------- */
+
+/* Whether two corners of a cell share an edge, by where the corners of the unit shapes are rather than by a table: those of a prism and a
+ * hexahedron that differ in one of "which corner of the base" and "which end"; base corners that follow each other round. */
+static int on_an_edge(int n_corners, int a, int b) {
+  const int n_base = n_corners == 8 || n_corners == 5 ? 4 : 3;
+  const int base_a = a % n_base, base_b = b % n_base, floor_a = a / n_base, floor_b = b / n_base;
+  if (a == b) return 0;
+  if (n_corners == 4 || n_corners == 5) /* an apex is joined to all */
+    if (floor_a != floor_b) return 1;
+  if (floor_a != floor_b) return base_a == base_b;
+  return (base_a + 1) % n_base == base_b || (base_b + 1) % n_base == base_a;
+}
+
+typedef struct cell_list {
+  int64_t n_nodes, n_cells;
+  int64_t *offsets, *nodes; /* from 0 */
+} cell_list;
+
+/* kind: 4, 5, 6, 8, or 0 for a mixture. Nodes n_used to n_nodes - 1 are in no cell. */
+static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t n_cells, int repeated_nodes) {
+  static const int kinds[4] = {4, 5, 6, 8};
+  cell_list list = {n_nodes, n_cells, calloc((size_t)n_cells + 1, sizeof(int64_t)),
+                    malloc((size_t)n_cells * 8 * sizeof(int64_t))};
+  for (int64_t c = 0; c < n_cells; ++c) {
+    const int n = kind ? kind : kinds[random_bits(&rng) % 4];
+    int64_t *nodes = list.nodes + list.offsets[c];
+    list.offsets[c + 1] = list.offsets[c] + n;
+    for (int k = 0; k < n; ++k) {
+      int is_new;
+      do { /* near each other, as in a mesh */
+        nodes[k] = (c * n_used / n_cells + (int64_t)(random_bits(&rng) % 40)) % n_used;
+        is_new = 1;
+        for (int m = 0; m < k && !repeated_nodes; ++m) is_new = is_new && nodes[m] != nodes[k];
+      } while (!is_new);
+    }
+  }
+  return list;
+}
+
+static void free_cells(cell_list *list) { free(list->offsets), free(list->nodes); }
+
+static pair_list pairs_of_cells(const cell_list *list) {
+  pair_list pairs = {0};
+  for (int64_t c = 0; c < list->n_cells; ++c) {
+    const int64_t *nodes = list->nodes + list->offsets[c];
+    const int n = (int)(list->offsets[c + 1] - list->offsets[c]);
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < a; ++b)
+        if (on_an_edge(n, a, b)) add_pair(&pairs, nodes[a], nodes[b]);
+  }
+  return pairs;
+}
+
+/* n integers plus base, as 32 or 64 bits; to be freed. */
+static void *as_bits(const int64_t *from, int64_t n, int bits, int64_t base) {
+  int32_t *narrow = malloc((size_t)(n + 1) * sizeof(int64_t));
+  int64_t *wide = (int64_t *)(void *)narrow;
+  for (int64_t i = 0; i < n; ++i) {
+    if (bits == 32)
+      narrow[i] = (int32_t)(from[i] + base);
+    else
+      wide[i] = from[i] + base;
+  }
+  return narrow;
+}
+
+static riis_cells cells_init(void) {
+  riis_cells cells;
+  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  return cells;
+}
+
+static void cells_of_every_kind(void **state) {
+  (void)state;
+  static const int kinds[5] = {4, 5, 6, 8, 0};
+  for (int k = 0; k < 5; ++k)
+    for (int repeated_nodes = 0; repeated_nodes < 2; ++repeated_nodes)
+      for (int trial = 0; trial < 2; ++trial) {
+        const int64_t n_used = 60 + (int64_t)(random_bits(&rng) % 9000),
+                      n_nodes = n_used + (int64_t)(random_bits(&rng) % 50);
+        cell_list list =
+            random_cells(kinds[k], n_nodes, n_used, 1 + (int64_t)(random_bits(&rng) % 12000), repeated_nodes);
+        pair_list expected = pairs_of_cells(&list);
+        for (int bits = 32; bits <= 64; bits += 32)
+          for (int base = 0; base < 2; ++base) {
+            void *nodes = as_bits(list.nodes, list.offsets[list.n_cells], bits, base);
+            void *offsets = as_bits(list.offsets, list.n_cells + 1, bits, 0);
+            riis_cells cells = cells_init();
+            cells.n_nodes = n_nodes;
+            cells.n_cells = list.n_cells;
+            cells.node_ids = nodes;
+            cells.id_bits = bits;
+            cells.index_base = base;
+            riis_adjacency *one = NULL, *four = NULL;
+            if (kinds[k] && trial == 0)
+              cells.nodes_per_cell = kinds[k];
+            else
+              cells.offsets = offsets, cells.nodes_per_cell = 77; /* not looked at */
+            cells.n_threads = 1;
+            CHECK_OK(riis_adjacency_create_from_cells(&cells, &one));
+            check_rows(one, n_nodes, &expected);
+            cells.n_threads = 4;
+            CHECK_OK(riis_adjacency_create_from_cells(&cells, &four));
+            assert_true(same_rows(one, four));
+            riis_adjacency_destroy(&four);
+            riis_adjacency_destroy(&one);
+            assert_null(one);
+            free(nodes);
+            free(offsets);
+          }
+        free_pairs(&expected);
+        free_cells(&list);
+      }
+}
+
+/* By hand: one cell of each kind, and its edges as anyone would draw them. */
+static void one_cell_of_each_kind(void **state) {
+  (void)state;
+  static const int n_corners[4] = {4, 5, 6, 8}, n_edges[4] = {6, 8, 9, 12};
+  static const int64_t edges[4][24] = {
+      {0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3},
+      {0, 1, 1, 2, 2, 3, 0, 3, 0, 4, 1, 4, 2, 4, 3, 4},
+      {0, 1, 1, 2, 0, 2, 3, 4, 4, 5, 3, 5, 0, 3, 1, 4, 2, 5},
+      {0, 1, 1, 2, 2, 3, 0, 3, 4, 5, 5, 6, 6, 7, 4, 7, 0, 4, 1, 5, 2, 6, 3, 7},
+  };
+  const int32_t ids[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (int k = 0; k < 4; ++k) {
+    riis_cells cells = cells_init();
+    cells.n_nodes = 10;
+    cells.n_cells = 1;
+    cells.node_ids = ids;
+    cells.nodes_per_cell = n_corners[k];
+    riis_adjacency *adjacency = NULL;
+    CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
+    pair_list expected = {0};
+    for (int e = 0; e < n_edges[k]; ++e) add_pair(&expected, edges[k][2 * e], edges[k][2 * e + 1]);
+    check_rows(adjacency, 10, &expected);
+    free_pairs(&expected);
+    riis_adjacency_destroy(&adjacency);
+  }
+}
+
+static void cells_that_are_refused(void **state) {
+  (void)state;
+  int32_t ids[12] = {0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5}, offsets[4] = {0, 4, 8, 12};
+  riis_adjacency *adjacency = NULL;
+  riis_cells good = cells_init(), cells;
+  assert_int_equal(good.struct_size, sizeof good);
+  assert_int_equal(good.nodes_per_cell, 4);
+  assert_int_equal(good.id_bits, 32);
+  good.n_nodes = 6;
+  good.n_cells = 3;
+  good.node_ids = ids;
+  CHECK_OK(riis_adjacency_create_from_cells(&good, &adjacency));
+  riis_adjacency_destroy(&adjacency);
+#define REFUSED_WITH(change, status, parts)                                             \
+  do {                                                                                  \
+    cells = good;                                                                       \
+    cells.change;                                                                       \
+    CHECK_REFUSED(status, parts, riis_adjacency_create_from_cells(&cells, &adjacency)); \
+  } while (0)
+  REFUSED_WITH(n_nodes = 0, RIIS_INVALID_ARGUMENT, "cells.n_nodes is 0");
+  REFUSED_WITH(n_nodes = -3, RIIS_INVALID_ARGUMENT, "cells.n_nodes is -3");
+  REFUSED_WITH(n_nodes = INT64_MAX, RIIS_INVALID_ARGUMENT, "cells.n_nodes is 9223372036854775807");
+  REFUSED_WITH(n_cells = 0, RIIS_INVALID_ARGUMENT, "cells.n_cells is 0");
+  REFUSED_WITH(n_cells = INT64_MIN, RIIS_INVALID_ARGUMENT, "cells.n_cells is -9223372036854775808");
+  REFUSED_WITH(node_ids = NULL, RIIS_INVALID_ARGUMENT, "cells.node_ids|NULL");
+  REFUSED_WITH(id_bits = 16, RIIS_INVALID_ARGUMENT, "cells.id_bits is 16|32 or 64");
+  REFUSED_WITH(index_base = 2, RIIS_INVALID_ARGUMENT, "cells.index_base is 2|0 or 1");
+  REFUSED_WITH(index_base = -1, RIIS_INVALID_ARGUMENT, "cells.index_base is -1");
+  REFUSED_WITH(nodes_per_cell = 7, RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is 7|4, 5, 6 or 8");
+  REFUSED_WITH(nodes_per_cell = 0, RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is 0");
+  REFUSED_WITH(n_threads = -1, RIIS_INVALID_ARGUMENT, "cells.n_threads is -1");
+  REFUSED_WITH(n_threads = 1025, RIIS_INVALID_ARGUMENT, "cells.n_threads is 1025");
+  REFUSED_WITH(struct_size = 0, RIIS_INVALID_STRUCT_SIZE, "cells is 0");
+  REFUSED_WITH(struct_size = sizeof cells + 8, RIIS_INVALID_STRUCT_SIZE, "cells is 64");
+  REFUSED_WITH(struct_size = sizeof cells - 1, RIIS_INVALID_STRUCT_SIZE, "cells is 55");
+  REFUSED_WITH(n_nodes = 5, RIIS_INVALID_MESH, "node 3 of cell 2 is 5|nodes 0 to 4");
+  REFUSED_WITH(index_base = 1, RIIS_INVALID_MESH, "node 0 of cell 0 is 0|nodes 1 to 6");
+  ids[6] = -7;
+  REFUSED_WITH(n_nodes = 6, RIIS_INVALID_MESH, "node 2 of cell 1 is -7");
+  ids[6] = INT32_MAX;
+  REFUSED_WITH(n_nodes = 6, RIIS_INVALID_MESH, "node 2 of cell 1 is 2147483647");
+  ids[6] = 3;
+  offsets[1] = 7;
+  REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 0 are given from 0 to 7|4, 5, 6 and 8");
+  offsets[1] = 4, offsets[2] = 3;
+  REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 1 are given from 4 to 3");
+  offsets[2] = 8, offsets[0] = 1;
+  REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cells.offsets begins with 1|begin with 0");
+  offsets[0] = 0;
+  good.offsets = offsets;
+  CHECK_OK(riis_adjacency_create_from_cells(&good, &adjacency));
+  riis_adjacency_destroy(&adjacency);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells|NULL", riis_adjacency_create_from_cells(NULL, &adjacency));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_cells(&good, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells|NULL", riis_cells_init(NULL, sizeof cells));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "cells is 8", riis_cells_init(&cells, 8));
+  assert_null(adjacency); /* written on success only */
+#undef REFUSED_WITH
+}
+
+/* The least 64-bit integer, from either base. */
+static void wildest_integers_are_refused(void **state) {
+  (void)state;
+  const int64_t ids[4] = {1, 2, 3, INT64_MIN}, offsets[2] = {1, 2}, columns[1] = {INT64_MIN};
+  for (int base = 0; base < 2; ++base) {
+    riis_adjacency *adjacency = NULL;
+    riis_cells cells = cells_init();
+    cells.n_nodes = 6;
+    cells.n_cells = 1;
+    cells.node_ids = ids;
+    cells.id_bits = 64;
+    cells.index_base = base;
+    CHECK_REFUSED(RIIS_INVALID_MESH, "node 3 of cell 0 is -9223372036854775808",
+                  riis_adjacency_create_from_cells(&cells, &adjacency));
+    riis_faces faces;
+    CHECK_OK(riis_faces_init(&faces, sizeof faces));
+    faces.n_cells = 3;
+    faces.n_faces = 1;
+    faces.owner = ids;
+    faces.neighbor = ids + 3;
+    faces.id_bits = 64;
+    faces.index_base = base;
+    CHECK_REFUSED(RIIS_INVALID_MESH, "neighbor of face 0 is -9223372036854775808",
+                  riis_adjacency_create_from_faces(&faces, &adjacency));
+    faces.owner = ids + 3;
+    CHECK_REFUSED(RIIS_INVALID_MESH, "owner of face 0 is -9223372036854775808",
+                  riis_adjacency_create_from_faces(&faces, &adjacency));
+    const double xyz[3] = {0};
+    const int64_t offsets_0[2] = {0, 1};
+    riis_mesh *mesh = NULL;
+    riis_csr csr;
+    CHECK_OK(riis_csr_init(&csr, sizeof csr));
+    CHECK_OK(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &mesh));
+    csr.n_rows = 1;
+    csr.offsets = base ? offsets : offsets_0;
+    csr.columns = columns;
+    csr.offset_bits = csr.column_bits = 64;
+    csr.index_base = base;
+    CHECK_REFUSED(RIIS_INVALID_MESH, "row 0|column -9223372036854775808", riis_mesh_set_adjacency(mesh, &csr));
+    riis_mesh_destroy(&mesh);
+  }
+  const int64_t wild_offsets[3] = {0, 4, INT64_MIN};
+  riis_adjacency *adjacency = NULL;
+  riis_cells cells = cells_init();
+  cells.n_nodes = 6;
+  cells.n_cells = 2;
+  cells.node_ids = (const int64_t[8]){0, 1, 2, 3, 0, 1, 2, 3};
+  cells.offsets = wild_offsets;
+  cells.id_bits = 64;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "cell 1", riis_adjacency_create_from_cells(&cells, &adjacency));
+}
+
+/* --- Faces ----------------------------------------------------------------------------------------------------------- */
+
+static riis_faces faces_init(void) {
+  riis_faces faces;
+  CHECK_OK(riis_faces_init(&faces, sizeof faces));
+  return faces;
+}
+
+static void faces_in_every_layout(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 6; ++trial) {
+    const int64_t n_cells = 1 + (int64_t)(random_bits(&rng) % 9000), n_faces = trial == 5 ? 0 : 4 * n_cells;
+    int64_t *ends = malloc((size_t)(2 * n_faces + 2) * sizeof *ends);
+    pair_list expected = {0};
+    for (int64_t f = 0; f < n_faces; ++f) {
+      int64_t *face = ends + 2 * f;
+      if (f > 0 && random_bits(&rng) % 10 == 0) { /* again, either way round */
+        const int64_t *again = ends + 2 * (int64_t)(random_bits(&rng) % (uint64_t)f);
+        const int turned = again[1] >= 0 && random_bits(&rng) % 2;
+        face[0] = again[turned], face[1] = again[!turned];
+      } else {
+        face[0] = (int64_t)(random_bits(&rng) % (uint64_t)n_cells);
+        face[1] = random_bits(&rng) % 5 == 0 ? -1 : (face[0] + (int64_t)(random_bits(&rng) % 30)) % n_cells;
+      }
+      if (face[1] >= 0) add_pair(&expected, face[0], face[1]);
+    }
+    for (int bits = 32; bits <= 64; bits += 32)
+      for (int base = 0; base < 2; ++base)
+        for (int stride = 1; stride <= 2; ++stride) {
+          int64_t *laid_out = malloc((size_t)(2 * n_faces + 2) * sizeof *laid_out);
+          for (int64_t f = 0; f < n_faces; ++f)
+            for (int e = 0; e < 2; ++e) laid_out[stride == 2 ? 2 * f + e : e * n_faces + f] = ends[2 * f + e];
+          char *numbers = as_bits(laid_out, 2 * n_faces, bits, base);
+          riis_faces faces = faces_init();
+          faces.n_cells = n_cells;
+          faces.n_faces = n_faces;
+          faces.owner = n_faces ? numbers : NULL;
+          faces.neighbor = n_faces ? numbers + (stride == 2 ? 1 : n_faces) * (bits / 8) : NULL;
+          faces.stride = stride;
+          faces.id_bits = bits;
+          faces.index_base = base;
+          faces.n_threads = 1;
+          riis_adjacency *one = NULL, *four = NULL;
+          CHECK_OK(riis_adjacency_create_from_faces(&faces, &one));
+          check_rows(one, n_cells, &expected);
+          faces.n_threads = 4;
+          CHECK_OK(riis_adjacency_create_from_faces(&faces, &four));
+          assert_true(same_rows(one, four));
+          riis_adjacency_destroy(&one);
+          riis_adjacency_destroy(&four);
+          free(numbers);
+          free(laid_out);
+        }
+    free_pairs(&expected);
+    free(ends);
+  }
+}
+
+static void faces_that_are_refused(void **state) {
+  (void)state;
+  int32_t owner[3] = {0, 1, 2}, neighbor[3] = {1, 2, -1};
+  riis_adjacency *adjacency = NULL;
+  riis_faces good = faces_init(), faces;
+  assert_int_equal(good.struct_size, sizeof good);
+  assert_int_equal(good.stride, 1);
+  assert_int_equal(good.id_bits, 32);
+  good.n_cells = 3;
+  good.n_faces = 3;
+  good.owner = owner;
+  good.neighbor = neighbor;
+  CHECK_OK(riis_adjacency_create_from_faces(&good, &adjacency));
+  riis_adjacency_destroy(&adjacency);
+#define REFUSED_WITH(change, status, parts)                                             \
+  do {                                                                                  \
+    faces = good;                                                                       \
+    faces.change;                                                                       \
+    CHECK_REFUSED(status, parts, riis_adjacency_create_from_faces(&faces, &adjacency)); \
+  } while (0)
+  REFUSED_WITH(n_cells = 0, RIIS_INVALID_ARGUMENT, "faces.n_cells is 0");
+  REFUSED_WITH(n_cells = INT64_MAX, RIIS_INVALID_ARGUMENT, "faces.n_cells is 9223372036854775807");
+  REFUSED_WITH(n_faces = -1, RIIS_INVALID_ARGUMENT, "faces.n_faces is -1");
+  REFUSED_WITH(owner = NULL, RIIS_INVALID_ARGUMENT, "faces.owner|NULL");
+  REFUSED_WITH(neighbor = NULL, RIIS_INVALID_ARGUMENT, "faces.neighbor|NULL");
+  REFUSED_WITH(stride = 0, RIIS_INVALID_ARGUMENT, "faces.stride is 0");
+  REFUSED_WITH(id_bits = 16, RIIS_INVALID_ARGUMENT, "faces.id_bits is 16|32 or 64");
+  REFUSED_WITH(index_base = 2, RIIS_INVALID_ARGUMENT, "faces.index_base is 2|0 or 1");
+  REFUSED_WITH(n_threads = -1, RIIS_INVALID_ARGUMENT, "faces.n_threads is -1");
+  REFUSED_WITH(reserved = 1, RIIS_INVALID_ARGUMENT, "faces.reserved is 1");
+  REFUSED_WITH(struct_size = 56, RIIS_INVALID_STRUCT_SIZE, "faces is 56");
+  REFUSED_WITH(n_cells = 2, RIIS_INVALID_MESH, "neighbor of face 1 is 2|cells 0 to 1");
+  REFUSED_WITH(index_base = 1, RIIS_INVALID_MESH, "owner of face 0 is 0|cells 1 to 3");
+  neighbor[2] = -2;
+  REFUSED_WITH(n_cells = 3, RIIS_INVALID_MESH, "neighbor of face 2 is -2");
+  neighbor[2] = -1, owner[1] = -1;
+  REFUSED_WITH(n_cells = 3, RIIS_INVALID_MESH, "owner of face 1 is -1");
+  owner[1] = 1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces|NULL", riis_adjacency_create_from_faces(NULL, &adjacency));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_faces(&good, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces|NULL", riis_faces_init(NULL, sizeof faces));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "faces is 0", riis_faces_init(&faces, 0));
+  assert_null(adjacency);
+#undef REFUSED_WITH
+}
+
+/* --- Grids ----------------------------------------------------------------------------------------------------------- */
+
+static void grids_of_any_dimension(void **state) {
+  (void)state;
+  static const int64_t counts[9][3] = {{1, 1, 1}, {7, 1, 1},   {1, 7, 1},    {1, 1, 7}, {5, 4, 1},
+                                       {5, 1, 4}, {1, 90, 80}, {20, 21, 22}, {2, 2, 2}};
+  for (int g = 0; g < 9; ++g) {
+    const int64_t *c = counts[g], n = c[0] * c[1] * c[2];
+    pair_list expected = {0};
+    for (int64_t k = 0; k < c[2]; ++k)
+      for (int64_t j = 0; j < c[1]; ++j)
+        for (int64_t i = 0; i < c[0]; ++i) {
+          const int64_t node = i + c[0] * (j + c[1] * k);
+          if (i + 1 < c[0]) add_pair(&expected, node, i + 1 + c[0] * (j + c[1] * k));
+          if (j + 1 < c[1]) add_pair(&expected, node, i + c[0] * (j + 1 + c[1] * k));
+          if (k + 1 < c[2]) add_pair(&expected, node, i + c[0] * (j + c[1] * (k + 1)));
+        }
+    riis_adjacency *one = NULL, *four = NULL;
+    CHECK_OK(riis_adjacency_create_from_grid(c[0], c[1], c[2], 1, &one));
+    CHECK_OK(riis_adjacency_create_from_grid(c[0], c[1], c[2], 4, &four));
+    check_rows(one, n, &expected);
+    assert_true(same_rows(one, four));
+    riis_adjacency_destroy(&one);
+    riis_adjacency_destroy(&four);
+    free_pairs(&expected);
+  }
+}
+
+static void grids_that_are_refused(void **state) {
+  (void)state;
+  riis_adjacency *adjacency = NULL;
+#define REFUSED(ni, nj, nk, threads, parts) \
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_adjacency_create_from_grid(ni, nj, nk, threads, &adjacency))
+  REFUSED(0, 1, 1, 1, "ni is 0");
+  REFUSED(1, -1, 1, 1, "nj is -1");
+  REFUSED(1, 1, 0, 1, "nk is 0");
+  REFUSED(INT64_MAX, 1, 1, 1, "ni is 9223372036854775807");
+  REFUSED(INT64_C(1) << 40, INT64_C(1) << 40, 1, 1, "1099511627776 * 1099511627776 * 1");
+  REFUSED(INT64_C(1) << 30, INT64_C(1) << 20, INT64_C(1) << 20, 1, "1073741824 * 1048576 * 1048576");
+  REFUSED(1, 1, 1, -1, "n_threads is -1");
+  REFUSED(1, 1, 1, 1025, "n_threads is 1025");
+#undef REFUSED
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_grid(1, 1, 1, 1, NULL));
+  assert_null(adjacency);
+}
+
+/* --- The handle and its rows ----------------------------------------------------------------------------------------- */
+
+static void handles_of_adjacencies(void **state) {
+  (void)state;
+  riis_adjacency *adjacency = NULL;
+  riis_csr csr;
+  CHECK_OK(riis_adjacency_create_from_grid(3, 2, 1, 0, &adjacency));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_csr(NULL, &csr, sizeof csr));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_adjacency_csr(adjacency, NULL, sizeof csr));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 48", riis_adjacency_csr(adjacency, &csr, 48));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 64", riis_adjacency_csr(adjacency, &csr, 64));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_csr_init(NULL, sizeof csr));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is -8", riis_csr_init(&csr, -8));
+  /* A mesh in its place, and it in a mesh's. */
+  const double xyz[18] = {0};
+  riis_mesh *mesh = NULL;
+  CHECK_OK(riis_mesh_create(6, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency is a handle of another kind",
+                riis_adjacency_csr((const riis_adjacency *)(const void *)mesh, &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is a handle of another kind",
+                riis_mesh_set_adjacency((riis_mesh *)(void *)adjacency, &csr));
+  riis_adjacency *wrong = (riis_adjacency *)(void *)mesh;
+  riis_adjacency_destroy(&wrong);
+  assert_non_null(wrong); /* left alone */
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  riis_mesh_destroy(&mesh);
+  riis_adjacency_destroy(&adjacency);
+  assert_null(adjacency);
+  riis_adjacency_destroy(&adjacency);
+  riis_adjacency_destroy(NULL);
+}
+
+/* 1 if the mesh can be searched along an adjacency. */
+static int has_adjacency(const riis_surface *surface, const riis_mesh *mesh) {
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  options.n_threads = 1;
+  const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
+  riis_mark_result_destroy(&result);
+  if (status == RIIS_OK) return 1;
+  assert_int_equal(status, RIIS_INVALID_ARGUMENT);
+  return 0;
+}
+
+static void rows_that_are_refused(void **state) {
+  (void)state;
+  enum { n = 5 };
+  riis_surface *surface = aortic_surface(NULL);
+  double xyz[3 * n] = {0};
+  int32_t offsets[n + 1] = {0, 1, 3, 5, 7, 8}, columns[8] = {1, 0, 2, 1, 3, 2, 4, 3};
+  riis_mesh *mesh = NULL;
+  riis_csr good, csr;
+  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_OK(riis_csr_init(&good, sizeof good));
+  assert_int_equal(good.struct_size, sizeof good);
+  assert_int_equal(good.n_rows, 0);
+  assert_int_equal(good.n_all, 0);
+  assert_null(good.offsets);
+  assert_null(good.columns);
+  assert_int_equal(good.offset_bits, 32);
+  assert_int_equal(good.column_bits, 32);
+  assert_int_equal(good.index_base, 0);
+  good.n_rows = n;
+  good.offsets = offsets;
+  good.columns = columns;
+  /* Before there is one and while there is one, which stays. */
+  for (int has_one = 0; has_one < 2; ++has_one) {
+    if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
+#define REFUSED(status, parts)                                         \
+  do {                                                                 \
+    CHECK_REFUSED(status, parts, riis_mesh_set_adjacency(mesh, &csr)); \
+    assert_int_equal(has_adjacency(surface, mesh), has_one);           \
+  } while (0)
+#define REFUSED_WITH(change, status, parts) \
+  do {                                      \
+    csr = good;                             \
+    csr.change;                             \
+    REFUSED(status, parts);                 \
+  } while (0)
+    REFUSED_WITH(n_rows = n - 1, RIIS_INVALID_ARGUMENT, "csr.n_rows is 4|5 nodes");
+    REFUSED_WITH(n_rows = n + 1, RIIS_INVALID_ARGUMENT, "csr.n_rows is 6|5 nodes");
+    REFUSED_WITH(n_rows = 0, RIIS_INVALID_ARGUMENT, "csr.n_rows is 0");
+    REFUSED_WITH(n_all = n - 1, RIIS_INVALID_ARGUMENT, "csr.n_all is 4|at least n_rows");
+    REFUSED_WITH(n_all = -1, RIIS_INVALID_ARGUMENT, "csr.n_all is -1");
+    REFUSED_WITH(offset_bits = 16, RIIS_INVALID_ARGUMENT, "csr.offset_bits is 16|32 or 64");
+    REFUSED_WITH(column_bits = 0, RIIS_INVALID_ARGUMENT, "csr.column_bits is 0|32 or 64");
+    REFUSED_WITH(index_base = 2, RIIS_INVALID_ARGUMENT, "csr.index_base is 2|0 or 1");
+    REFUSED_WITH(reserved = 9, RIIS_INVALID_ARGUMENT, "csr.reserved is 9");
+    REFUSED_WITH(offsets = NULL, RIIS_INVALID_ARGUMENT, "csr.offsets|NULL");
+    REFUSED_WITH(columns = NULL, RIIS_INVALID_ARGUMENT, "csr.columns|NULL");
+    REFUSED_WITH(struct_size = 0, RIIS_INVALID_STRUCT_SIZE, "csr is 0");
+    REFUSED_WITH(struct_size = sizeof csr + 8, RIIS_INVALID_STRUCT_SIZE, "csr is 64");
+    csr = good;
+    columns[4] = 5;
+    REFUSED(RIIS_INVALID_MESH, "row 2|column 5|nodes 0 to 4");
+    columns[4] = -1;
+    REFUSED(RIIS_INVALID_MESH, "row 2|column -1");
+    columns[4] = 3;
+    offsets[3] = 2;
+    REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
+    offsets[3] = 5;
+    offsets[0] = 1;
+    REFUSED(RIIS_INVALID_MESH, "csr.offsets begins with 1|begin with 0");
+    csr.index_base = 1;
+    REFUSED(RIIS_INVALID_MESH, "row 1|column 0|nodes 1 to 5");
+    offsets[0] = 0;
+    csr.index_base = 1;
+    REFUSED(RIIS_INVALID_MESH, "csr.offsets begins with 0|begin with 1");
+#undef REFUSED
+#undef REFUSED_WITH
+  }
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh|NULL", riis_mesh_set_adjacency(NULL, &good));
+  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
+  assert_int_equal(has_adjacency(surface, mesh), 0);
+  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+}
+
+static void when_an_adjacency_goes(void **state) {
+  (void)state;
+  enum { n = 4 };
+  riis_surface *surface = aortic_surface(NULL);
+  double xyz[3 * (n + 1)] = {0};
+  /* Columns 4 and 5 are ghosts; the rest of the rows is the node itself, and again. */
+  int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
+  riis_mesh *mesh = NULL;
+  riis_csr csr;
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = n;
+  csr.offsets = offsets;
+  csr.columns = columns;
+  csr.offset_bits = csr.column_bits = 64;
+  csr.index_base = 1;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "row 0|column 5|nodes 1 to 4", riis_mesh_set_adjacency(mesh, &csr));
+  csr.n_all = n + 1;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "row 0|column 6|nodes 1 to 5", riis_mesh_set_adjacency(mesh, &csr));
+  csr.n_all = n + 2;
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  assert_int_equal(has_adjacency(surface, mesh), 1);
+  /* As many nodes: it stays. A refused update: it stays. Another number: it goes. */
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
+  assert_int_equal(has_adjacency(surface, mesh), 1);
+  xyz[3 * n] = NAN;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "x of node 4 is nan", riis_mesh_update(mesh, n + 1, xyz, xyz + 1, xyz + 2, 3));
+  assert_int_equal(has_adjacency(surface, mesh), 1);
+  xyz[3 * n] = 0;
+  CHECK_OK(riis_mesh_update(mesh, n + 1, xyz, xyz + 1, xyz + 2, 3));
+  assert_int_equal(has_adjacency(surface, mesh), 0);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr.n_rows is 4|5 nodes", riis_mesh_set_adjacency(mesh, &csr));
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
+  assert_int_equal(has_adjacency(surface, mesh), 0);
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 2|adjacency",
+                riis_mark_nodes(surface, mesh, &options, result));
+  options.search = RIIS_SEARCH_PAPER;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 3|adjacency",
+                riis_mark_nodes(surface, mesh, &options, result));
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  assert_int_equal(has_adjacency(surface, mesh), 1);
+  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
+  assert_int_equal(has_adjacency(surface, mesh), 0);
+  /* All rows empty: no columns are wanted. */
+  const int32_t nothing[n + 1] = {0};
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = n;
+  csr.offsets = nothing;
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  assert_int_equal(has_adjacency(surface, mesh), 1);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(cells_of_every_kind),    cmocka_unit_test(one_cell_of_each_kind),
+      cmocka_unit_test(cells_that_are_refused), cmocka_unit_test(wildest_integers_are_refused),
+      cmocka_unit_test(faces_in_every_layout),  cmocka_unit_test(faces_that_are_refused),
+      cmocka_unit_test(grids_of_any_dimension), cmocka_unit_test(grids_that_are_refused),
+      cmocka_unit_test(handles_of_adjacencies), cmocka_unit_test(rows_that_are_refused),
+      cmocka_unit_test(when_an_adjacency_goes),
+  };
+  rng = random_start("test_adjacency");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A race through each of the two seams, which the thread sanitizer has to report, and work that the seam puts in order, on which it
+// has to be silent: planted_race loop|walk race|order. Exit status 3: no two threads took part, so that nothing was shown.
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <thread>
+
+#include "parallel/concurrent_walk.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace {
+
+// What the report has to name. On its own: the sanitizer remembers few accesses of each eight bytes, and the flags have many.
+alignas(64) int planted = 0;
+alignas(64) std::atomic<int> n_come{0};
+std::atomic<bool> is_written{false}, is_written_again{false};
+
+// Waits by relaxed loads, which put nothing in an order, and few of them: a thread's history, from which a report is made, is short.
+// Gives up in time, should the other thread never come.
+template <class Happened>
+bool wait_until(const Happened &happened) {
+  const auto start = std::chrono::steady_clock::now();
+  while (!happened()) {
+    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(30)) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+// Called four times, twice on each of two threads. Both come to their first call, and one of them writes in it; the other writes in
+// its second, long after the first's has returned: the two writes overlap nowhere, and only an order between bodies that the seam
+// does not promise could hide the race.
+void write_late() {
+  thread_local int n_calls = 0, place = 0;
+  ++n_calls;
+  if (n_calls == 1) {
+    place = n_come.fetch_add(1, std::memory_order_relaxed);
+    wait_until([] { return n_come.load(std::memory_order_relaxed) == 2; });
+    if (place == 0) {
+      ++planted;
+      is_written.store(true, std::memory_order_relaxed);
+    } else {
+      wait_until([] { return is_written.load(std::memory_order_relaxed); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  } else if (place == 0) {
+    wait_until([] { return is_written_again.load(std::memory_order_relaxed); });
+  } else {
+    ++planted;
+    is_written_again.store(true, std::memory_order_relaxed);
+  }
+}
+
+bool race_in_loop() {
+  riis::parallel_for(4, 2, [](std::int64_t, int) { write_late(); });
+  return is_written_again;
+}
+
+bool race_in_walk() {
+  riis::concurrent_walk({{0, 1}, {1, 2}, {2, 3}, {3, 4}}, 2,
+                        [](const riis::Range &, const auto &, int) { write_late(); });
+  return is_written_again;
+}
+
+// Each loop writes where another thread may have written in the loop before.
+bool order_in_loop() {
+  static int written[1000];
+  int n_ran = 0;
+  for (int repeat = 0; repeat < 50; ++repeat)
+    n_ran = riis::parallel_for(1000, 2, [&](std::int64_t i, int) { ++written[(7 * i + repeat) % 1000]; });
+  return n_ran == 2 && written[0] == 50;
+}
+
+// What is added comes after what its adder wrote before, on either thread: the first body waits for the other thread to go on.
+bool order_in_walk() {
+  static int written[1000];
+  std::atomic<int> n_on_thread[2] = {};
+  riis::concurrent_walk({{0, 1000}}, 2, [&](const riis::Range &range, const auto &add, int thread) {
+    n_on_thread[thread].fetch_add(1, std::memory_order_relaxed);
+    if (range.begin > 0) ++written[range.begin - 1];
+    ++written[range.begin];
+    if (range.begin + 1 < range.end) add({range.begin + 1, range.end});
+    if (range.begin == 0) wait_until([&] { return n_on_thread[1 - thread].load(std::memory_order_relaxed) > 0; });
+  });
+  return n_on_thread[0] > 0 && n_on_thread[1] > 0 && written[0] == 2;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  if (argc != 3) return 2;
+  const bool in_loop = std::strcmp(argv[1], "loop") == 0, is_race = std::strcmp(argv[2], "race") == 0;
+  const auto run = is_race ? (in_loop ? race_in_loop : race_in_walk) : (in_loop ? order_in_loop : order_in_walk);
+  const bool two_took_part = run();
+  std::printf("%s; written %d times\n", two_took_part ? "two threads took part" : "no two threads took part", planted);
+  return two_took_part ? 0 : 3;
+}

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The adjacency of meshes from files against the edges that VTK's own cells have. */
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+enum { n_side = 9, n_box = n_side * n_side * n_side };
+/* VTK's numbers of the cells whose edges count: tetrahedron, voxel, hexahedron, wedge, pyramid. */
+static const int volume_types[] = {10, 11, 12, 13, 14};
+
+static riis_vtk_mesh *read_mesh(const char *name) {
+  riis_vtk_mesh *mesh = NULL;
+  expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
+  return mesh;
+}
+
+/* By VTK: are_joined[i * n + j]. Returns the number of pairs. */
+static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joined) {
+  static int64_t edges[2 * 40000];
+  int64_t n_pairs = 0;
+  memset(are_joined, 0, (size_t)(n_nodes * n_nodes));
+  for (size_t t = 0; t < sizeof volume_types / sizeof volume_types[0]; ++t) {
+    const int64_t n = shim_read_edges(path, volume_types[t], NULL);
+    assert_in_range(n, 0, 40000);
+    assert_int_equal(shim_read_edges(path, volume_types[t], edges), n);
+    for (int64_t i = 0; i < n; ++i) {
+      const int64_t a = edges[2 * i], b = edges[2 * i + 1];
+      n_pairs += 2 * !are_joined[a * n_nodes + b];
+      are_joined[a * n_nodes + b] = are_joined[b * n_nodes + a] = 1;
+    }
+  }
+  return n_pairs;
+}
+
+/* Returns the number of columns. */
+static int64_t expect_rows(const riis_adjacency *adjacency, int64_t n_nodes, const uint8_t *are_joined) {
+  riis_csr csr;
+  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  assert_int_equal(csr.n_rows, n_nodes);
+  assert_int_equal(csr.offset_bits, 64);
+  assert_int_equal(csr.column_bits, 32);
+  assert_int_equal(csr.index_base, 0);
+  const int64_t *offsets = csr.offsets;
+  const int32_t *columns = csr.columns;
+  int64_t at = 0;
+  for (int64_t i = 0; i < n_nodes; ++i) {
+    assert_int_equal(offsets[i], at);
+    for (int64_t j = 0; j < n_nodes; ++j) {
+      if (!are_joined[i * n_nodes + j]) continue;
+      assert_true(at < offsets[i + 1]);
+      assert_int_equal(columns[at], j);
+      ++at;
+    }
+  }
+  assert_int_equal(offsets[n_nodes], at);
+  return at;
+}
+
+static void expect_adjacency(const char *name, int64_t n_nodes, int64_t least_pairs) {
+  uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
+  const int64_t n_pairs = join_by_vtk(scratch_path(name), n_nodes, are_joined);
+  assert_true(n_pairs >= least_pairs);
+  riis_vtk_mesh *mesh = read_mesh(name);
+  for (int32_t n_threads = 0; n_threads <= 3; ++n_threads) {
+    riis_adjacency *adjacency = NULL;
+    expect_fine(riis_vtk_mesh_adjacency(mesh, n_threads, &adjacency));
+    assert_int_equal(expect_rows(adjacency, n_nodes, are_joined), n_pairs);
+    riis_adjacency_destroy(&adjacency);
+  }
+  riis_vtk_mesh_destroy(&mesh);
+  free(are_joined);
+}
+
+static void test_tetrahedra(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
+  expect_adjacency("box.vtu", n_box, 7 * n_box);
+  assert_int_equal(shim_write_box(scratch_path("box.vtk"), SHIM_LEGACY_BINARY, n_side, lower, upper, 0), 1);
+  expect_adjacency("box.vtk", n_box, 7 * n_box);
+}
+
+static void test_every_cell(void **state) {
+  (void)state;
+  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
+  for (size_t t = 0; t < sizeof volume_types / sizeof volume_types[0]; ++t) {
+    assert_true(shim_read_edges(scratch_path("zoo.vtu"), volume_types[t], NULL) >= 3 * 6);
+  }
+  expect_adjacency("zoo.vtu", n_shim_zoo, 100);
+}
+
+/* A quad's diagonals are no edges, and a voxel's nodes run another way than a hexahedron's. */
+static void test_voxel(void **state) {
+  (void)state;
+  scratch_write_text("voxel.vtk",
+                     "# vtk DataFile Version 3.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n"
+                     "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1 5 5 5\n"
+                     "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n");
+  uint8_t are_joined[81] = {0};
+  for (int i = 0; i < 8; ++i) {
+    for (int bit = 1; bit < 8; bit *= 2) are_joined[9 * i + (i ^ bit)] = 1;
+  }
+  riis_vtk_mesh *mesh = read_mesh("voxel.vtk");
+  riis_adjacency *adjacency = NULL;
+  expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
+  assert_int_equal(expect_rows(adjacency, 9, are_joined), 24);
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+/* Meshes without a cell of volume: empty rows; the neighbour search still finds all. */
+static void test_no_volume(void **state) {
+  (void)state;
+  const char *cells[] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n",
+                         "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"};
+  const uint8_t are_joined[100] = {0};
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  riis_valve_destroy(&valve);
+  for (size_t c = 0; c < sizeof cells / sizeof cells[0]; ++c) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 3.0\nplain\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n"
+             "1.3 0 -1 0 1.3 -1 0 0 -.2 0 0 9 0 0 -.3 .1 0 -.3 0 .1 -.3 .1 .1 -.3 0 0 -.5 0 0 -.7\n%s",
+             cells[c]);
+    scratch_write_text("plain.vtk", text);
+    riis_vtk_mesh *file = read_mesh("plain.vtk");
+    riis_adjacency *adjacency = NULL;
+    expect_fine(riis_vtk_mesh_adjacency(file, 2, &adjacency));
+    assert_int_equal(expect_rows(adjacency, 10, are_joined), 0);
+
+    riis_csr csr;
+    riis_mesh *mesh = NULL;
+    riis_mark_result *result[2] = {NULL, NULL};
+    riis_mark_options options;
+    riis_mark_stats stats[2];
+    const double *xyz = NULL;
+    expect_fine(riis_vtk_mesh_nodes(file, NULL, NULL, &xyz));
+    expect_fine(riis_mesh_create(10, xyz, xyz + 1, xyz + 2, 3, &mesh));
+    expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+    expect_fine(riis_mesh_set_adjacency(mesh, &csr));
+    expect_fine(riis_mark_options_init(&options, sizeof options));
+    options.distance_limit = 0.5;
+    for (int i = 0; i < 2; ++i) {
+      options.search = i ? RIIS_SEARCH_NEIGHBOR : RIIS_SEARCH_EXHAUSTIVE;
+      expect_fine(riis_mark_result_create(&result[i]));
+      expect_fine(riis_mark_nodes(surface, mesh, &options, result[i]));
+      expect_fine(riis_mark_result_stats(result[i], &stats[i], sizeof stats[i]));
+      assert_int_equal(stats[i].complete, 1);
+    }
+    assert_in_range(stats[0].n_within_limit, 3, 9);
+    assert_int_equal(stats[0].n_within_limit, stats[1].n_within_limit);
+    const int64_t *node[2];
+    const double *distance[2];
+    for (int i = 0; i < 2; ++i)
+      expect_fine(riis_mark_result_within_limit(result[i], NULL, &node[i], &distance[i], NULL, NULL));
+    assert_memory_equal(node[0], node[1], (size_t)stats[0].n_within_limit * sizeof *node[0]);
+    assert_memory_equal(distance[0], distance[1], (size_t)stats[0].n_within_limit * sizeof *distance[0]);
+    for (int i = 0; i < 2; ++i) riis_mark_result_destroy(&result[i]);
+    riis_mesh_destroy(&mesh);
+    riis_adjacency_destroy(&adjacency);
+    riis_vtk_mesh_destroy(&file);
+  }
+  riis_surface_destroy(&surface);
+}
+
+static void test_threads(void **state) {
+  (void)state;
+  shim_write_zoo(scratch_path("zoo.vtu"));
+  scratch_write_text("point.vtk",
+                     "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\n"
+                     "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n");
+  const char *names[] = {"zoo.vtu", "point.vtk"};
+  for (int i = 0; i < 2; ++i) {
+    riis_vtk_mesh *mesh = read_mesh(names[i]);
+    riis_adjacency *adjacency = NULL;
+    expect_refused(riis_vtk_mesh_adjacency(mesh, -1, &adjacency), RIIS_INVALID_ARGUMENT, "n_threads is -1");
+    expect_refused(riis_vtk_mesh_adjacency(mesh, 1025, &adjacency), RIIS_INVALID_ARGUMENT, "n_threads is 1025");
+    assert_true(strncmp(riis_last_error(), "n_threads", 9) == 0);
+    assert_null(adjacency);
+    riis_vtk_mesh_destroy(&mesh);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_tetrahedra), cmocka_unit_test(test_every_cell), cmocka_unit_test(test_voxel),
+      cmocka_unit_test(test_no_volume),  cmocka_unit_test(test_threads),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
