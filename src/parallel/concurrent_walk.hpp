@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "parallel/float_environment.hpp"
@@ -21,12 +23,16 @@
 
 namespace riis {
 
-// An arena of n_threads threads, the calling one among them. TBB gives no more threads than it may have in the process: where that is
-// fewer, and it was not the caller who said so, it may have more for as long as this lives.
+// An arena of up to n_threads threads, the calling one among them. TBB gives no more threads than it may have in the process: where
+// that is fewer it may have more for as long as this lives, unless it was the caller who said so. An arena of more than there can be
+// would be announced on stderr.
 class Arena {
  public:
-  explicit Arena(int n_threads)
-      : limit_(tbb::global_control::max_allowed_parallelism, limit_for(n_threads)), arena_(n_threads, 1) {}
+  explicit Arena(int n_threads) {
+    const auto wanted = static_cast<std::size_t>(n_threads);
+    if (allowed() < wanted) limit_.emplace(tbb::global_control::max_allowed_parallelism, wanted);
+    arena_.initialize(static_cast<int>(std::min(allowed(), wanted)), 1);
+  }
 
   template <class Work>
   void run(const Work &work) {
@@ -34,12 +40,11 @@ class Arena {
   }
 
  private:
-  static std::size_t limit_for(int n_threads) {
-    const std::size_t active = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return active < static_cast<std::size_t>(n_threads) ? static_cast<std::size_t>(n_threads) : active;
+  static std::size_t allowed() {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   }
 
-  tbb::global_control limit_;
+  std::optional<tbb::global_control> limit_;
   tbb::task_arena arena_;
 };
 

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Marking from tasks of the caller's own TBB: the same bits as outside, and the caller's settings stay. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include <unistd.h>
+
+#include "handles.h"
+#include "searches.h"
+#include "tbb_region.h"
+
+enum { n_tasks = 12 };
+static const int32_t thread_counts[] = {1, 2, 4};
+
+typedef struct work {
+  const riis_surface *surface;
+  const riis_mesh *mesh;
+  const riis_mark_result *expected;
+  int32_t n_threads; /* 0: each of the counts, task by task */
+  int is_wrong[n_tasks];
+} work;
+
+/* With its own result, cold and then warm. Asserts nothing: any thread runs it. */
+static void mark(void *data, int task) {
+  work *w = data;
+  riis_mark_options options = {0};
+  riis_mark_result *result = NULL;
+  riis_mark_stats stats = {0};
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  options.n_threads = w->n_threads ? w->n_threads : thread_counts[task % 3];
+  for (int step = 0; step < 2; ++step)
+    wrong = wrong || riis_mark_nodes(w->surface, w->mesh, &options, result) || !same_results(result, w->expected) ||
+            riis_mark_result_stats(result, &stats, sizeof stats) || stats.search != RIIS_SEARCH_NEIGHBOR ||
+            !stats.complete || stats.n_threads < 1 || stats.n_threads > options.n_threads;
+  w->is_wrong[task] = wrong;
+  riis_mark_result_destroy(&result);
+}
+
+static void expect_same_as_outside(int region) {
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.09, 0.2);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *expected = new_result();
+  riis_mark_options options = mark_options();
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  options.n_threads = 1;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
+  assert_true(marked_in(expected).n > 1000);
+  int most_at_once = 0;
+  for (int count = 0; count < 4; ++count)
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      /* Every time a mesh that none has searched: one of the tasks makes the groups. */
+      riis_mesh_destroy(&mesh);
+      mesh = mesh_from(&nodes);
+      work w = {.surface = surface, .mesh = mesh, .expected = expected};
+      w.n_threads = count < 3 ? thread_counts[count] : 0;
+      for (int task = 0; task < n_tasks; ++task) w.is_wrong[task] = 1; /* until it has run */
+      const tbb_seen seen = tbb_run(region, n_tasks, mark, &w);
+      for (int task = 0; task < n_tasks; ++task)
+        if (w.is_wrong[task]) fail_msg("task %d, n_threads %d: wrong", task, (int)w.n_threads);
+      assert_int_equal(seen.n_changed, 0);
+      if (seen.most_at_once > most_at_once) most_at_once = seen.most_at_once;
+    }
+  printf("at most %d tasks at once\n", most_at_once);
+  if (region == TBB_ARENA_OF_FOUR) assert_true(most_at_once >= 2);
+  if (region == TBB_ARENA_OF_ONE || region == TBB_LIMIT_OF_ONE) assert_int_equal(most_at_once, 1);
+  riis_mark_result_destroy(&expected);
+  riis_mesh_destroy(&mesh);
+  free_test_mesh(&nodes);
+  riis_surface_destroy(&surface);
+}
+
+static void in_the_callers_loop(void **state) {
+  (void)state;
+  expect_same_as_outside(TBB_OWN_ARENA);
+}
+
+static void in_the_callers_arena_of_four(void **state) {
+  (void)state;
+  expect_same_as_outside(TBB_ARENA_OF_FOUR);
+}
+
+static void in_the_callers_arena_of_one(void **state) {
+  (void)state;
+  expect_same_as_outside(TBB_ARENA_OF_ONE);
+}
+
+static void under_the_callers_limit_of_one(void **state) {
+  (void)state;
+  expect_same_as_outside(TBB_LIMIT_OF_ONE);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(in_the_callers_loop),
+      cmocka_unit_test(in_the_callers_arena_of_four),
+      cmocka_unit_test(in_the_callers_arena_of_one),
+      cmocka_unit_test(under_the_callers_limit_of_one),
+  };
+  /* Nothing prints: TBB announces on stderr what it is asked for in vain. */
+  FILE *captured = tmpfile();
+  const int terminal = dup(STDERR_FILENO);
+  if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;
+  int n_failed = cmocka_run_group_tests(tests, NULL, NULL);
+  if (n_failed == 0 && fseek(captured, 0, SEEK_END) == 0 && ftell(captured) > 0) n_failed = 1;
+  char line[256];
+  dup2(terminal, STDERR_FILENO);
+  for (rewind(captured); fgets(line, sizeof line, captured);) fputs(line, stderr);
+  fclose(captured);
+  return n_failed;
+}
