@@ -370,6 +370,48 @@ static void nodes_at_the_limit_are_found(void **state) {
   }
 }
 
+/* Triangles nearly without a height, nodes as close to them as that, the limit where the first node is: what a needle's rounding does
+ * to the kernel's distances must not lose a node either. */
+static void needles_lose_no_node(void **state) {
+  (void)state;
+  static const int32_t ids[3] = {0, 1, 2};
+  int n_surfaces = 0;
+  for (int trial = 0; trial < 6000; ++trial) {
+    const double height = pow(10, random_between(&rng, -11.5, -7));
+    double along[3], across[3], corners[9], xyz[6];
+    for (int c = 0; c < 3; ++c) along[c] = random_between(&rng, -1, 1), across[c] = random_between(&rng, -1, 1);
+    const double top = random_between(&rng, 0.1, 0.9);
+    for (int c = 0; c < 3; ++c) {
+      corners[c] = random_between(&rng, -0.01, 0.01);
+      corners[3 + c] = corners[c] + along[c];
+      corners[6 + c] = corners[c] + top * along[c] + height * across[c];
+    }
+    const double u = random_between(&rng, 0.1, 0.9),
+                 w = fmin(u / top, (1 - u) / (1 - top)) * random_between(&rng, 0, 1);
+    for (int i = 0; i < 2; ++i)
+      for (int c = 0; c < 3; ++c)
+        xyz[3 * i + c] = corners[c] + u * along[c] + height * (w * across[c] + random_between(&rng, -0.1, 0.1));
+    riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
+    riis_surface_options options = surface_options();
+    riis_surface *surface = NULL;
+    if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue; /* too thin to be one */
+    options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);
+    CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, &options));
+    test_mesh nodes = {.n = 2, .xyz = xyz};
+    set_rows(&nodes, 0, NULL);
+    riis_mesh *mesh = mesh_from(&nodes);
+    riis_mark_options marking = mark_options();
+    marking.n_threads = 1;
+    assert_true(check_same_as_exhaustive(surface, mesh, marking, NULL).n_marked >= 1);
+    ++n_surfaces;
+    riis_mesh_destroy(&mesh);
+    riis_surface_destroy(&surface);
+    free(nodes.offsets);
+    free(nodes.columns);
+  }
+  assert_true(n_surfaces > 3000);
+}
+
 /* --- Masks, limits --------------------------------------------------------------------------------------------------- */
 
 static void masked_nodes_are_left_out(void **state) {
@@ -718,6 +760,36 @@ static void non_finite_coordinates_are_refused(void **state) {
   riis_surface_destroy(&surface);
 }
 
+/* Nodes that moved in place are where they moved to, even if the handle was told with coordinates that it refused. */
+static void a_refused_update_forgets_where_nodes_were(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.13, 0.15);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i] += 50;
+  CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  assert_int_equal(stats_of(result).n_marked, 0);
+  for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i] -= 50;
+  const double good = nodes.xyz[3];
+  nodes.xyz[3] = NAN;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "x of node 1 is nan",
+                riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "x of node 1 is nan", riis_mark_nodes(surface, mesh, &options, result));
+  nodes.xyz[3] = good;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+  assert_true(stats_of(expected).n_marked > 0 && same_results(result, expected));
+  riis_mark_result_destroy(&expected);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  free_test_mesh(&nodes);
+  riis_surface_destroy(&surface);
+}
+
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
 static void any_number_of_threads_gives_the_same_bits(void **state) {
@@ -1017,6 +1089,7 @@ int main(void) {
       cmocka_unit_test(mesh_of_one_node),
       cmocka_unit_test(degenerate_meshes),
       cmocka_unit_test(nodes_at_the_limit_are_found),
+      cmocka_unit_test(needles_lose_no_node),
       cmocka_unit_test(masked_nodes_are_left_out),
       cmocka_unit_test(mask_that_cuts_the_band),
       cmocka_unit_test(limits_wider_than_the_half_thickness),
@@ -1028,6 +1101,7 @@ int main(void) {
       cmocka_unit_test(many_steps),
       cmocka_unit_test(nodes_move),
       cmocka_unit_test(non_finite_coordinates_are_refused),
+      cmocka_unit_test(a_refused_update_forgets_where_nodes_were),
       cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
       cmocka_unit_test(several_caller_threads_at_once),
       cmocka_unit_test(inside_the_callers_openmp),

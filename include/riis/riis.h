@@ -389,7 +389,9 @@ typedef struct riis_mesh riis_mesh;
  * Errors: RIIS_INVALID_MESH naming the node and the value. A process without nodes has nothing to mark: do not call. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
                                       riis_mesh **mesh);
-/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Same arguments. */
+/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Same arguments. To be called
+ * after any change of coordinates: the neighbour search knows where groups of nodes are, and without it seeks them where they
+ * were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also groups them anew. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride);
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
@@ -488,8 +490,8 @@ enum {
                                  then every node that was not reached is proven far, by its group, or asked. So it is complete
                                  whatever the adjacency, the mask, and the pieces that the band falls into. The mesh must have an
                                  adjacency. The first search of a mesh makes the groups */
-  RIIS_SEARCH_PAPER = 3       /* the paper's algorithm to the letter, for comparison: one start, the node nearest to the surface's
-                                 first vertex; only marked nodes pass it on. Misses what is not connected to that, and never says
+  RIIS_SEARCH_PAPER = 3       /* the paper's algorithm to the letter, for comparison: one start, the node nearest to the first
+                                 triangle's first vertex; only marked nodes pass it on. Misses what is not connected to that, and never says
                                  complete. The mesh must have an adjacency */
 };
 
@@ -546,8 +548,9 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* closest-point queries that were made, of nodes and, by the neighbour search, of groups of nodes */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* threads that really ran */
-  int32_t complete;     /* 1: every node within the limit was found, which is certain; 0: it is not (RIIS_SEARCH_PAPER) */
+  int32_t n_threads;    /* threads that really ran, the most in any part of the search. A caller's TBB limit binds walks, not loops */
+  int32_t complete;     /* 1: every node within the limit was found, which is certain, for the coordinates that the mesh was last
+                           told of; 0: it is not certain (RIIS_SEARCH_PAPER) */
   int32_t reserved;
   int64_t n_unreached;  /* nodes within the limit that the neighbour search did not reach from neighbour to neighbour, and that
                            its proof found */

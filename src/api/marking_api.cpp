@@ -64,7 +64,11 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
 
 riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                              int64_t stride) {
-  return guarded([&] { require_handle(mesh, "mesh")->mesh.set_nodes(checked_nodes({n_nodes, x, y, z, stride})); });
+  return guarded([&] {
+    riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
+    content.forget_places();  // they moved, whether or not what they moved to is accepted
+    content.set_nodes(checked_nodes({n_nodes, x, y, z, stride}));
+  });
 }
 
 void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }

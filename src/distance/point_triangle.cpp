@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "distance/point_triangle.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "surface/triangle_set.hpp"
@@ -48,10 +49,15 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   const double inverse_nn = 1.0 / dot(n, n);
   Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
   if (inside(w)) {
-    // The weights of a needle carry an error of rounding over its sine; projecting what is left removes most of it.
-    const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
-    const Weights refined{w.b + rest.b, w.c + rest.c};
-    if (inside(refined)) w = refined;
+    // The weights of a needle carry an error of rounding over its sine; projecting what is left takes it down by that factor each
+    // time. Others are done after the first.
+    for (int repeat = 0; repeat < 6; ++repeat) {
+      const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
+      const Weights refined{w.b + rest.b, w.c + rest.c};
+      if (!inside(refined)) break;
+      w = refined;
+      if (std::abs(rest.b) + std::abs(rest.c) <= 0x1p-50) break;
+    }
     offer(a + (w.b * ab + w.c * ac), 1 - (w.b + w.c), w.b, w.c);
   }
   return best;

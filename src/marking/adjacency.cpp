@@ -202,8 +202,8 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
          static_cast<Long>(n_nodes));
   const std::int64_t n_all = csr.n_all == 0 ? csr.n_rows : csr.n_all;
   if (n_all < csr.n_rows || n_all > max_count)
-    fail(RIIS_INVALID_ARGUMENT, "csr.n_all is %lld; it must be at least n_rows, which is %lld",
-         static_cast<Long>(csr.n_all), static_cast<Long>(csr.n_rows));
+    fail(RIIS_INVALID_ARGUMENT, "csr.n_all is %lld; it must be at least n_rows, which is %lld, and at most %lld",
+         static_cast<Long>(csr.n_all), static_cast<Long>(csr.n_rows), static_cast<Long>(max_count));
   check_bits("csr.offset_bits", csr.offset_bits);
   check_bits("csr.column_bits", csr.column_bits);
   check_base("csr.index_base", csr.index_base);

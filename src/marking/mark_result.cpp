@@ -5,7 +5,10 @@
 
 namespace riis {
 
+// By half more than needed, so that a valve that moves does not want more memory with every new largest number.
 void NodeList::reserve(std::size_t n) {
+  if (n <= node_id.capacity() && n <= leaflet_id.capacity()) return;
+  n += n / 2;
   node_id.reserve(n);
   distance.reserve(n);
   triangle_id.reserve(n);
@@ -29,7 +32,13 @@ void NodeList::set(std::size_t i, std::int64_t node, double node_distance, std::
 
 void Collection::prepare(int n_threads) {
   if (by_thread.size() < static_cast<std::size_t>(n_threads)) by_thread.resize(static_cast<std::size_t>(n_threads));
-  for (auto &found : by_thread) found.clear();
+  // Which thread finds how much differs from step to step: each gets room for what any had.
+  std::size_t largest = 0;
+  for (const auto &found : by_thread) largest = std::max(largest, found.capacity());
+  for (auto &found : by_thread) {
+    found.clear();
+    found.reserve(largest);
+  }
 }
 
 void Collection::sort(std::int64_t n_nodes) {
@@ -67,7 +76,13 @@ void Collection::Walked::prepare(std::int64_t n_nodes, int n_threads) {
   ++walk_;
   queue.resize(n);
   if (threads.size() < n_slots) threads.resize(n_slots);
-  for (Thread &thread : threads) thread.clear();
+  std::size_t largest = 0;
+  for (const Thread &thread : threads) largest = std::max(largest, thread.near_groups.capacity());
+  for (Thread &thread : threads) {
+    thread.clear();
+    thread.next.reserve(static_cast<std::size_t>(nodes_per_range));
+    thread.near_groups.reserve(largest);
+  }
 }
 
 }  // namespace riis

@@ -69,6 +69,9 @@ struct Collection {
     std::vector<Range> ranges;
     std::vector<NearGroup> near_groups;
 
+    // Nodes that a thread hands on together.
+    static constexpr std::int64_t nodes_per_range = 128;
+
     void prepare(std::int64_t n_nodes, int n_threads);
     // True for the first thread that asks, for each node.
     bool claim(std::int64_t node) {

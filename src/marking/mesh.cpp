@@ -9,7 +9,7 @@ void Mesh::set_nodes(const StridedPoints &nodes) {
     groups_.order.clear();
   }
   nodes_ = nodes;
-  has_groups_.store(false, std::memory_order_relaxed);
+  forget_places();
 }
 
 const NodeGroups &Mesh::groups(int n_threads) const {

@@ -21,6 +21,9 @@ class Mesh {
   const StridedPoints &nodes() const { return nodes_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
+  // What is known of where the nodes are no longer holds.
+  void forget_places() { has_groups_.store(false, std::memory_order_relaxed); }
+
   // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
   void set_nodes(const StridedPoints &nodes);
   void set_adjacency(const std::optional<Adjacency> &adjacency) { adjacency_ = adjacency; }

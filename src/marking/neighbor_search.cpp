@@ -12,8 +12,7 @@
 namespace riis {
 namespace {
 
-// Nodes that a thread hands on together.
-constexpr std::int64_t nodes_per_range = 128;
+constexpr std::int64_t nodes_per_range = Collection::Walked::nodes_per_range;
 
 class NeighborSearch {
  public:
