@@ -650,8 +650,9 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_grid
 
-    !   csr          ready for riis_mesh_set_adjacency. Its offsets are integer(c_int64_t), (n_rows + 1), from 0; its
-    !                columns integer(c_int32_t), or (c_int64_t) where column_bits is 64, (offsets(n_rows + 1)), from 0
+    !   csr          ready for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets are
+    !                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
+    !                column_bits is 64, (offsets(n_rows + 1)), from 0
     !   struct_size  c_sizeof(csr)
     function riis_adjacency_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_csr')
       import :: c_int64_t, c_ptr, riis_csr, riis_status

@@ -50,21 +50,6 @@ static riis_surface *mitral_surface(double opening, double tolerance) {
   return surface;
 }
 
-typedef struct {
-  int64_t n_vertices, n_triangles;
-  const double *xyz, *uv;
-  const int64_t *vertex_id;
-  const int32_t *leaflet_id, *patch_id;
-} content;
-
-static content content_of(const riis_surface *surface) {
-  content c;
-  CHECK_OK(riis_surface_vertices(surface, &c.n_vertices, &c.xyz));
-  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &c.uv));
-  CHECK_OK(riis_surface_triangles(surface, &c.n_triangles, &c.vertex_id, NULL, &c.leaflet_id, &c.patch_id));
-  return c;
-}
-
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
 static void parameters_are_the_papers(void **state) {
@@ -113,7 +98,7 @@ static void every_parameter_matters(void **state) {
 }
 
 /* Length of all edges with v = 0. */
-static double annulus_length(const content *c) {
+static double annulus_length(const surface_content *c) {
   double sum = 0;
   for (int64_t t = 0; t < c->n_triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -132,7 +117,7 @@ static void numbers_of_the_model(void **state) {
   for (int i = 0; i < 2; ++i) {
     riis_surface *surface = mitral_surface(expected[i].opening, 5e-4);
     const riis_surface_info info = info_of(surface);
-    const content c = content_of(surface);
+    const surface_content c = surface_content_of(surface);
     CHECK_NEAR(info.area, expected[i].area, 1e-3);
     CHECK_NEAR(info.area, expected[i].area_to_6_digits, 2.5e-4);
     CHECK_NEAR(annulus_length(&c), expected[i].annulus, 5e-3);
@@ -166,7 +151,7 @@ static void is_symmetric(void **state) {
   (void)state;
   for (int i = 0; i <= 2; ++i) {
     riis_surface *surface = mitral_surface(0.5 * i, 0.02);
-    const content c = content_of(surface);
+    const surface_content c = surface_content_of(surface);
     for (int64_t k = 0; k < c.n_vertices; ++k)
       CHECK_AT_MOST(closest_to(surface, -c.xyz[3 * k], c.xyz[3 * k + 1], c.xyz[3 * k + 2]).distance, 1e-12);
     riis_surface_destroy(&surface);
@@ -178,7 +163,7 @@ static void leaflets_and_patches(void **state) {
   static const int32_t mirrored[10] = {5, 4, 3, 2, 1, 0, 9, 8, 7, 6};
   for (int i = 0; i <= 2; ++i) {
     riis_surface *surface = mitral_surface(0.5 * i, 0.05);
-    const content c = content_of(surface);
+    const surface_content c = surface_content_of(surface);
     int64_t n_of_patch[10] = {0};
     for (int64_t t = 0; t < c.n_triangles; ++t) {
       const int32_t patch = c.patch_id[t];
@@ -217,7 +202,7 @@ static void has_no_cracks(void **state) {
   for (int i = 0; i <= 2; ++i) {
     const double opening = 0.5 * i;
     riis_surface *surface = mitral_surface(opening, 0.1);
-    const content c = content_of(surface);
+    const surface_content c = surface_content_of(surface);
     int n_rim = 0, n_inside = 0;
     for (int64_t t = 0; t < c.n_triangles; ++t)
       for (int k = 0; k < 3; ++k) {
@@ -262,7 +247,7 @@ static void has_no_cracks(void **state) {
 static void closed_leaflets_share_their_edge(void **state) {
   (void)state;
   riis_surface *surface = mitral_surface(0, 0.05);
-  const content c = content_of(surface);
+  const surface_content c = surface_content_of(surface);
   int n_shared = 0, n_of_edge = 0;
   for (int64_t t = 0; t < c.n_triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -296,7 +281,7 @@ static void has_no_slivers(void **state) {
     options.tolerance = pow(10, random_between(&rng, -2, -0.5));
     riis_surface *surface = NULL;
     CHECK_OK(riis_surface_create(valve, &options, &surface));
-    const content c = content_of(surface);
+    const surface_content c = surface_content_of(surface);
     for (int64_t t = 0; t < c.n_triangles; ++t) {
       double edge[3];
       for (int k = 0; k < 3; ++k)
@@ -336,7 +321,7 @@ static void opens_continuously(void **state) {
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
   for (int i = 0; i < 2; ++i) {
     riis_surface *at_end = mitral_surface(ends[i], 0.05), *beside = mitral_surface(near[i], 0.05);
-    const content a = content_of(at_end), b = content_of(beside);
+    const surface_content a = surface_content_of(at_end), b = surface_content_of(beside);
     assert_int_equal(a.n_vertices, b.n_vertices);
     double largest = 0;
     for (int64_t k = 0; k < a.n_vertices; ++k) largest = fmax(largest, distance(a.xyz + 3 * k, b.xyz + 3 * k));
@@ -357,7 +342,7 @@ static void an_update_moves_the_valve(void **state) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 10.0));
     CHECK_OK(riis_surface_update(moving, valve, NULL));
     riis_surface *fresh = mitral_surface(i / 10.0, 0.05);
-    const content a = content_of(moving), b = content_of(fresh);
+    const surface_content a = surface_content_of(moving), b = surface_content_of(fresh);
     assert_int_equal(a.n_vertices, b.n_vertices);
     assert_int_equal(a.n_triangles, b.n_triangles);
     assert_memory_equal(a.xyz, b.xyz, (size_t)a.n_vertices * 3 * sizeof *a.xyz);

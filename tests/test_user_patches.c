@@ -79,24 +79,8 @@ static shape unit_square(void) {
   return square;
 }
 
-/* What a surface shows of itself, to be compared bit by bit. */
-typedef struct {
-  int64_t n_vertices, n_triangles;
-  const double *xyz, *uv;
-  const int64_t *vertex_id;
-  const int32_t *leaflet_id, *patch_id;
-} listed;
-
-static listed list(const riis_surface *surface) {
-  listed all;
-  CHECK_OK(riis_surface_vertices(surface, &all.n_vertices, &all.xyz));
-  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &all.uv));
-  CHECK_OK(riis_surface_triangles(surface, &all.n_triangles, &all.vertex_id, NULL, &all.leaflet_id, &all.patch_id));
-  return all;
-}
-
 static int is_same(const riis_surface *a, const riis_surface *b) {
-  const listed s = list(a), t = list(b);
+  const surface_content s = surface_content_of(a), t = surface_content_of(b);
   return s.n_vertices == t.n_vertices && s.n_triangles == t.n_triangles &&
          memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 &&
          memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0 &&
@@ -404,7 +388,7 @@ static void square_has_its_area_and_normal(void **state) {
   CHECK_NEAR(above.normal[2], 1, 1e-15);
   assert_int_equal(above.side, 1);
   assert_int_equal(above.leaflet_id, 5);
-  const listed all = list(surface);
+  const surface_content all = surface_content_of(surface);
   for (int64_t i = 0; i < all.n_vertices; ++i) /* u is x and v is y */
     for (int c = 0; c < 2; ++c) CHECK_SAME(all.uv[2 * i + c], all.xyz[3 * i + c]);
   riis_surface_destroy(&surface);
@@ -530,7 +514,7 @@ static riis_surface *dense_surface(const shape *from) {
 
 /* The largest distance to a surface from the vertices and the middles of the other one's triangles. */
 static double largest_distance(const riis_surface *to, const riis_surface *from) {
-  const listed all = list(from);
+  const surface_content all = surface_content_of(from);
   double largest = 0;
   for (int64_t i = 0; i < all.n_triangles; ++i) {
     const double *a = all.xyz + 3 * all.vertex_id[3 * i], *b = all.xyz + 3 * all.vertex_id[3 * i + 1],
@@ -630,7 +614,7 @@ static int by_v(const void *a, const void *b) {
   return (v > w) - (v < w);
 }
 
-static int boundary(const listed *all, int32_t patch, boundary_vertex *out, int most) {
+static int boundary(const surface_content *all, int32_t patch, boundary_vertex *out, int most) {
   int n = 0, n_kept = 0;
   for (int64_t i = 0; i < 3 * all->n_triangles; ++i) {
     const int64_t id = all->vertex_id[i];
@@ -704,9 +688,9 @@ static void shared_curves_leave_no_cracks(void **state) {
     riis_surface_options options = surface_options();
     options.tolerance = 0.01;
     riis_surface *surface = surface_of(&pair, &options), *alone = surface_of(&strip, &options);
-    listed all = list(surface);
+    surface_content all = surface_content_of(surface);
     const int n_a = boundary(&all, 0, a, most), n_b = boundary(&all, 1, b, most);
-    all = list(alone);
+    all = surface_content_of(alone);
     const int n_of_curve = boundary(&all, 0, of_curve, most);
     assert_true(n_of_curve > 10);
     if (is_plane) assert_true(n_a == n_of_curve && n_b == n_of_curve);
@@ -744,7 +728,7 @@ static void collapsed_sides_leave_no_triangles_without_area(void **state) {
     add_patch(&from, 0, 1, 2, 3);
     riis_surface *surface = surface_of(&from, NULL);
     const riis_surface_info info = info_of(surface);
-    const listed all = list(surface);
+    const surface_content all = surface_content_of(surface);
     assert_true(info.n_triangles > 0 && info.n_zero_area > 0);
     if (area[which] > 0) CHECK_NEAR(info.area, area[which], 1e-14);
     for (int64_t i = 0; i < all.n_triangles; ++i) {

@@ -120,9 +120,8 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     // Here, so that memory that runs out leaves the arrays alone.
     if (to.side) content.prepare_sides();
     constexpr std::int64_t points_per_block = 512;
-    riis::parallel_for((n_points + points_per_block - 1) / points_per_block, n_threads, [&](std::int64_t block, int) {
-      const std::int64_t begin = block * points_per_block, end = std::min(begin + points_per_block, n_points);
-      for (std::int64_t i = begin; i < end; ++i) {
+    riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
+      for (std::int64_t i = range.begin; i < range.end; ++i) {
         const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
         if (found.triangle < 0)
           write_far(to, i, whole.far_distance);

@@ -113,8 +113,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
     check_precision(options);
     riis::TriangleSet triangles =
         riis::triangulate(valve->valve.make_patches(), max_error, placement, options.flip_normals != 0);
-    if (triangles.n_triangles() == 0)
-      riis::fail(RIIS_INVALID_PARAMETER, "the valve has no area");
+    if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve has no area");
     return triangles;
   });
 }

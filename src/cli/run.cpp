@@ -162,9 +162,9 @@ void explain_no_marks(const riis_surface_info &surface, const riis_vtk_mesh *fil
 }
 
 void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
+  Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrow_nodes(options, file, report);
-  const Adjacency adjacency =
-      needs_adjacency(options.mark_options.search) ? give_adjacency(options, file, mesh.get(), report) : nullptr;
+  if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
   riis_mark_result *handle = nullptr;
   check(riis_mark_result_create(&handle));
   const MarkResult result(handle);

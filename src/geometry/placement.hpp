@@ -10,6 +10,8 @@ struct Rotation {
   Vec3 row_x, row_y, row_z;
 };
 
+inline constexpr Rotation no_rotation{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
 inline Vec3 operator*(const Rotation &rotation, Vec3 a) {
   return {dot(rotation.row_x, a), dot(rotation.row_y, a), dot(rotation.row_z, a)};
 }

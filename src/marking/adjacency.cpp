@@ -17,14 +17,6 @@ using Long = long long;
 
 constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max() / 64;
 
-void check_bits(const char *field, std::int32_t bits) {
-  if (bits != 32 && bits != 64) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 32 or 64", field, bits);
-}
-
-void check_base(const char *field, std::int32_t base) {
-  if (base != 0 && base != 1) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 0 or 1", field, base);
-}
-
 void check_count(const char *field, std::int64_t n, std::int64_t least) {
   if (n < least || n > max_count)
     fail(RIIS_INVALID_ARGUMENT, "%s is %lld; it must be from %lld to %lld", field, static_cast<Long>(n),
@@ -32,14 +24,6 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
 }
 
 constexpr std::int64_t rows_per_block = 4096;
-std::int64_t n_blocks_of(std::int64_t n) { return (n + rows_per_block - 1) / rows_per_block; }
-
-template <class Visit>
-void for_each_in_block(std::int64_t block, std::int64_t n, const Visit &visit) {
-  const std::int64_t end = std::min((block + 1) * rows_per_block, n);
-  for (std::int64_t i = block * rows_per_block; i < end; ++i) visit(i);
-}
-
 // Rows from a function that appends the neighbours of a node, in any order and repeatedly. It is asked twice, for the lengths and for
 // the columns: no list of all pairs is ever held.
 template <class Append>
@@ -52,12 +36,12 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
     std::sort(neighbors.begin(), neighbors.end());
     neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
   };
-  parallel_for(n_blocks_of(n_nodes), n_threads, [&](std::int64_t block, int) {
+  parallel_for_ranges(n_nodes, rows_per_block, n_threads, [&](const Range &range, int) {
     std::vector<std::int64_t> neighbors;
-    for_each_in_block(block, n_nodes, [&](std::int64_t i) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
       neighbors_of(i, neighbors);
       made.offsets[static_cast<std::size_t>(i) + 1] = static_cast<std::int64_t>(neighbors.size());
-    });
+    }
   });
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_nodes); ++i) made.offsets[i + 1] += made.offsets[i];
   const auto n_columns = static_cast<std::size_t>(made.offsets.back());
@@ -66,9 +50,9 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
     made.columns_32.resize(n_columns);
   else
     made.columns_64.resize(n_columns);
-  parallel_for(n_blocks_of(n_nodes), n_threads, [&](std::int64_t block, int) {
+  parallel_for_ranges(n_nodes, rows_per_block, n_threads, [&](const Range &range, int) {
     std::vector<std::int64_t> neighbors;
-    for_each_in_block(block, n_nodes, [&](std::int64_t i) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
       neighbors_of(i, neighbors);
       auto at = static_cast<std::size_t>(made.offsets[static_cast<std::size_t>(i)]);
       for (const std::int64_t j : neighbors) {
@@ -77,7 +61,7 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
         else
           made.columns_64[at++] = j;
       }
-    });
+    }
   });
   return made;
 }
@@ -93,12 +77,12 @@ ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_th
   const auto n = static_cast<std::size_t>(n_nodes);
   const auto next = std::make_unique<std::atomic<std::int64_t>[]>(n + 1);
   for (std::size_t i = 0; i <= n; ++i) next[i].store(0, std::memory_order_relaxed);
-  parallel_for(n_blocks_of(n_items), n_threads, [&](std::int64_t block, int) {
-    for_each_in_block(block, n_items, [&](std::int64_t item) {
+  parallel_for_ranges(n_items, rows_per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t item = range.begin; item < range.end; ++item) {
       nodes_of(item, [&](std::int64_t node) {
         next[static_cast<std::size_t>(node)].fetch_add(1, std::memory_order_relaxed);
       });
-    });
+    }
   });
   ItemsOfNodes made;
   made.offsets.resize(n + 1);
@@ -107,13 +91,13 @@ ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_th
     next[i].store(made.offsets[i], std::memory_order_relaxed);
   }
   made.items.resize(static_cast<std::size_t>(made.offsets[n]));
-  parallel_for(n_blocks_of(n_items), n_threads, [&](std::int64_t block, int) {
-    for_each_in_block(block, n_items, [&](std::int64_t item) {
+  parallel_for_ranges(n_items, rows_per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t item = range.begin; item < range.end; ++item) {
       nodes_of(item, [&](std::int64_t node) {
         const std::int64_t at = next[static_cast<std::size_t>(node)].fetch_add(1, std::memory_order_relaxed);
         made.items[static_cast<std::size_t>(at)] = item;
       });
-    });
+    }
   });
   return made;
 }
@@ -207,7 +191,7 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
   check_bits("csr.offset_bits", csr.offset_bits);
   check_bits("csr.column_bits", csr.column_bits);
   check_base("csr.index_base", csr.index_base);
-  if (csr.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "csr.reserved is %d; it must be 0", csr.reserved);
+  check_reserved("csr.reserved", csr.reserved);
   const Adjacency made{csr.n_rows,
                        {require(csr.offsets, "csr.offsets"), csr.offset_bits == 64},
                        {csr.columns, csr.column_bits == 64},
@@ -274,7 +258,7 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
   check_base("faces.index_base", faces.index_base);
   if (faces.stride < 1 || faces.stride > 1024)
     fail(RIIS_INVALID_ARGUMENT, "faces.stride is %lld; it must be from 1 to 1024", static_cast<Long>(faces.stride));
-  if (faces.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "faces.reserved is %d; it must be 0", faces.reserved);
+  check_reserved("faces.reserved", faces.reserved);
   if (faces.n_faces > 0) {
     require(faces.owner, "faces.owner");
     require(faces.neighbor, "faces.neighbor");

@@ -8,17 +8,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "api/integer_array.hpp"
+
 namespace riis {
-
-// Integers of the caller's, 32 or 64 bits wide.
-struct IntegerArray {
-  const void *data = nullptr;
-  bool is_64_bits = false;
-
-  std::int64_t operator[](std::int64_t i) const {
-    return is_64_bits ? static_cast<const std::int64_t *>(data)[i] : static_cast<const std::int32_t *>(data)[i];
-  }
-};
 
 struct Adjacency {
   std::int64_t n_rows = 0;

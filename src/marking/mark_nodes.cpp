@@ -61,7 +61,7 @@ SearchReport run(const SearchRequest &request, std::int32_t search, MarkResult &
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
       // The last marking is where a moving valve is again, nearly; if it was of another mesh, its nodes are as good as any.
-      const bool fits = result.has_content && result.stats.n_nodes == request.mesh.nodes().n;
+      const bool fits = result.stats.n_nodes == request.mesh.nodes().n;
       return search_neighbors(request, fits ? result.within.node_id : nowhere, result.collection);
     }
     case RIIS_SEARCH_PAPER:
@@ -84,7 +84,6 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult
   result.distance_limit = request.distance_limit;
   result.n_threads = request.n_threads;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  result.has_content = true;
   result.stats = {request.mesh.nodes().n,
                   static_cast<std::int64_t>(result.marked_nodes().size()),
                   static_cast<std::int64_t>(result.within.size()),
@@ -101,8 +100,8 @@ void write_dense(const MarkResult &result, double far_distance, std::uint8_t *ma
                  std::int64_t *triangle_id, std::int32_t *leaflet_id) {
   constexpr std::int64_t nodes_per_block = 65536;
   const std::int64_t n_nodes = result.stats.n_nodes;
-  parallel_for((n_nodes + nodes_per_block - 1) / nodes_per_block, result.n_threads, [&](std::int64_t block, int) {
-    const std::int64_t begin = block * nodes_per_block, end = std::min(begin + nodes_per_block, n_nodes);
+  parallel_for_ranges(n_nodes, nodes_per_block, result.n_threads, [&](const Range &range, int) {
+    const auto [begin, end] = range;
     if (mark) std::fill(mark + begin, mark + end, std::uint8_t{0});
     if (distance) std::fill(distance + begin, distance + end, far_distance);
     if (triangle_id) std::fill(triangle_id + begin, triangle_id + end, std::int64_t{-1});

@@ -103,7 +103,6 @@ struct MarkResult {
   bool limit_is_wider = false;
   double distance_limit = 0;
   int n_threads = 1;  // as asked for
-  bool has_content = false;
   riis_mark_stats stats{};
   Collection collection;
 

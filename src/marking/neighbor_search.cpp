@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-constexpr std::int64_t nodes_per_range = Collection::Walked::nodes_per_range;
+constexpr std::int64_t nodes_per_range = Collection::Walked::nodes_per_range, groups_per_block = 16;
 
 class NeighborSearch {
  public:
@@ -70,27 +70,25 @@ class NeighborSearch {
     std::vector<Collection::NearGroup> &near = walked_.near_groups;
     near.clear();
     const auto n = static_cast<std::int64_t>(groups.supergroups.size());
-    constexpr std::int64_t per_block = 16;
-    const int n_ran =
-        parallel_for((n + per_block - 1) / per_block, request_.n_threads, [&](std::int64_t block, int thread) {
-          Collection::Walked::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
-          const auto is_near = [&](const Ball &ball, double &distance) {
-            const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
-            if (!scene_.may_be_within(ball.centre, within)) return false;
-            ++own.n_queries;
-            const ClosestTriangle closest = scene_.closest(ball.centre, within);
-            distance = std::sqrt(closest.distance_sq);
-            return closest.triangle >= 0;
-          };
-          for (std::int64_t s = block * per_block; s < std::min((block + 1) * per_block, n); ++s) {
-            double distance;
-            if (!is_near(groups.supergroups[static_cast<std::size_t>(s)], distance)) continue;
-            const Range range = groups.groups_of(s);
-            for (std::int64_t group = range.begin; group < range.end; ++group)
-              if (is_near(groups.groups[static_cast<std::size_t>(group)], distance))
-                own.near_groups.push_back({group, distance});
-          }
-        });
+    const int n_ran = parallel_for_ranges(n, groups_per_block, request_.n_threads, [&](const Range &block, int thread) {
+      Collection::Walked::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
+      const auto is_near = [&](const Ball &ball, double &distance) {
+        const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
+        if (!scene_.may_be_within(ball.centre, within)) return false;
+        ++own.n_queries;
+        const ClosestTriangle closest = scene_.closest(ball.centre, within);
+        distance = std::sqrt(closest.distance_sq);
+        return closest.triangle >= 0;
+      };
+      for (std::int64_t s = block.begin; s < block.end; ++s) {
+        double distance;
+        if (!is_near(groups.supergroups[static_cast<std::size_t>(s)], distance)) continue;
+        const Range range = groups.groups_of(s);
+        for (std::int64_t group = range.begin; group < range.end; ++group)
+          if (is_near(groups.groups[static_cast<std::size_t>(group)], distance))
+            own.near_groups.push_back({group, distance});
+      }
+    });
     n_threads_ = std::max(n_threads_, n_ran);
     for (const auto &own : walked_.threads) near.insert(near.end(), own.near_groups.begin(), own.near_groups.end());
     // In an order that does not depend on the threads.
@@ -113,23 +111,21 @@ class NeighborSearch {
   // Every node that was not walked to is proven far, by the distance of its group's centre, or asked.
   void prove(const NodeGroups &groups) {
     const auto n = static_cast<std::int64_t>(walked_.near_groups.size());
-    constexpr std::int64_t per_block = 16;
-    const int n_ran =
-        parallel_for((n + per_block - 1) / per_block, request_.n_threads, [&](std::int64_t block, int thread) {
-          const std::size_t n_before = collection_.by_thread[static_cast<std::size_t>(thread)].size();
-          for (std::int64_t g = block * per_block; g < std::min((block + 1) * per_block, n); ++g) {
-            const Collection::NearGroup &near = walked_.near_groups[static_cast<std::size_t>(g)];
-            const Range range = groups.nodes_of(near.group);
-            for (std::int64_t k = range.begin; k < range.end; ++k) {
-              const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
-              if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(groups, near, node)) continue;
-              ask(node, thread);
-            }
-          }
-          n_unreached_.fetch_add(
-              static_cast<std::int64_t>(collection_.by_thread[static_cast<std::size_t>(thread)].size() - n_before),
-              std::memory_order_relaxed);
-        });
+    const int n_ran = parallel_for_ranges(n, groups_per_block, request_.n_threads, [&](const Range &block, int thread) {
+      const std::size_t n_before = collection_.by_thread[static_cast<std::size_t>(thread)].size();
+      for (std::int64_t g = block.begin; g < block.end; ++g) {
+        const Collection::NearGroup &near = walked_.near_groups[static_cast<std::size_t>(g)];
+        const Range range = groups.nodes_of(near.group);
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
+          if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(groups, near, node)) continue;
+          ask(node, thread);
+        }
+      }
+      n_unreached_.fetch_add(
+          static_cast<std::int64_t>(collection_.by_thread[static_cast<std::size_t>(thread)].size() - n_before),
+          std::memory_order_relaxed);
+    });
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
@@ -143,8 +139,7 @@ class NeighborSearch {
  private:
   // Asks for the distance of a node; true, and the node is found, if it is within the limit.
   bool ask(std::int64_t node, int thread) {
-    const Vec3 p = nodes_[node];
-    if (!is_usable(p)) check_points(nodes_, "node", RIIS_INVALID_MESH);
+    const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!scene_.may_be_within(p, limit_)) return false;
     ++walked_.threads[static_cast<std::size_t>(thread)].n_queries;
     const ClosestTriangle closest = scene_.closest(p, limit_);

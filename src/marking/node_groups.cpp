@@ -14,9 +14,8 @@ constexpr std::int64_t per_block = 4096;
 
 template <class Visit>
 void for_each(std::int64_t n, int n_threads, const Visit &visit) {
-  parallel_for((n + per_block - 1) / per_block, n_threads, [&](std::int64_t block, int) {
-    const std::int64_t end = std::min((block + 1) * per_block, n);
-    for (std::int64_t i = block * per_block; i < end; ++i) visit(i);
+  parallel_for_ranges(n, per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) visit(i);
   });
 }
 
@@ -32,12 +31,7 @@ struct Box {
   Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
 };
 
-// They were checked when they were given, but the caller may have written to them since.
-Vec3 usable(const StridedPoints &nodes, std::int64_t i) {
-  const Vec3 p = nodes[i];
-  if (!is_usable(p)) check_points(nodes, "node", RIIS_INVALID_MESH);
-  return p;
-}
+Vec3 node_at(const StridedPoints &nodes, std::int64_t i) { return checked_point(nodes, i, "node", RIIS_INVALID_MESH); }
 
 // Every third bit of 63, from the 21 bits of x: how Morton's order interleaves three coordinates.
 std::uint64_t spread(std::uint64_t x) {
@@ -70,8 +64,8 @@ Range NodeGroups::groups_of(std::int64_t supergroup) const {
 }
 
 void sort_into_groups(const StridedPoints &nodes, int n_threads, NodeGroups &groups) {
-  Box box(usable(nodes, 0));
-  for (std::int64_t i = 1; i < nodes.n; ++i) box.add(usable(nodes, i));
+  Box box(node_at(nodes, 0));
+  for (std::int64_t i = 1; i < nodes.n; ++i) box.add(node_at(nodes, i));
   const Vec3 extent = 0.5 * box.upper - 0.5 * box.lower;
   const double longest = std::max({extent.x, extent.y, extent.z});
   const auto cell = [&](double x, double lower) {
@@ -98,7 +92,7 @@ void enclose(const StridedPoints &nodes, int n_threads, NodeGroups &groups) {
   };
   groups.groups.resize(n_of(groups.order.size(), NodeGroups::group_size));
   groups.supergroups.resize(n_of(groups.groups.size(), NodeGroups::groups_per_supergroup));
-  const auto node = [&](std::int64_t at) { return usable(nodes, groups.order[static_cast<std::size_t>(at)]); };
+  const auto node = [&](std::int64_t at) { return node_at(nodes, groups.order[static_cast<std::size_t>(at)]); };
   for_each(static_cast<std::int64_t>(groups.groups.size()), n_threads, [&](std::int64_t group) {
     const Range range = groups.nodes_of(group);
     Box box(node(range.begin));

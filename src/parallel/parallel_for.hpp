@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "parallel/float_environment.hpp"
+#include "parallel/range.hpp"
 
 namespace riis {
 
@@ -47,6 +48,15 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   }
   if (first_exception) std::rethrow_exception(first_exception);
   return n_ran;
+}
+
+// The same over [0, n) in ranges of per_block, the last one shorter: body(range, thread).
+template <class Body>
+int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
+  return parallel_for((n + per_block - 1) / per_block, n_threads, [&](std::int64_t block, int thread) {
+    const std::int64_t begin = block * per_block;
+    body(Range{begin, begin + per_block < n ? begin + per_block : n}, thread);
+  });
 }
 
 }  // namespace riis

@@ -40,11 +40,12 @@ class GridMaker {
 
   // All is counted, as it goes on, before anything large is made.
   std::vector<QuadGrid> make() {
+    double n_at_least = 0;
     for (const Patch &patch : set_.patches) {
       sides_.push_back(sides_of(patch));
       lines_.push_back(patch.bulge != 0 ? arc_lines(patch, sides_.back()) : ArcLines{});
-      n_at_least_ += n_triangles(sides_.size() - 1, 1);
-      check_count(n_at_least_, max_error_);
+      n_at_least += n_triangles(sides_.size() - 1, 1);
+      check_count(n_at_least, max_error_);
     }
     // Patches of arcs meet along arcs: all have the same number of rows.
     double offset = 0;
@@ -143,7 +144,6 @@ class GridMaker {
   std::vector<Polyline> polylines_, reversed_;  // made when a patch asks for them
   std::vector<PatchSides> sides_;
   std::vector<ArcLines> lines_;
-  double n_at_least_ = 0;
 };
 
 }  // namespace

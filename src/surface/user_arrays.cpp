@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "api/errors.hpp"
+#include "api/integer_array.hpp"
 #include "api/log.hpp"
 
 namespace riis {
@@ -17,13 +17,11 @@ void check_fields(const riis_surface_arrays &arrays) {
   require(arrays.z, "arrays.z");
   require(arrays.vertex_ids, "arrays.vertex_ids");
   if (arrays.stride < 1) fail(RIIS_INVALID_ARGUMENT, "arrays.stride is %lld; it must be at least 1", ll{arrays.stride});
-  if (arrays.vertex_id_bits != 32 && arrays.vertex_id_bits != 64)
-    fail(RIIS_INVALID_ARGUMENT, "arrays.vertex_id_bits is %d; it must be 32 or 64", arrays.vertex_id_bits);
-  if (arrays.index_base != 0 && arrays.index_base != 1)
-    fail(RIIS_INVALID_ARGUMENT, "arrays.index_base is %d; it must be 0 or 1", arrays.index_base);
+  check_bits("arrays.vertex_id_bits", arrays.vertex_id_bits);
+  check_base("arrays.index_base", arrays.index_base);
   if (arrays.corners_per_face != 3 && arrays.corners_per_face != 4)
     fail(RIIS_INVALID_ARGUMENT, "arrays.corners_per_face is %d; it must be 3 or 4", arrays.corners_per_face);
-  if (arrays.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "arrays.reserved is %d; it must be 0", arrays.reserved);
+  check_reserved("arrays.reserved", arrays.reserved);
   if (arrays.n_vertices < 1)
     fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is %lld; it must be at least 1", ll{arrays.n_vertices});
   if (arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
@@ -39,8 +37,7 @@ void check_fields(const riis_surface_arrays &arrays) {
 }
 
 std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
-  const std::int64_t number = arrays.vertex_id_bits == 32 ? static_cast<const std::int32_t *>(arrays.vertex_ids)[i]
-                                                          : static_cast<const std::int64_t *>(arrays.vertex_ids)[i];
+  const std::int64_t number = IntegerArray{arrays.vertex_ids, arrays.vertex_id_bits == 64}[i];
   const std::int64_t base = arrays.index_base;
   if (number < base || number - base >= arrays.n_vertices)
     fail(RIIS_INVALID_SURFACE,

@@ -161,10 +161,9 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   } else {
     // The leaflets meet in one edge: thirds of its length are the scallops.
     half.cleft = cleft_parameter(half.anterior, half.annulus[0]);
-    const double cleft = half.cleft;
-    const auto [side, rest] = split(half.anterior, cleft);
+    const auto [side, rest] = split(half.anterior, half.cleft);
     half.side_scallop = side;
-    half.middle_scallop = split(rest, (1 - 2 * cleft) / (1 - cleft)).first;
+    half.middle_scallop = split(rest, (1 - 2 * half.cleft) / (1 - half.cleft)).first;
   }
   return half;
 }
@@ -269,13 +268,12 @@ class Patches {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
     const Side base{
         add(annulus_.half().between(2 * to.u, 2 * from.u).reversed().through(from.on_annulus, to.on_annulus))};
-    const Rotation as_it_is{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     set_.patches.push_back({base,
                             edge,
                             from.side,
                             to.side,
-                            {{Mirror::none, as_it_is, shift_, leaflet_id, patch_id},
-                             {Mirror::in_x, as_it_is, shift_, leaflet_id, mirrored_patch_id}},
+                            {{Mirror::none, no_rotation, shift_, leaflet_id, patch_id},
+                             {Mirror::in_x, no_rotation, shift_, leaflet_id, mirrored_patch_id}},
                             -half_.bulge});
     last_arc_ = to;
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "api/errors.hpp"
+#include "api/integer_array.hpp"
 
 namespace riis {
 namespace {
@@ -75,12 +75,11 @@ class PatchReader {
     if (leaflet_id < 0)
       fail(RIIS_INVALID_PARAMETER, "leaflet_id of patch %lld is %d; it must be at least 0",
            static_cast<long long>(patch), leaflet_id);
-    const Rotation as_it_is{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     return {sides[0],
             sides[1],
             sides[2],
             sides[3],
-            {{Mirror::none, as_it_is, {0, 0, 0}, leaflet_id, static_cast<std::int32_t>(patch)}}};
+            {{Mirror::none, no_rotation, {0, 0, 0}, leaflet_id, static_cast<std::int32_t>(patch)}}};
   }
 
  private:
@@ -156,9 +155,8 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
   check_n("n_curves", arrays.n_curves, max_curves);
   check_n("n_patches", arrays.n_patches, max_patches);
   require(arrays.curve_id, "patches.curve_id");
-  if (arrays.index_base != 0 && arrays.index_base != 1)
-    fail(RIIS_INVALID_ARGUMENT, "patches.index_base is %d; it must be 0 or 1", arrays.index_base);
-  if (arrays.reserved != 0) fail(RIIS_INVALID_ARGUMENT, "patches.reserved is %d; it must be 0", arrays.reserved);
+  check_base("patches.index_base", arrays.index_base);
+  check_reserved("patches.reserved", arrays.reserved);
   const std::vector<Bezier> curves = curves_of(arrays);
   PatchSet set{{curves.begin(), curves.end()}, {}};
   const PatchReader reader(arrays, curves);

@@ -89,8 +89,8 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
 void Valve::set_open_state(const Valve &open) {
   if (open.kind_ != kind_)
     fail(RIIS_INVALID_PARAMETER,
-         "the open state is of the kind %s, the valve of the kind %s: a valve opens to one of its own", open.kind_->name,
-         kind_->name);
+         "the open state is of the kind %s, the valve of the kind %s: a valve opens to one of its own",
+         open.kind_->name, kind_->name);
   if (kind_->check_states) kind_->check_states(state_, open.state_);
   open_ = open.state_;
 }
@@ -127,11 +127,6 @@ Bezier blend(const Bezier &closed, const Bezier &open, double opening) {
 
 ParameterSpec opening_spec(const char *description, double default_value) {
   return {"opening", "1", description, 1, {default_value}, 0, 1};
-}
-
-std::size_t position_of(const std::vector<ParameterSpec> &specs, std::string_view name) {
-  const auto found = std::find_if(specs.begin(), specs.end(), [&](const auto &spec) { return spec.name == name; });
-  return static_cast<std::size_t>(found - specs.begin());
 }
 
 void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Measure &measure, double least,

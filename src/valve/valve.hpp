@@ -89,9 +89,6 @@ Bezier blend(const Bezier &closed, const Bezier &open, double opening);
 // The spec of the parameter that every kind has.
 ParameterSpec opening_spec(const char *description, double default_value);
 
-// The position of the parameter of that name.
-std::size_t position_of(const std::vector<ParameterSpec> &specs, std::string_view name);
-
 // Parts of values that are checked against another one, as in "leaflet_height is 30; it must be from 0.05 to 10 times
 // root_radius, which is 1.29".
 struct Measure {

@@ -52,6 +52,22 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
+/* Vertices and triangles of a surface, as it shows them. */
+typedef struct surface_content {
+  int64_t n_vertices, n_triangles;
+  const double *xyz, *uv;
+  const int64_t *vertex_id;
+  const int32_t *leaflet_id, *patch_id;
+} surface_content;
+
+static inline surface_content surface_content_of(const riis_surface *surface) {
+  surface_content all;
+  CHECK_OK(riis_surface_vertices(surface, &all.n_vertices, &all.xyz));
+  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &all.uv));
+  CHECK_OK(riis_surface_triangles(surface, &all.n_triangles, &all.vertex_id, NULL, &all.leaflet_id, &all.patch_id));
+  return all;
+}
+
 static inline riis_closest closest_to(const riis_surface *surface, double x, double y, double z) {
   const double point[3] = {x, y, z};
   riis_closest closest;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Integers of the caller's as they lie, 32 or 64 bits wide, counted from 0 or 1; and the checks of what says so.
+#pragma once
+
+#include <cstdint>
+
+#include "api/errors.hpp"
+
+namespace riis {
+
+struct IntegerArray {
+  const void *data = nullptr;
+  bool is_64_bits = false;
+
+  std::int64_t operator[](std::int64_t i) const {
+    return is_64_bits ? static_cast<const std::int64_t *>(data)[i] : static_cast<const std::int32_t *>(data)[i];
+  }
+};
+
+inline void check_bits(const char *field, std::int32_t bits) {
+  if (bits != 32 && bits != 64) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 32 or 64", field, bits);
+}
+
+inline void check_base(const char *field, std::int32_t base) {
+  if (base != 0 && base != 1) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 0 or 1", field, base);
+}
+
+inline void check_reserved(const char *field, std::int32_t value) {
+  if (value != 0) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 0", field, value);
+}
+
+}  // namespace riis
