@@ -490,9 +490,10 @@ enum {
                                  then every node that was not reached is proven far, by its group, or asked. So it is complete
                                  whatever the adjacency, the mask, and the pieces that the band falls into. The mesh must have an
                                  adjacency. The first search of a mesh makes the groups */
-  RIIS_SEARCH_PAPER = 3       /* the paper's algorithm to the letter, for comparison: one start, the node nearest to the first
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: one start, the node nearest to the first
                                  triangle's first vertex; only marked nodes pass it on. Misses what is not connected to that, and never says
                                  complete. The mesh must have an adjacency */
+  RIIS_SEARCH_CLUSTERS = 4
 };
 
 typedef struct riis_mark_options {

@@ -36,7 +36,7 @@ riis::StridedPoints checked_nodes(const riis::StridedPoints &nodes) {
 }
 
 void check_search(std::int32_t search) {
-  if (search < RIIS_SEARCH_AUTO || search > RIIS_SEARCH_PAPER)
+  if (search < RIIS_SEARCH_AUTO || search > RIIS_SEARCH_CLUSTERS)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", search);
 }
 

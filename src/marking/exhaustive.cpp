@@ -21,14 +21,12 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
   const TriangleScene &scene = request.surface.scene();
   const double limit = request.distance_limit;
 
-  collection.blocks.resize(static_cast<std::size_t>((nodes.n + nodes_per_block - 1) / nodes_per_block));
   collection.prepare(request.n_threads);
   std::atomic<std::int64_t> n_queries{0};
 
   const int n_ran =
       parallel_for_ranges(nodes.n, nodes_per_block, request.n_threads, [&](const Range &range, int thread) {
         auto &found = collection.by_thread[static_cast<std::size_t>(thread)];
-        const std::size_t first = found.size();
         std::int64_t n_queries_here = 0;
         for (std::int64_t i = range.begin; i < range.end; ++i) {
           if (request.is_masked_out(i)) continue;
@@ -38,7 +36,6 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
           const ClosestTriangle closest = scene.closest(p, limit);
           if (closest.triangle >= 0) found.push_back({i, std::sqrt(closest.distance_sq), closest.triangle});
         }
-        collection.blocks[static_cast<std::size_t>(range.begin / nodes_per_block)] = {thread, first, found.size()};
         n_queries.fetch_add(n_queries_here, std::memory_order_relaxed);
       });
   return {n_queries, n_ran, true, 0};

@@ -10,45 +10,12 @@
 namespace riis {
 namespace {
 
-// Calls visit for every found node, ascending.
-template <class Visit>
-void for_each_found(const Collection &collection, const Visit &visit) {
-  for (const Collection::Block &block : collection.blocks) {
-    const auto &found = collection.by_thread[static_cast<std::size_t>(block.thread)];
-    for (std::size_t i = block.begin; i < block.end; ++i) visit(found[i]);
-  }
-}
-
-// The found nodes as lists. All memory is reserved before anything is overwritten.
-void fill_lists(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, MarkResult &result) {
-  std::size_t n_within = 0, n_marked = 0;
-  for_each_found(result.collection, [&](const FoundNode &found) {
-    ++n_within;
-    if (found.distance <= half_thickness) ++n_marked;
-  });
-  const std::size_t n_in_marked = limit_is_wider ? n_marked : 0;
-  result.within.reserve(n_within);
-  result.marked.reserve(n_in_marked);
-
-  result.within.resize(n_within);
-  result.marked.resize(n_in_marked);
-  std::size_t i = 0, j = 0;
-  for_each_found(result.collection, [&](const FoundNode &found) {
-    const auto triangle = static_cast<std::size_t>(found.triangle);
-    const std::int64_t triangle_id = triangles.triangle_id[triangle];
-    const std::int32_t leaflet_id = triangles.leaflet_id[triangle];
-    result.within.set(i++, found.node, found.distance, triangle_id, leaflet_id);
-    if (limit_is_wider && found.distance <= half_thickness)
-      result.marked.set(j++, found.node, found.distance, triangle_id, leaflet_id);
-  });
-}
-
 // The library's choice is what was fastest where it was measured (docs/performance.md): a walk asks the same near nodes, and
 // more for its proof.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   if (asked_for == RIIS_SEARCH_AUTO) return RIIS_SEARCH_EXHAUSTIVE;
   const bool has_adjacency = request.mesh.adjacency().has_value();
-  if (asked_for != RIIS_SEARCH_EXHAUSTIVE && !has_adjacency)
+  if ((asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER) && !has_adjacency)
     fail(RIIS_INVALID_ARGUMENT,
          "options.search is %d, which walks along the mesh's adjacency, but the mesh has none: "
          "see riis_mesh_set_adjacency",
@@ -66,6 +33,8 @@ SearchReport run(const SearchRequest &request, std::int32_t search, MarkResult &
     }
     case RIIS_SEARCH_PAPER:
       return search_as_the_paper(request, result.collection);
+    case RIIS_SEARCH_CLUSTERS:
+      return search_clusters(request, result.collection);
     default:
       return search_exhaustively(request, result.collection);
   }
@@ -79,7 +48,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult
   const SearchReport report = run(request, search, result);
   const double half_thickness = request.surface.half_thickness();
   const bool limit_is_wider = request.distance_limit > half_thickness;
-  fill_lists(request.surface.triangles(), half_thickness, limit_is_wider, result);
+  put_in_order(request.surface.triangles(), half_thickness, limit_is_wider, request.mesh.nodes().n, request.n_threads,
+               result);
   result.limit_is_wider = limit_is_wider;
   result.distance_limit = request.distance_limit;
   result.n_threads = request.n_threads;

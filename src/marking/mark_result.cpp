@@ -2,6 +2,9 @@
 #include "marking/mark_result.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "parallel/parallel_for.hpp"
 
 namespace riis {
 
@@ -41,28 +44,23 @@ void Collection::prepare(int n_threads) {
   }
 }
 
-void Collection::sort(std::int64_t n_nodes) {
-  // By counting how many fall into each stretch of nodes, then within the stretches.
-  constexpr std::int64_t nodes_per_block = 1024;
-  const auto block_of = [](const FoundNode &found) { return static_cast<std::size_t>(found.node / nodes_per_block); };
-  blocks.assign(static_cast<std::size_t>((n_nodes + nodes_per_block - 1) / nodes_per_block), {0, 0, 0});
-  std::size_t n = 0;
-  for (const auto &found : by_thread)
-    for (const FoundNode &node : found) ++blocks[block_of(node)].end, ++n;
-  sorted_.resize(n);
-  std::size_t begin = 0;
-  for (Block &block : blocks) {
-    const std::size_t size = block.end;
-    block = {0, begin, begin};
-    begin += size;
+void Collection::Clustered::prepare(int n_threads) {
+  const auto n = static_cast<std::size_t>(n_threads);
+  if (threads.size() < n) threads.resize(n);
+  for (Thread &thread : threads) {
+    thread.items.clear();
+    thread.near_groups.clear();
+    thread.leaf_bits.clear();
+    // The kernels write whole registers.
+    constexpr std::size_t room = static_cast<std::size_t>(room_for_pairs) + 16;
+    thread.pair_nodes.resize(room);
+    thread.pair_triangles.resize(room);
+    thread.pair_filtered.resize(room);
+    thread.pair_decided.resize(room);
+    thread.closest.resize(static_cast<std::size_t>(nodes_per_cluster));
+    thread.points.resize(3 * static_cast<std::size_t>(nodes_per_cluster));
+    thread.n_queries = 0;
   }
-  for (const auto &found : by_thread)
-    for (const FoundNode &node : found) sorted_[blocks[block_of(node)].end++] = node;
-  for (const Block &block : blocks)
-    std::sort(sorted_.begin() + static_cast<std::ptrdiff_t>(block.begin),
-              sorted_.begin() + static_cast<std::ptrdiff_t>(block.end),
-              [](const FoundNode &a, const FoundNode &b) { return a.node < b.node; });
-  std::swap(sorted_, by_thread[0]);
 }
 
 void Collection::Walked::prepare(std::int64_t n_nodes, int n_threads) {
@@ -83,6 +81,113 @@ void Collection::Walked::prepare(std::int64_t n_nodes, int n_threads) {
     thread.next.reserve(static_cast<std::size_t>(nodes_per_range));
     thread.near_groups.reserve(largest);
   }
+}
+
+namespace {
+
+// A stretch's nodes are a bit each while it is put in order.
+constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
+constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
+
+// Which of a stretch's nodes there are, and how many before each.
+class Ranks {
+ public:
+  void clear() { bits_.fill(0); }
+  void add(std::int64_t node) { bits_[word(node)] |= bit(node); }
+  void count() {
+    std::uint32_t n = 0;
+    for (std::size_t i = 0; i < n_words; ++i) {
+      before_[i] = n;
+      n += static_cast<std::uint32_t>(__builtin_popcountll(bits_[i]));
+    }
+  }
+  std::size_t operator()(std::int64_t node) const {
+    const std::size_t i = word(node);
+    return before_[i] + static_cast<std::size_t>(__builtin_popcountll(bits_[i] & (bit(node) - 1)));
+  }
+
+ private:
+  static std::size_t word(std::int64_t node) {
+    return static_cast<std::size_t>(node % nodes_per_stretch / bits_per_word);
+  }
+  static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
+
+  std::array<std::uint64_t, n_words> bits_;
+  std::array<std::uint32_t, n_words> before_;
+};
+
+}  // namespace
+
+void put_in_order(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, std::int64_t n_nodes,
+                  int n_threads, MarkResult &result) {
+  Collection &collection = result.collection;
+  const std::size_t n_lists = collection.by_thread.size();
+  const auto n_stretches = static_cast<std::size_t>((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch);
+  const auto stretch_of = [](const FoundNode &found) { return static_cast<std::size_t>(found.node / nodes_per_stretch); };
+
+  std::size_t n_within = 0;
+  for (const auto &found : collection.by_thread) n_within += found.size();
+  constexpr std::size_t few = 4096;  // other threads would come too late
+  if (n_within < few) n_threads = 1;
+
+  // Stretch by stretch, list by list: how many, then where they begin; a last one with the sums.
+  std::vector<Collection::Stretch> &stretches = collection.stretches;
+  stretches.assign(n_stretches * n_lists + 1, {0, 0});
+  parallel_for(static_cast<std::int64_t>(n_lists), n_threads, [&](std::int64_t list, int) {
+    for (const FoundNode &found : collection.by_thread[static_cast<std::size_t>(list)]) {
+      Collection::Stretch &stretch = stretches[stretch_of(found) * n_lists + static_cast<std::size_t>(list)];
+      ++stretch.n_within;
+      stretch.n_marked += found.distance <= half_thickness;
+    }
+  });
+  Collection::Stretch sum{0, 0};
+  for (Collection::Stretch &stretch : stretches) {
+    const Collection::Stretch n = stretch;
+    stretch = sum;
+    sum.n_within += n.n_within;
+    sum.n_marked += n.n_marked;
+  }
+  const std::size_t n_in_marked = limit_is_wider ? static_cast<std::size_t>(sum.n_marked) : 0;
+  result.within.reserve(n_within);
+  result.marked.reserve(n_in_marked);
+  if (collection.by_stretch.size() < n_within) collection.by_stretch.resize(n_within + n_within / 2);
+
+  result.within.resize(n_within);
+  result.marked.resize(n_in_marked);
+  parallel_for(static_cast<std::int64_t>(n_lists), n_threads, [&](std::int64_t list, int) {
+    for (const FoundNode &found : collection.by_thread[static_cast<std::size_t>(list)]) {
+      // From its list's begin to the next one's: n_within counts up.
+      std::int64_t &at = stretches[stretch_of(found) * n_lists + static_cast<std::size_t>(list)].n_within;
+      collection.by_stretch[static_cast<std::size_t>(at++)] = found;
+    }
+  });
+  parallel_for(static_cast<std::int64_t>(n_stretches), n_threads, [&](std::int64_t i, int) {
+    const Collection::Stretch *lists = stretches.data() + static_cast<std::size_t>(i) * n_lists;
+    // Each list's place has moved on to its end: the end of the stretch before is where this one begins.
+    const std::int64_t begin = i == 0 ? 0 : lists[-1].n_within, end = lists[n_lists - 1].n_within;
+    if (begin == end) return;
+    const auto for_each = [&](const auto &visit) {
+      for (std::int64_t k = begin; k < end; ++k) visit(collection.by_stretch[static_cast<std::size_t>(k)]);
+    };
+    Ranks ranks;
+    const auto put = [&](NodeList &list, std::size_t first, const FoundNode &found) {
+      const auto triangle = static_cast<std::size_t>(found.triangle);
+      list.set(first + ranks(found.node), found.node, found.distance, triangles.triangle_id[triangle],
+               triangles.leaflet_id[triangle]);
+    };
+    ranks.clear();
+    for_each([&](const FoundNode &found) { ranks.add(found.node); });
+    ranks.count();
+    for_each([&](const FoundNode &found) { put(result.within, static_cast<std::size_t>(begin), found); });
+    if (!limit_is_wider) return;
+    const auto is_marked = [&](const FoundNode &found) { return found.distance <= half_thickness; };
+    ranks.clear();
+    for_each([&](const FoundNode &found) { if (is_marked(found)) ranks.add(found.node); });
+    ranks.count();
+    for_each([&](const FoundNode &found) {
+      if (is_marked(found)) put(result.marked, static_cast<std::size_t>(lists[0].n_marked), found);
+    });
+  });
 }
 
 }  // namespace riis

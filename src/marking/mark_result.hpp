@@ -10,7 +10,10 @@
 #include <memory>
 #include <vector>
 
+#include "distance/point_triangle.hpp"
+#include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
+#include "surface/triangle_set.hpp"
 
 namespace riis {
 
@@ -34,15 +37,17 @@ struct NodeList {
   void set(std::size_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet);
 };
 
-// Found nodes by the thread that found them, and where those of each block of nodes are. With what a walk needs. Reused: a steady
-// step allocates nothing of the library's own.
+// Found nodes by the thread that found them, in any order, with what searches and the putting in order need. Reused: a steady step
+// allocates nothing of the library's own.
 struct Collection {
-  struct Block {
-    int thread;
-    std::size_t begin, end;  // in by_thread[thread]
-  };
   std::vector<std::vector<FoundNode>> by_thread;
-  std::vector<Block> blocks;
+
+  // Nodes by their numbers, in stretches: how many of each thread's are in each, then where they begin among all.
+  struct Stretch {
+    std::int64_t n_within, n_marked;
+  };
+  std::vector<Stretch> stretches;
+  std::vector<FoundNode> by_stretch;
 
   // A group of nodes that may have some within the limit, and the distance of its centre.
   struct NearGroup {
@@ -89,12 +94,44 @@ struct Collection {
   };
   Walked walked;
 
-  void prepare(int n_threads);
-  // Puts what the threads found into blocks, ascending by node.
-  void sort(std::int64_t n_nodes);
+  // What a search over clusters needs.
+  struct Clustered {
+    static constexpr std::int32_t room_for_pairs = 4096;
 
- private:
-  std::vector<FoundNode> sorted_;
+    // A near cluster, and which of a thread's near groups are its.
+    struct Item {
+      std::int64_t cluster;
+      std::size_t first, n;
+      int thread;
+    };
+    struct alignas(64) Thread {
+      std::vector<std::int32_t> candidates;  // of a region
+      std::vector<std::uint16_t> bits;       // and which of its clusters each is near to
+      std::vector<Item> items;
+      std::vector<std::int32_t> near_groups;  // of clusters
+      std::vector<std::uint16_t> leaf_bits;   // and which leaves each is near to
+      std::vector<std::int32_t> leaf_groups;
+      std::vector<Leaf> lower_bounds;  // only for its alignment
+      std::vector<std::int32_t> pair_nodes, pair_triangles;
+      std::vector<float> pair_filtered;  // squares of distances, in single
+      std::vector<double> pair_decided;  // and in double precision
+      std::vector<ClosestTriangle> closest;  // of a cluster's nodes
+      std::vector<double> points;            // and where they are
+      std::int64_t n_queries = 0;
+
+      float *room_for_bounds(std::size_t n_groups) {
+        if (lower_bounds.size() < n_groups) lower_bounds.resize(n_groups + n_groups / 2);
+        return lower_bounds.data()->x;
+      }
+    };
+    std::vector<Thread> threads;
+    std::vector<Item> items;
+
+    void prepare(int n_threads);
+  };
+  Clustered clustered;
+
+  void prepare(int n_threads);
 };
 
 struct MarkResult {
@@ -108,5 +145,10 @@ struct MarkResult {
 
   const NodeList &marked_nodes() const { return limit_is_wider ? marked : within; }
 };
+
+// Makes the lists of a result from what its collection found, ascending by node, on up to n_threads threads. The list of marked nodes is
+// only made where the limit is wider. All memory is reserved before a list is overwritten.
+void put_in_order(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, std::int64_t n_nodes,
+                  int n_threads, MarkResult &result);
 
 }  // namespace riis

@@ -7,6 +7,7 @@ void Mesh::set_nodes(const StridedPoints &nodes) {
   if (nodes.n != nodes_.n) {
     adjacency_.reset();
     groups_.order.clear();
+    clusters_.n_nodes = 0;
   }
   nodes_ = nodes;
   forget_places();
@@ -22,6 +23,19 @@ const NodeGroups &Mesh::groups(int n_threads) const {
     has_groups_.store(true, std::memory_order_release);
   }
   return groups_;
+}
+
+const Clusters &Mesh::clusters(int n_threads) const {
+  if (has_clusters_.load(std::memory_order_acquire)) return clusters_;
+  const std::lock_guard<std::mutex> lock(clusters_mutex_);
+  if (!has_clusters_.load(std::memory_order_relaxed)) {
+    if (clusters_.n_nodes == 0)
+      sort_into_clusters(nodes_, n_threads, clusters_);
+    else
+      place_clusters(nodes_, n_threads, clusters_);
+    has_clusters_.store(true, std::memory_order_release);
+  }
+  return clusters_;
 }
 
 }  // namespace riis

@@ -10,6 +10,7 @@
 
 #include "geometry/strided.hpp"
 #include "marking/adjacency.hpp"
+#include "marking/clusters.hpp"
 #include "marking/node_groups.hpp"
 
 namespace riis {
@@ -22,7 +23,10 @@ class Mesh {
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
   // What is known of where the nodes are no longer holds.
-  void forget_places() { has_groups_.store(false, std::memory_order_relaxed); }
+  void forget_places() {
+    has_groups_.store(false, std::memory_order_relaxed);
+    has_clusters_.store(false, std::memory_order_relaxed);
+  }
 
   // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
   void set_nodes(const StridedPoints &nodes);
@@ -30,6 +34,8 @@ class Mesh {
 
   // The nodes in groups of near ones. May be asked for by several threads at once.
   const NodeGroups &groups(int n_threads) const;
+  // The same in clusters, for at most max_clustered_nodes.
+  const Clusters &clusters(int n_threads) const;
 
  private:
   StridedPoints nodes_;
@@ -37,6 +43,9 @@ class Mesh {
   mutable std::mutex groups_mutex_;
   mutable NodeGroups groups_;
   mutable std::atomic<bool> has_groups_{false};
+  mutable std::mutex clusters_mutex_;
+  mutable Clusters clusters_;
+  mutable std::atomic<bool> has_clusters_{false};
 };
 
 }  // namespace riis

@@ -132,7 +132,6 @@ class NeighborSearch {
   SearchReport report(bool complete) {
     std::int64_t n_queries = 0;
     for (const auto &own : walked_.threads) n_queries += own.n_queries;
-    collection_.sort(nodes_.n);
     return {n_queries, n_threads_, complete, n_unreached_};
   }
 

@@ -31,6 +31,9 @@ struct SearchReport {
 // Every node is asked (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, Collection &collection);
 
+// Clusters of nodes that the surface may be near to, filtered in single precision, sixteen at a time (docs/theory.md, section 8).
+SearchReport search_clusters(const SearchRequest &request, Collection &collection);
+
 // From neighbour to neighbour, and what is not reached is proven far (paper, 4.2.2 "Recursive neighbor search";
 // docs/theory.md, section 7). `last` are nodes to begin with, such as those of the last marking. The mesh has an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "distance/point_triangle.hpp"
+#include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
@@ -21,7 +22,7 @@ double area_of(const TriangleSet &set) {
 
 Surface::Surface(TriangleSet triangles, double half_thickness)
     : triangles_(std::move(triangles)),
-      scene_(triangles_),
+      scene_(triangles_, triangles_.n_triangles() > 8192 ? default_thread_count() : 1),
       half_thickness_(half_thickness),
       area_(area_of(triangles_)) {}
 

@@ -8,7 +8,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -49,28 +48,6 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-float round_down(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafterf(f, -std::numeric_limits<float>::infinity()) : f;
-}
-float round_up(double x) { return -round_down(-x); }
-
-// Coordinates relative to the surface: (x - centre) * scale, scale a power of two that makes the surface's half extent
-// from 1/2 to 1. Both operations are right to rounding of their result.
-struct Frame {
-  Vec3 centre;
-  double scale;
-
-  explicit Frame(const Bounds &bounds) {
-    centre = 0.5 * bounds.lower + 0.5 * bounds.upper;
-    const Vec3 extent = bounds.upper - bounds.lower;
-    int exponent = 0;
-    std::frexp(0.5 * std::max({extent.x, extent.y, extent.z}), &exponent);
-    scale = std::ldexp(1.0, -exponent);
-  }
-  Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
-};
-
 // Beyond this many half extents from the centre single precision separates nothing: all triangles are asked.
 constexpr double far_away = 1e6;
 
@@ -87,9 +64,9 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 }  // namespace
 
 struct TriangleScene::Implementation {
-  std::vector<std::array<Vec3, 3>> triangles;  // their corners
-  Frame frame;
+  TriangleGroups groups;
   double rounding;  // the scene's rounding_ in the frame's units
+  const Kernels *kernels;
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device;
   Scene scene;
 };
@@ -100,49 +77,56 @@ struct Query {
   const TriangleScene::Implementation *in;
   Vec3 p;  // the point as it is
   Vec3 q;  // and in the frame
+  double largest;  // a bound of q's coordinates and of distances that matter
   ClosestTriangle best;
 };
 
 // Asks one triangle; true if it is the closest so far.
 bool ask(Query &query, std::int64_t triangle) {
-  const auto &[a, b, c] = query.in->triangles[static_cast<std::size_t>(triangle)];
-  const double distance_sq = closest_point_on_triangle(query.p, a, b, c).distance_sq;
+  const double *c = query.in->groups.corners.data() + 9 * triangle;
+  const double distance_sq =
+      closest_point_on_triangle(query.p, {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}).distance_sq;
   if (!is_closer(distance_sq, triangle, query.best)) return false;
   query.best = {distance_sq, triangle};
   return true;
 }
 
-void bounds_of_triangle(const RTCBoundsFunctionArguments *arguments) {
+void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
   const auto *in = static_cast<const TriangleScene::Implementation *>(arguments->geometryUserPtr);
-  const std::array<Vec3, 3> &corners = in->triangles[arguments->primID];
-  const Vec3 a = in->frame(corners[0]), b = in->frame(corners[1]), c = in->frame(corners[2]);
+  const GroupBounds &group = in->groups.bounds[arguments->primID];
   RTCBounds *bounds = arguments->bounds_o;
-  bounds->lower_x = round_down(std::min({a.x, b.x, c.x}));
-  bounds->lower_y = round_down(std::min({a.y, b.y, c.y}));
-  bounds->lower_z = round_down(std::min({a.z, b.z, c.z}));
-  bounds->upper_x = round_up(std::max({a.x, b.x, c.x}));
-  bounds->upper_y = round_up(std::max({a.y, b.y, c.y}));
-  bounds->upper_z = round_up(std::max({a.z, b.z, c.z}));
+  bounds->lower_x = group.lower[0];
+  bounds->lower_y = group.lower[1];
+  bounds->lower_z = group.lower[2];
+  bounds->upper_x = group.upper[0];
+  bounds->upper_y = group.upper[1];
+  bounds->upper_z = group.upper[2];
 }
 
-bool visit_triangle(RTCPointQueryFunctionArguments *arguments) {
+// Within a group the filter leaves out what is farther than the radius: its distances are right to its error.
+bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);
-  if (!ask(query, arguments->primID)) return false;
+  const TriangleGroups &groups = query.in->groups;
+  const GroupBounds &bounds = groups.bounds[arguments->primID];
+  float distance_sq[triangles_per_group];
+  const float error = filter_error(1, 0, query.largest);
+  const float point[3] = {static_cast<float>(query.q.x), static_cast<float>(query.q.y), static_cast<float>(query.q.z)};
+  query.in->kernels->group_distances(groups.groups[arguments->primID], point, error, distance_sq);
+  const float reach = arguments->query->radius + 2 * error;
+  bool is_closer = false;
+  for (int i = 0; i < bounds.n; ++i)
+    if (distance_sq[i] <= reach * reach) is_closer = ask(query, bounds.triangle[i]) || is_closer;
+  if (!is_closer) return false;
   const float radius =
-      inflated_radius(std::sqrt(query.best.distance_sq) * query.in->frame.scale, query.q, query.in->rounding);
+      inflated_radius(std::sqrt(query.best.distance_sq) * groups.frame.scale, query.q, query.in->rounding);
   if (!(radius < arguments->query->radius)) return false;
   arguments->query->radius = radius;
   return true;
 }
 
-Bounds bounds_of(const TriangleSet &set) {
-  Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for (const std::int64_t id : set.vertex_id) {
-    const Vec3 p = set.vertex(id);
-    bounds.lower = {std::min(bounds.lower.x, p.x), std::min(bounds.lower.y, p.y), std::min(bounds.lower.z, p.z)};
-    bounds.upper = {std::max(bounds.upper.x, p.x), std::max(bounds.upper.y, p.y), std::max(bounds.upper.z, p.z)};
-  }
-  return bounds;
+bool add_group(RTCPointQueryFunctionArguments *arguments) {
+  static_cast<std::vector<std::int32_t> *>(arguments->userPtr)->push_back(static_cast<std::int32_t>(arguments->primID));
+  return false;
 }
 
 // The kernel computes a point of the triangle, each coordinate right to a few units of rounding of the largest coordinate,
@@ -154,14 +138,12 @@ double rounding_of_distances(const Bounds &bounds) {
 
 }  // namespace
 
-TriangleScene::TriangleScene(const TriangleSet &set)
+TriangleScene::TriangleScene(const TriangleSet &set, int n_threads)
     : bounds_(bounds_of(set)), rounding_(rounding_of_distances(bounds_)) {
   const Frame frame(bounds_);
-  implementation_ =
-      std::make_unique<Implementation>(Implementation{{}, frame, rounding_ * frame.scale, shared_device(), nullptr});
+  implementation_ = std::make_unique<Implementation>(
+      Implementation{TriangleGroups(set, frame, n_threads), rounding_ * frame.scale, &kernels(best_instruction_set()), shared_device(), nullptr});
   Implementation &in = *implementation_;
-  in.triangles.reserve(set.n_triangles());
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) in.triangles.push_back(set.corners(i));
 
   const RTCDevice device = in.device.get();
   const auto check = [device](const char *what) {
@@ -173,9 +155,9 @@ TriangleScene::TriangleScene(const TriangleSet &set)
   check("create a scene");
   const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
   check("create a geometry");
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(in.triangles.size()));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
   rtcSetGeometryUserData(geometry.get(), &in);
-  rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_triangle, nullptr);
+  rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_group, nullptr);
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(in.scene.get(), geometry.get());
   check("take the triangles");
@@ -195,14 +177,18 @@ bool TriangleScene::may_be_within(Vec3 p, double limit) const {
 
 ClosestTriangle TriangleScene::closest(Vec3 p, double limit) const {
   const Implementation &in = *implementation_;
-  Query query{&in, p, in.frame(p), {infinity, -1}};
-  if (!(std::max({std::abs(query.q.x), std::abs(query.q.y), std::abs(query.q.z)}) <= far_away)) {
+  const Frame &frame = in.groups.frame;
+  const Vec3 q = frame(p);
+  const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+  Query query{&in, p, q, largest, {infinity, -1}};
+  if (!(largest <= far_away)) {
     // Also where the frame's units overflow. The surface is farther than its own size: most limits end here.
     if (!may_be_within(p, limit)) return {infinity, -1};
-    for (std::size_t i = 0; i < in.triangles.size(); ++i) ask(query, static_cast<std::int64_t>(i));
+    const auto n = static_cast<std::int64_t>(in.groups.corners.size() / 9);
+    for (std::int64_t i = 0; i < n; ++i) ask(query, i);
   } else {
     double reach = limit;
-    if (!(reach * in.frame.scale < 4 * far_away)) {
+    if (!(reach * frame.scale < 4 * far_away)) {
       // No limit that culls: some triangle's distance is one.
       ask(query, 0);
       reach = std::sqrt(query.best.distance_sq);
@@ -212,13 +198,29 @@ ClosestTriangle TriangleScene::closest(Vec3 p, double limit) const {
     sphere.y = static_cast<float>(query.q.y);
     sphere.z = static_cast<float>(query.q.z);
     sphere.time = 0;
-    sphere.radius = inflated_radius(reach * in.frame.scale, query.q, in.rounding);
+    sphere.radius = inflated_radius(reach * frame.scale, query.q, in.rounding);
+    query.largest += reach * frame.scale;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(in.scene.get(), &sphere, &context, visit_triangle, &query);
+    rtcPointQuery(in.scene.get(), &sphere, &context, visit_group, &query);
   }
   if (query.best.triangle >= 0 && !(std::sqrt(query.best.distance_sq) <= limit)) return {infinity, -1};
   return query.best;
+}
+
+const TriangleGroups &TriangleScene::groups() const { return implementation_->groups; }
+
+void TriangleScene::collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const {
+  RTCPointQuery sphere;
+  sphere.x = point[0];
+  sphere.y = point[1];
+  sphere.z = point[2];
+  sphere.time = 0;
+  // Embree's own rounding, as in inflated_radius.
+  sphere.radius = radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &found);
 }
 
 }  // namespace riis

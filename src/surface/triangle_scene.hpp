@@ -10,18 +10,15 @@
 #include <memory>
 
 #include "distance/point_triangle.hpp"
+#include "surface/triangle_groups.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
 
-struct Bounds {
-  Vec3 lower, upper;
-};
-
 class TriangleScene {
  public:
   // Keeps a copy of the corners; the set may go. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY as Embree says.
-  explicit TriangleScene(const TriangleSet &set);
+  TriangleScene(const TriangleSet &set, int n_threads);
   ~TriangleScene();
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
@@ -34,6 +31,12 @@ class TriangleScene {
   bool may_be_within(Vec3 p, double limit) const;
 
   const Bounds &bounds() const { return bounds_; }
+
+  const TriangleGroups &groups() const;
+
+  // Adds to `found` at least the groups whose bounds are within a radius of a point, both in the groups' frame. The radius is below
+  // 4e6, the point's coordinates below 1e6.
+  void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
 
   // How far a distance, as it is computed, may be off, beyond what is in proportion to it and to p: the triangles' coordinates round.
   double rounding() const { return rounding_; }

@@ -10,6 +10,11 @@
 
 namespace riis {
 
+// Triangles by groups of neighbours, for searches: positions in the set, group after group, and where each group ends.
+struct Grouping {
+  std::vector<std::int32_t> order, end;
+};
+
 struct TriangleSet {
   std::vector<double> xyz;                // (3, n_vertices), placed
   std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
@@ -18,6 +23,7 @@ struct TriangleSet {
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // left out
+  Grouping grouping;
 
   std::size_t n_vertices() const { return xyz.size() / 3; }
   std::size_t n_triangles() const { return triangle_id.size(); }

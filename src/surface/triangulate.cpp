@@ -7,6 +7,7 @@
 
 #include "api/errors.hpp"
 #include "surface/grids.hpp"
+#include "surface/triangle_groups.hpp"
 
 namespace riis {
 namespace {
@@ -85,13 +86,17 @@ class Builder {
     const auto grid_vertex = [&](std::size_t i, std::size_t j) {
       return first + static_cast<std::int64_t>(j * n_u + i);
     };
+    first_of_quad_.clear();
     for_each_quad(grid, [&](std::size_t i, std::size_t j) {
+      first_of_quad_.push_back(n_triangles());
       const int level = *level_of_next++;
       if (level == 0)
         add_quad({grid_vertex(i, j), grid_vertex(i + 1, j), grid_vertex(i + 1, j + 1), grid_vertex(i, j + 1)}, image);
       else
         add_subdivided_quad(grid, i, j, level, image);
     });
+    first_of_quad_.push_back(n_triangles());
+    group(grid, {0, n_u - 1, 0, n_v - 1});
     return is_whole_;
   }
 
@@ -103,6 +108,47 @@ class Builder {
 
  private:
   std::int64_t n_vertices() const { return static_cast<std::int64_t>(set_.n_vertices()); }
+  std::int32_t n_triangles() const { return static_cast<std::int32_t>(set_.leaflet_id.size()); }
+
+  // Quads of the grid from i0 to i1 - 1 and j0 to j1 - 1.
+  struct Quads {
+    std::size_t i0, i1, j0, j1;
+  };
+
+  // Halves quads along their longer side until their triangles are a group.
+  void group(const QuadGrid &grid, const Quads &quads) {
+    const auto [i0, i1, j0, j1] = quads;
+    const std::size_t n_u = grid.u.size() - 1;
+    // Quads of a row follow each other, and so do their triangles.
+    const auto triangles_of_row = [&](std::size_t j) {
+      return std::pair(first_of_quad_[j * n_u + i0], first_of_quad_[j * n_u + i1]);
+    };
+    std::int32_t n = 0;
+    for (std::size_t j = j0; j < j1; ++j) n += triangles_of_row(j).second - triangles_of_row(j).first;
+    if (n == 0) return;
+    Grouping &grouping = set_.grouping;
+    if (n <= triangles_per_group) {
+      for (std::size_t j = j0; j < j1; ++j)
+        for (std::int32_t t = triangles_of_row(j).first; t < triangles_of_row(j).second; ++t) grouping.order.push_back(t);
+      grouping.end.push_back(static_cast<std::int32_t>(grouping.order.size()));
+      return;
+    }
+    if (i1 - i0 == 1 && j1 - j0 == 1) {
+      group_by_place(set_, triangles_of_row(j0).first, triangles_of_row(j0).second, grouping);
+      return;
+    }
+    const std::size_t i = (i0 + i1) / 2, j = (j0 + j1) / 2;
+    const bool along_u =
+        j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid.point(i0, j), grid.point(i1, j)) >
+                                            distance(grid.point(i, j0), grid.point(i, j1)));
+    if (along_u) {
+      group(grid, {i0, i, j0, j1});
+      group(grid, {i, i1, j0, j1});
+    } else {
+      group(grid, {i0, i1, j0, j});
+      group(grid, {i0, i1, j, j1});
+    }
+  }
 
   std::int64_t add_vertex(Vec3 p, double u, double v, const PatchImage &image) {
     const Vec3 placed = place(placement_, place(image, p));
@@ -161,6 +207,7 @@ class Builder {
   }
 
   bool is_whole_ = true;
+  std::vector<std::int32_t> first_of_quad_;  // of the image's triangles
   const Placement &placement_;
   bool flip_normals_;
   TriangleSet set_;

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// Double precision, eight at a time: the decision kernel, operation by operation as distance/point_triangle.cpp has it, so that every
+// lane has its bits; and the frames of triangles for the filter. Compiled for each instruction set, never contracted.
+#include "kernels/lanes.hpp"
+#include "kernels/table.hpp"
+
+namespace riis {
+namespace {
+
+struct Doubles3 {
+  Doubles x, y, z;
+};
+
+RIIS_INLINE Doubles3 operator+(Doubles3 a, Doubles3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+RIIS_INLINE Doubles3 operator-(Doubles3 a, Doubles3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+RIIS_INLINE Doubles3 operator*(Doubles s, Doubles3 a) { return {s * a.x, s * a.y, s * a.z}; }
+RIIS_INLINE Doubles dot(Doubles3 a, Doubles3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+RIIS_INLINE Doubles3 cross(Doubles3 a, Doubles3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+RIIS_INLINE Doubles choose(Doubles::Mask where, Doubles yes, Doubles no) {
+  return choose<double, DoubleRegister, 8>(where, yes, no);
+}
+RIIS_INLINE Doubles3 choose(Doubles::Mask where, Doubles3 yes, Doubles3 no) {
+  return {choose(where, yes.x, no.x), choose(where, yes.y, no.y), choose(where, yes.z, no.z)};
+}
+RIIS_INLINE Doubles magnitude(Doubles a) {
+  Doubles r;
+  for (int i = 0; i < Doubles::n_registers; ++i)
+    r.part[i] = (DoubleRegister)((LongRegister)a.part[i] & (INT64_MAX - LongRegister{}));
+  return r;
+}
+RIIS_INLINE Doubles root(Doubles a) {
+  Doubles r;
+  for (int i = 0; i < Doubles::n_registers; ++i)
+    for (int j = 0; j < Doubles::per_register; ++j) r.part[i][j] = __builtin_sqrt(a.part[i][j]);
+  return r;
+}
+
+struct Weights {
+  Doubles b, c;
+};
+
+RIIS_INLINE Weights plane_weights(Doubles3 r, Doubles3 ab, Doubles3 ac, Doubles3 n, Doubles inverse_nn) {
+  return {dot(cross(r, ac), n) * inverse_nn, dot(cross(ab, r), n) * inverse_nn};
+}
+
+RIIS_INLINE Doubles::Mask inside(Weights w) {
+  const Doubles zero = Doubles::all(0);
+  return both(both(w.b >= zero, w.c >= zero), w.b + w.c <= Doubles::all(1));
+}
+
+RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
+  const Doubles t = dot(r, edge) / dot(edge, edge), zero = Doubles::all(0), one = Doubles::all(1);
+  return choose(t > zero, choose(t < one, t, one), zero);
+}
+
+RIIS_INLINE Doubles distances(Doubles3 p, Doubles3 a, Doubles3 b, Doubles3 c) {
+  const Doubles3 ab = b - a, ac = c - a, bc = c - b, ap = p - a, bp = p - b;
+  const Doubles t_ab = segment_parameter(ap, ab), t_ac = segment_parameter(ap, ac), t_bc = segment_parameter(bp, bc);
+  Doubles best = Doubles::all(__builtin_inf());
+  const auto offer = [&](Doubles3 point, Doubles::Mask where) RIIS_LAMBDA {
+    const Doubles3 difference = p - point;
+    const Doubles distance_sq = dot(difference, difference);
+    best = choose(both(where, distance_sq < best), distance_sq, best);
+  };
+  const auto on_edge = [&](Doubles3 first, Doubles3 edge, Doubles3 last, Doubles t) RIIS_LAMBDA {
+    return choose(t == Doubles::all(1), last, first + t * edge);
+  };
+  const Doubles::Mask everywhere = Doubles::all(0) == Doubles::all(0);
+  offer(on_edge(a, ab, b, t_ab), everywhere);
+  offer(on_edge(b, bc, c, t_bc), everywhere);
+  offer(on_edge(a, ac, c, t_ac), everywhere);
+
+  const Doubles3 n = cross(ab, ac);
+  const Doubles inverse_nn = Doubles::all(1) / dot(n, n);
+  Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
+  const Doubles::Mask has_foot = inside(w);
+  Doubles::Mask active = has_foot;
+  for (int repeat = 0; repeat < 6 && any(active); ++repeat) {
+    const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
+    const Weights refined{w.b + rest.b, w.c + rest.c};
+    active = both(active, inside(refined));
+    w = {choose(active, refined.b, w.b), choose(active, refined.c, w.c)};
+    active = both(active, magnitude(rest.b) + magnitude(rest.c) > Doubles::all(0x1p-50));
+  }
+  offer(a + (w.b * ab + w.c * ac), has_foot);
+  return best;
+}
+
+void decide(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
+            double *distance_sq) {
+  for (int32_t first = 0; first < n; first += Doubles::n) {
+    const double *p[Doubles::n], *t[Doubles::n];
+    for (int lane = 0; lane < Doubles::n; ++lane) {
+      const int32_t pair = first + lane < n ? first + lane : first;
+      p[lane] = points + 3 * point[pair];
+      t[lane] = corners + 9 * static_cast<int64_t>(triangle[pair]);
+    }
+    const auto corner = [&](int i) RIIS_LAMBDA {
+      return Doubles3{Doubles::gather(t, 3 * i), Doubles::gather(t, 3 * i + 1), Doubles::gather(t, 3 * i + 2)};
+    };
+    const Doubles3 q = {Doubles::gather(p, 0), Doubles::gather(p, 1), Doubles::gather(p, 2)};
+    const Doubles answers = distances(q, corner(0), corner(1), corner(2));
+    __builtin_memcpy(distance_sq + first, answers.part, sizeof answers.part);
+  }
+}
+
+void put(Doubles x, float *to) {
+  alignas(64) double numbers[Doubles::n];
+  x.store(numbers);
+  for (int lane = 0; lane < Doubles::n; ++lane) to[lane] = static_cast<float>(numbers[lane]);
+}
+
+void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
+  put(v.x, to[0] + from);
+  put(v.y, to[1] + from);
+  put(v.z, to[2] + from);
+}
+
+// A direction and its length; where there is none, length 0 and the direction that is given.
+struct Direction {
+  Doubles3 unit;
+  Doubles length;
+};
+
+RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
+  const Doubles length = root(dot(v, v)), tiny = Doubles::all(1e-30);
+  const Doubles::Mask has_one = length > tiny;
+  const Doubles inverse = Doubles::all(1) / choose(has_one, length, Doubles::all(1));
+  return {choose(has_one, inverse * v, otherwise), choose(has_one, length, Doubles::all(0))};
+}
+
+constexpr int halves = triangles_per_group / Doubles::n;
+
+// Rounded to single precision so that it does not matter: to a unit beyond.
+RIIS_INLINE float round_down(double x) {
+  const double unit = (x < 0 ? -x : x) * 0x1p-23 + 0x1p-120;
+  return static_cast<float>(x - unit);
+}
+RIIS_INLINE float round_up(double x) { return -round_down(-x); }
+
+RIIS_INLINE Doubles least(Doubles a, Doubles b) { return choose(a < b, a, b); }
+RIIS_INLINE Doubles greatest(Doubles a, Doubles b) { return choose(b < a, a, b); }
+
+struct Extent {
+  double from, to;
+};
+
+// Of one coordinate of all corners.
+RIIS_INLINE Extent extent_of(const Doubles (*coordinates)[3]) {
+  Doubles lower = coordinates[0][0], upper = lower;
+  for (int h = 0; h < halves; ++h)
+    for (int k = 0; k < 3; ++k) {
+      lower = least(lower, coordinates[h][k]);
+      upper = greatest(upper, coordinates[h][k]);
+    }
+  alignas(64) double from[Doubles::n], to[Doubles::n];
+  lower.store(from);
+  upper.store(to);
+  Extent extent{from[0], to[0]};
+  for (int i = 1; i < Doubles::n; ++i) {
+    extent.from = from[i] < extent.from ? from[i] : extent.from;
+    extent.to = to[i] > extent.to ? to[i] : extent.to;
+  }
+  return extent;
+}
+
+RIIS_INLINE double sum_of(Doubles x) {
+  alignas(64) double numbers[Doubles::n];
+  x.store(numbers);
+  double sum = 0;
+  for (int i = 0; i < Doubles::n; ++i) sum += numbers[i];
+  return sum;
+}
+
+// Unit vectors across the triangles, along an edge, and across both. Any three at right angles are right; these make a small box.
+RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const double *first, float (*axis)[3]) {
+  double across[3] = {0, 0, 0};
+  for (int h = 0; h < halves; ++h) {
+    const Doubles3 normal = cross(corners[h][1] - corners[h][0], corners[h][2] - corners[h][0]);
+    across[0] += sum_of(normal.x);
+    across[1] += sum_of(normal.y);
+    across[2] += sum_of(normal.z);
+  }
+  const auto dot3 = [](const double *a, const double *b) RIIS_LAMBDA { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto normalize = [&](double *a) RIIS_LAMBDA {
+    const double length = __builtin_sqrt(dot3(a, a));
+    if (!(length > 1e-12)) return false;
+    for (int i = 0; i < 3; ++i) a[i] /= length;
+    return true;
+  };
+  // In units of the largest, so that the squares of small triangles' do not vanish.
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) largest = __builtin_fmax(largest, __builtin_fabs(across[i]));
+  for (int i = 0; i < 3; ++i) across[i] = largest > 0 ? across[i] / largest : i == 2;
+  normalize(across);
+  double along[3] = {first[3] - first[0], first[4] - first[1], first[5] - first[2]};
+  const auto take_across_away = [&] {
+    const double share = dot3(along, across);
+    for (int i = 0; i < 3; ++i) along[i] -= share * across[i];
+    return normalize(along);
+  };
+  if (!take_across_away()) {
+    for (int i = 0; i < 3; ++i) along[i] = i == (__builtin_fabs(across[0]) < 0.6 ? 0 : 1);
+    take_across_away();
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    axis[0][i] = static_cast<float>(across[i]);
+    axis[1][i] = static_cast<float>(along[i]);
+    axis[2][i] = static_cast<float>(across[j] * along[k] - across[k] * along[j]);
+  }
+}
+
+// first: the first triangle's corners.
+RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const double *first, GroupBounds &bounds) {
+  Doubles coordinates[halves][3];
+  double middle[3];
+  for (int i = 0; i < 3; ++i) {
+    for (int h = 0; h < halves; ++h)
+      for (int k = 0; k < 3; ++k)
+        coordinates[h][k] = i == 0 ? corners[h][k].x : i == 1 ? corners[h][k].y : corners[h][k].z;
+    const Extent extent = extent_of(coordinates);
+    bounds.lower[i] = round_down(extent.from);
+    bounds.upper[i] = round_up(extent.to);
+    middle[i] = 0.5 * (extent.from + extent.to);
+  }
+  choose_axes(corners, first, bounds.axis);
+  for (int i = 0; i < 3; ++i) {
+    const float *axis = bounds.axis[i];
+    const Doubles3 direction = {Doubles::all(axis[0]), Doubles::all(axis[1]), Doubles::all(axis[2])};
+    for (int h = 0; h < halves; ++h)
+      for (int k = 0; k < 3; ++k) coordinates[h][k] = dot(corners[h][k], direction);
+    const Extent extent = extent_of(coordinates);
+    bounds.from[i] = round_down(extent.from);
+    bounds.to[i] = round_up(extent.to);
+  }
+  double nearest = __builtin_inf();
+  for (int i = 0; i < 3 * bounds.n; ++i) {
+    const double *corner = first + 3 * i;
+    double sum = 0;
+    for (int j = 0; j < 3; ++j) sum += (corner[j] - middle[j]) * (corner[j] - middle[j]);
+    if (!(sum < nearest)) continue;
+    nearest = sum;
+    for (int j = 0; j < 3; ++j) bounds.corner[j] = static_cast<float>(corner[j]);
+  }
+}
+
+void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds) {
+  const Doubles zero = Doubles::all(0), one = Doubles::all(1);
+  Doubles3 all_corners[halves][3];
+  for (int half = 0; half < halves; ++half) {
+    const int from = half * Doubles::n;
+    const double *triangle[Doubles::n];
+    for (int lane = 0; lane < Doubles::n; ++lane) triangle[lane] = corners + 9 * (from + lane < bounds.n ? from + lane : 0);
+    Doubles3 *q = all_corners[half];
+    for (int i = 0; i < 3; ++i)
+      q[i] = {Doubles::gather(triangle, 3 * i), Doubles::gather(triangle, 3 * i + 1), Doubles::gather(triangle, 3 * i + 2)};
+    const Doubles3 ac = q[2] - q[0];
+    const Direction e = direction(q[1] - q[0], {one, zero, zero});
+    // What of a-c is across e, twice: the second time takes away what rounding left of e in a needle's.
+    const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
+    const Doubles::Mask steep = magnitude(e.unit.x) < Doubles::all(0.6);
+    const Doubles3 any_other = {choose(steep, one, zero), choose(steep, zero, one), zero};
+    const Doubles3 roughly = direction(across(ac), direction(across(any_other), {zero, zero, one}).unit).unit;
+    const Doubles3 f = direction(across(roughly), {zero, zero, one}).unit;
+    const Doubles c_e = dot(ac, e.unit), c_f = dot(ac, f);
+    const Direction along_ac = direction({c_e, c_f, zero}, {one, zero, zero});
+    const Direction along_bc = direction({c_e - e.length, c_f, zero}, {one, zero, zero});
+    put(q[0], group.a, from);
+    put(e.unit, group.e, from);
+    put(f, group.f, from);
+    put(cross(e.unit, f), group.g, from);
+    put(e.length, group.ab + from);
+    put(along_ac.length, group.ac + from);
+    put(along_bc.length, group.bc + from);
+    put(along_ac.unit.x, group.ac_e + from);
+    put(along_ac.unit.y, group.ac_f + from);
+    put(along_bc.unit.x, group.bc_e + from);
+    put(along_bc.unit.y, group.bc_f + from);
+  }
+  bound_group(all_corners, corners, bounds);
+}
+
+
+}  // namespace
+
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {make_group, decide};
+
+}  // namespace riis

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single precision: leaves out pairs of nodes and triangles that cannot matter. Compiled for each instruction set.
+#include "kernels/lanes.hpp"
+#include "kernels/table.hpp"
+
+namespace riis {
+namespace {
+
+struct Floats3 {
+  Floats x, y, z;
+};
+
+RIIS_INLINE Floats3 all(const float *p) { return {Floats::all(p[0]), Floats::all(p[1]), Floats::all(p[2])}; }
+RIIS_INLINE Floats dot(Floats3 a, Floats3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
+RIIS_INLINE Floats3 operator-(Floats3 a, Floats3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+RIIS_INLINE Floats3 load(const float (*from)[16]) {
+  return {Floats::load(from[0]), Floats::load(from[1]), Floats::load(from[2])};
+}
+
+// How far x is outside from..to.
+RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
+  return greatest(greatest(from - x, x - to), Floats::all(0));
+}
+
+// Squares of the distances of n points to sixteen triangles: points together, so that a triangle's numbers are loaded once. Everything
+// is a distance to a point of the triangle, to rounding: inside means inside by a margin; next to the edges the nearest edge is as
+// near, to that margin.
+template <int n>
+RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin, Floats (&distances)[n]) {
+  const Floats zero = Floats::all(0);
+  Floats e[n], f[n], g[n], in_plane[n];
+  const auto beyond = [&](Floats along, Floats end) RIIS_LAMBDA { return along - least(greatest(along, zero), end); };
+  {
+    const Floats3 a = load(group.a), unit_e = load(group.e), unit_f = load(group.f), unit_g = load(group.g);
+    for (int i = 0; i < n; ++i) {
+      const Floats3 r = p[i] - a;
+      e[i] = dot(r, unit_e);
+      f[i] = dot(r, unit_f);
+      g[i] = dot(r, unit_g);
+    }
+  }
+  const Floats ab = Floats::load(group.ab), ac = Floats::load(group.ac), bc = Floats::load(group.bc);
+  const Floats ac_e = Floats::load(group.ac_e), ac_f = Floats::load(group.ac_f);
+  const Floats bc_e = Floats::load(group.bc_e), bc_f = Floats::load(group.bc_f);
+  for (int i = 0; i < n; ++i) {
+    const Floats past_ab = beyond(e[i], ab);
+    in_plane[i] = multiply_add(past_ab, past_ab, f[i] * f[i]);
+
+    const Floats inside_ac = e[i] * ac_f - f[i] * ac_e;
+    const Floats past_ac = beyond(multiply_add(e[i], ac_e, f[i] * ac_f), ac);
+    in_plane[i] = least(in_plane[i], multiply_add(past_ac, past_ac, inside_ac * inside_ac));
+
+    const Floats eb = e[i] - ab;
+    const Floats inside_bc = f[i] * bc_e - eb * bc_f;
+    const Floats past_bc = beyond(multiply_add(eb, bc_e, f[i] * bc_f), bc);
+    in_plane[i] = least(in_plane[i], multiply_add(past_bc, past_bc, inside_bc * inside_bc));
+
+    in_plane[i] = zero_where_at_least(least(least(f[i], inside_ac), inside_bc), margin, in_plane[i]);
+    distances[i] = multiply_add(g[i], g[i], in_plane[i]);
+  }
+}
+
+bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                uint16_t *near) {
+  const Floats ratio = Floats::all(task.ratio), reach_sq = Floats::all(task.reach_sq);
+  Floats lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) {
+    lower[i] = multiply_add(Floats::load(boxes.lower[i]), ratio, Floats::all(task.shift[i]));
+    upper[i] = multiply_add(Floats::load(boxes.upper[i]), ratio, Floats::all(task.shift[i]));
+  }
+  uint32_t found = 0;
+  for (int32_t k = 0; k < n_candidates; ++k) {
+    const GroupBounds &group = task.bounds[candidates[k]];
+    Floats sum = Floats::all(0);
+    for (int i = 0; i < 3; ++i) {
+      const Floats gap = greatest(greatest(lower[i] - Floats::all(group.upper[i]), Floats::all(group.lower[i]) - upper[i]),
+                                  Floats::all(0));
+      sum = multiply_add(gap, gap, sum);
+    }
+    const uint32_t is_near = bits_at_most(sum, reach_sq);
+    near[k] = static_cast<uint16_t>(is_near);
+    found |= is_near;
+  }
+  return found != 0;
+}
+
+constexpr int halves = nodes_per_leaf / 16, n_together = 2;
+
+// The nodes of a leaf in the surface's frame, and for every group a lower bound of their distance to it; the nearest corner of the
+// groups is an upper bound of their distance to the surface.
+RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats3 *p) {
+  Floats best[halves];
+  for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);
+  for (int32_t k = 0; k < leaf.n_groups; ++k) {
+    const GroupBounds &group = task.bounds[leaf.near_groups[k]];
+    const Floats3 corner = all(group.corner);
+    for (int h = 0; h < halves; ++h) {
+      const Floats3 d = p[h] - corner;
+      best[h] = least(best[h], dot(d, d));
+      Floats sum = Floats::all(0);
+      for (int i = 0; i < 3; ++i) {
+        const Floats gap = outside(dot(p[h], all(group.axis[i])), Floats::all(group.from[i]), Floats::all(group.to[i]));
+        sum = multiply_add(gap, gap, sum);
+      }
+      sum.store(leaf.lower_bounds + nodes_per_leaf * k + 16 * h);
+    }
+  }
+  for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
+}
+
+RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, int32_t k) {
+  uint32_t near = 0;
+  for (int h = 0; h < halves; ++h) {
+    const Floats limit = Floats::load(leaf.best + 16 * h) + Floats::all(task.tolerance);
+    near |= bits_at_most(Floats::load(leaf.lower_bounds + nodes_per_leaf * k + 16 * h), limit) << 16 * h;
+  }
+  return near & leaf.wanted;
+}
+
+int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, int32_t room) {
+  Floats3 p[halves];
+  alignas(64) float x[nodes_per_leaf], y[nodes_per_leaf], z[nodes_per_leaf];
+  const Floats ratio = Floats::all(task.ratio);
+  for (int h = 0; h < halves; ++h) {
+    p[h] = {multiply_add(Floats::load(leaf.leaf->x + 16 * h), ratio, Floats::all(task.shift[0])),
+            multiply_add(Floats::load(leaf.leaf->y + 16 * h), ratio, Floats::all(task.shift[1])),
+            multiply_add(Floats::load(leaf.leaf->z + 16 * h), ratio, Floats::all(task.shift[2]))};
+    p[h].x.store(x + 16 * h);
+    p[h].y.store(y + 16 * h);
+    p[h].z.store(z + 16 * h);
+  }
+  int32_t k = leaf.next_group;
+  uint32_t rest = leaf.rest;
+  if (k == 0 && rest == 0) {
+    begin_leaf(task, leaf, p);
+    rest = leaf.n_groups > 0 ? nodes_near(task, leaf, 0) : 0;
+  }
+  const Floats margin = Floats::all(task.margin);
+  int32_t n = 0;
+  while (k < leaf.n_groups) {
+    const GroupBounds &bounds = task.bounds[leaf.near_groups[k]];
+    const TriangleGroup &group = task.groups[leaf.near_groups[k]];
+    const uint32_t in_use = (1u << bounds.n) - 1;
+    while (rest && n + n_together * triangles_per_group <= room) {
+      int lanes[n_together];
+      Floats3 points[n_together];
+      int n_taken = 0;
+      for (int i = 0; i < n_together; ++i) {
+        // Where there are no more, the last again, of which nothing is used.
+        const int lane = rest ? __builtin_ctz(rest) : lanes[i - 1];
+        n_taken += rest != 0;
+        rest &= rest - 1;
+        lanes[i] = lane;
+        points[i] = {Floats::all(x[lane]), Floats::all(y[lane]), Floats::all(z[lane])};
+      }
+      Floats distances[n_together];
+      distances_to_group(group, points, margin, distances);
+      for (int i = 0; i < n_taken; ++i) {
+        const int lane = lanes[i];
+        const float nearest = least_lane(distances[i]);
+        const float best = nearest < leaf.best[lane] ? nearest : leaf.best[lane];
+        leaf.best[lane] = best;
+        const uint32_t close = bits_at_most(distances[i], Floats::all(best + task.tolerance)) & in_use;
+        fill(leaf.first_node + lane, pairs.node + n);
+        compress(close, bounds.triangle, pairs.triangle + n);
+        compress(close, distances[i], pairs.distance_sq + n);
+        n += __builtin_popcount(close);
+      }
+    }
+    if (rest) break;
+    if (++k < leaf.n_groups) rest = nodes_near(task, leaf, k);
+  }
+  leaf.next_group = k;
+  leaf.rest = rest;
+  // What was near before something nearer was found.
+  int32_t n_kept = 0;
+  uint32_t found = 0;
+  for (int32_t i = 0; i < n; ++i) {
+    const int32_t lane = pairs.node[i] - leaf.first_node;
+    const bool keep = pairs.distance_sq[i] <= leaf.best[lane] + task.tolerance;
+    pairs.node[n_kept] = pairs.node[i];
+    pairs.triangle[n_kept] = pairs.triangle[i];
+    n_kept += keep;
+    found |= static_cast<uint32_t>(keep) << lane;
+  }
+  leaf.found = found;
+  return n_kept;
+}
+
+void group_distances(const TriangleGroup &group, const float *point, float margin, float *distance_sq) {
+  const Floats3 points[1] = {all(point)};
+  Floats distances[1];
+  distances_to_group(group, points, Floats::all(margin), distances);
+  alignas(64) float d[16];
+  distances[0].store(d);
+  for (int i = 0; i < 16; ++i) distance_sq[i] = d[i];
+}
+
+}  // namespace
+
+const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes, filter_leaf, group_distances};
+
+}  // namespace riis

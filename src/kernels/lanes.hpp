@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sixteen floats or eight doubles that are computed with together, as registers of the instruction set that the including file is
+// compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a function that the
+// linker could take from the wrong one. For the same reason only headers without inline functions of their own are included.
+#pragma once
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+#include <stdint.h>
+
+namespace riis {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int register_bytes = 64;
+#elif defined(__AVX2__)
+constexpr int register_bytes = 32;
+#else
+constexpr int register_bytes = 16;
+#endif
+
+#define RIIS_INLINE inline __attribute__((always_inline))
+
+typedef float FloatRegister __attribute__((vector_size(register_bytes)));
+typedef int32_t IntRegister __attribute__((vector_size(register_bytes)));
+typedef double DoubleRegister __attribute__((vector_size(register_bytes)));
+typedef int64_t LongRegister __attribute__((vector_size(register_bytes)));
+
+template <class Register>
+struct ComparisonOf;
+template <>
+struct ComparisonOf<FloatRegister> {
+  typedef IntRegister type;
+};
+template <>
+struct ComparisonOf<DoubleRegister> {
+  typedef LongRegister type;
+};
+
+RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
+#if defined(__AVX512F__)
+  return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
+#elif defined(__AVX2__)
+  return (FloatRegister)_mm256_min_ps((__m256)a, (__m256)b);
+#elif defined(__SSE2__)
+  return (FloatRegister)_mm_min_ps((__m128)a, (__m128)b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
+#if defined(__AVX512F__)
+  return (FloatRegister)_mm512_max_ps((__m512)a, (__m512)b);
+#elif defined(__AVX2__)
+  return (FloatRegister)_mm256_max_ps((__m256)a, (__m256)b);
+#elif defined(__SSE2__)
+  return (FloatRegister)_mm_max_ps((__m128)a, (__m128)b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+// a * b + c, in one rounding where there is an instruction for that.
+RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
+#if defined(__AVX512F__)
+  return (FloatRegister)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
+#elif defined(__AVX2__) && defined(__FMA__)
+  return (FloatRegister)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#else
+  return a * b + c;
+#endif
+}
+
+// Lanes of a register type. All lanes of a comparison are 0 or -1.
+template <class Scalar, class Register, int n_lanes>
+struct Lanes {
+  static constexpr int n = n_lanes;
+  static constexpr int per_register = register_bytes / static_cast<int>(sizeof(Scalar));
+  static constexpr int n_registers = n_lanes / per_register;
+  typedef typename ComparisonOf<Register>::type Comparison;
+  struct Mask {
+    Comparison part[n_registers];
+  };
+
+  Register part[n_registers];
+
+  static RIIS_INLINE Lanes all(Scalar x) {
+    Lanes lanes;
+    for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
+    return lanes;
+  }
+  // From and to memory aligned to 64 bytes.
+  static RIIS_INLINE Lanes load(const Scalar *from) {
+    Lanes lanes;
+    __builtin_memcpy(lanes.part, __builtin_assume_aligned(from, 64), sizeof lanes.part);
+    return lanes;
+  }
+  // One number of each of n places.
+  static RIIS_INLINE Lanes gather(const Scalar *const *from, int64_t offset) {
+    Lanes lanes;
+    for (int i = 0; i < n_registers; ++i) {
+      const Scalar *const *f = from + i * per_register;
+      if constexpr (per_register == 8)
+        lanes.part[i] = Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
+                                 f[4][offset], f[5][offset], f[6][offset], f[7][offset]};
+      else if constexpr (per_register == 4)
+        lanes.part[i] = Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset]};
+      else
+        for (int j = 0; j < per_register; ++j) lanes.part[i][j] = f[j][offset];
+    }
+    return lanes;
+  }
+  RIIS_INLINE void store(Scalar *to) const { __builtin_memcpy(__builtin_assume_aligned(to, 64), part, sizeof part); }
+};
+
+typedef Lanes<float, FloatRegister, 16> Floats;
+typedef Lanes<double, DoubleRegister, 8> Doubles;
+
+#define RIIS_LANES template <class S, class R, int n> RIIS_INLINE
+#define RIIS_LANEWISE(result, expression) \
+  result r;                                                  \
+  for (int i = 0; i < Lanes<S, R, n>::n_registers; ++i) r.part[i] = expression; \
+  return r
+
+// clang-format off
+RIIS_LANES Lanes<S, R, n> operator+(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] + b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator-(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] - b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator*(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] * b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator/(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] / b.part[i]); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator<(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_LANEWISE(M, a.part[i] < b.part[i]); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator<=(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_LANEWISE(M, a.part[i] <= b.part[i]); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator>(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b < a; }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator>=(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b <= a; }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator==(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_LANEWISE(M, a.part[i] == b.part[i]); }
+RIIS_LANES Lanes<S, R, n> least(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, least(a.part[i], b.part[i])); }
+RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, greatest(a.part[i], b.part[i])); }
+RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, multiply_add(a.part[i], b.part[i], c.part[i])); }
+// clang-format on
+
+template <class Mask>
+RIIS_INLINE Mask both(Mask a, Mask b) {
+  Mask r;
+  for (unsigned i = 0; i < sizeof r.part / sizeof r.part[0]; ++i) r.part[i] = a.part[i] & b.part[i];
+  return r;
+}
+
+RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R, n> yes, Lanes<S, R, n> no) {
+  typedef Lanes<S, R, n> L;
+  RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
+}
+
+// A bit a lane, the first lane's lowest.
+RIIS_INLINE uint32_t bits(Floats::Mask mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi32_mask((__m512i)mask.part[0]);
+#elif defined(__AVX2__)
+  return static_cast<uint32_t>(_mm256_movemask_ps((__m256)mask.part[0])) |
+         static_cast<uint32_t>(_mm256_movemask_ps((__m256)mask.part[1])) << 8;
+#elif defined(__SSE2__)
+  uint32_t r = 0;
+  for (int i = 0; i < 4; ++i) r |= static_cast<uint32_t>(_mm_movemask_ps((__m128)mask.part[i])) << 4 * i;
+  return r;
+#else
+  uint32_t r = 0;
+  for (int i = 0; i < 16; ++i) r |= static_cast<uint32_t>(mask.part[i / 4][i % 4] & 1) << i;
+  return r;
+#endif
+}
+
+// bits(a <= b)
+RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_LE_OQ);
+#else
+  return bits(a <= b);
+#endif
+}
+
+// 0 where a >= b, x elsewhere.
+RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
+#if defined(__AVX512F__)
+  const __mmask16 keep = _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NGE_UQ);
+  Floats r;
+  r.part[0] = (FloatRegister)_mm512_maskz_mov_ps(keep, (__m512)x.part[0]);
+  return r;
+#else
+  return choose<float, FloatRegister, 16>(a >= b, Floats::all(0), x);
+#endif
+}
+
+// The lanes whose bits are set, one after the other, of floats and of 16 integers; writes 16 lanes, whatever their number.
+RIIS_INLINE void compress(uint32_t lanes, Floats from, float *to) {
+#if defined(__AVX512F__)
+  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(lanes), (__m512)from.part[0]));
+#else
+  alignas(64) float all[16];
+  from.store(all);
+  for (; lanes; lanes &= lanes - 1) *to++ = all[__builtin_ctz(lanes)];
+#endif
+}
+RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
+#if defined(__AVX512F__)
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
+#else
+  for (; lanes; lanes &= lanes - 1) *to++ = from[__builtin_ctz(lanes)];
+#endif
+}
+RIIS_INLINE void fill(int32_t x, int32_t *to) {
+  for (int i = 0; i < 16; ++i) to[i] = x;
+}
+
+RIIS_INLINE bool any(Doubles::Mask mask) {
+  int64_t r = 0;
+  for (int i = 0; i < Doubles::n_registers; ++i)
+    for (int j = 0; j < Doubles::per_register; ++j) r |= mask.part[i][j];
+  return r != 0;
+}
+
+RIIS_INLINE float least_lane(Floats a) {
+#if defined(__AVX512F__)
+  return _mm512_reduce_min_ps((__m512)a.part[0]);
+#else
+  FloatRegister m = a.part[0];
+  for (int i = 1; i < Floats::n_registers; ++i) m = least(m, a.part[i]);
+  float r = m[0];
+  for (int i = 1; i < Floats::per_register; ++i) r = m[i] < r ? m[i] : r;
+  return r;
+#endif
+}
+
+}  // namespace
+}  // namespace riis

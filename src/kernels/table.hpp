@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each file of kernels gives, under a name of its instruction set.
+#pragma once
+
+#include "kernels/kernels.hpp"
+
+// RIIS_INSTRUCTION_SET is baseline, avx2 or avx512: which one this is being compiled for.
+#define RIIS_JOIN(a, b) a##_##b
+#define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
+#define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)
+
+#define RIIS_LAMBDA __attribute__((always_inline))
+
+namespace riis {
+
+struct FilterKernels {
+  bool (*near_boxes)(const FilterTask &, const Boxes &, const int32_t *, int32_t, uint16_t *);
+  int32_t (*filter_leaf)(const FilterTask &, LeafTask &, const Pairs &, int32_t);
+  void (*group_distances)(const TriangleGroup &, const float *, float, float *);
+};
+struct DecisionKernels {
+  void (*make_group)(const double *, TriangleGroup &, GroupBounds &);
+  void (*decide)(int32_t, const int32_t *, const int32_t *, const double *, const double *, double *);
+};
+
+extern const FilterKernels filter_kernels_baseline, filter_kernels_avx2, filter_kernels_avx512;
+extern const DecisionKernels decision_kernels_baseline, decision_kernels_avx2, decision_kernels_avx512;
+
+}  // namespace riis

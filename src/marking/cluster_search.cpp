@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "api/errors.hpp"
+#include "marking/search.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+typedef Collection::Clustered Clustered;
+
+class ClusterSearch {
+ public:
+  ClusterSearch(const SearchRequest &request, Collection &collection)
+      : request_(request),
+        nodes_(request.mesh.nodes()),
+        scene_(request.surface.scene()),
+        groups_(scene_.groups()),
+        clusters_(request.mesh.clusters(request.n_threads)),
+        kernels_(kernels(best_instruction_set())),
+        collection_(collection),
+        own_(collection.clustered) {
+    const Frame &frame = groups_.frame;
+    const double ratio = frame.scale / clusters_.scale;
+    const Vec3 shift = frame.scale * (clusters_.centre - frame.centre);
+    const double limit = request.distance_limit * frame.scale;
+    const double error = filter_error(ratio, std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)}), limit);
+    reach_ = static_cast<float>(limit + 2 * error);
+    task_.ratio = static_cast<float>(ratio);
+    task_.shift[0] = static_cast<float>(shift.x);
+    task_.shift[1] = static_cast<float>(shift.y);
+    task_.shift[2] = static_cast<float>(shift.z);
+    task_.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
+    task_.tolerance = static_cast<float>(8 * error * (limit + 2 * error));
+    task_.margin = static_cast<float>(error);
+    task_.groups = groups_.groups.data();
+    task_.bounds = groups_.bounds.data();
+    collection.prepare(request.n_threads);
+    own_.prepare(request.n_threads);
+  }
+
+  // The clusters that the surface may be near to, each with the groups that it may be near to and for each of these its leaves.
+  void find_near_clusters() {
+    const Bounds &bounds = scene_.bounds();
+    const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
+    const float surface_lower[3] = {round_down(lower.x), round_down(lower.y), round_down(lower.z)};
+    const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
+    const auto n_regions = static_cast<std::int64_t>(clusters_.regions.size());
+    const int n_ran = parallel_for_ranges(n_regions, 1, request_.n_threads, [&](const Range &range, int thread) {
+      Clustered::Thread &own = own_.threads[static_cast<std::size_t>(thread)];
+      for (std::int64_t region = range.begin; region < range.end; ++region) {
+        const Clusters::Box &box = clusters_.boxes[static_cast<std::size_t>(region)];
+        float centre[3], sum = 0, gap_sq = 0;
+        for (int i = 0; i < 3; ++i) {
+          const float from = box.lower[i] * task_.ratio + task_.shift[i], to = box.upper[i] * task_.ratio + task_.shift[i];
+          centre[i] = 0.5f * (from + to);
+          sum += (to - from) * (to - from);
+          const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
+          gap_sq += gap * gap;
+        }
+        if (!(gap_sq <= task_.reach_sq)) continue;
+        ++own.n_queries;
+        own.candidates.clear();
+        scene_.collect_groups(centre, 0.5f * std::sqrt(sum) + reach_, own.candidates);
+        if (own.candidates.empty()) continue;
+        std::sort(own.candidates.begin(), own.candidates.end());
+        own.bits.resize(own.candidates.size());
+        if (!kernels_.near_boxes(task_, clusters_.regions[static_cast<std::size_t>(region)], own.candidates.data(),
+                                 static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
+          continue;
+        const Range of_region = clusters_.clusters_of(region);
+        for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster) add_cluster(cluster, cluster - of_region.begin, own);
+      }
+    });
+    n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  void search_near_clusters() {
+    std::vector<Clustered::Item> &items = own_.items;
+    items.clear();
+    for (std::size_t thread = 0; thread < own_.threads.size(); ++thread)
+      for (Clustered::Item item : own_.threads[thread].items) {
+        item.thread = static_cast<int>(thread);
+        items.push_back(item);
+      }
+    const int n_ran = parallel_for(static_cast<std::int64_t>(items.size()), request_.n_threads, [&](std::int64_t i, int thread) {
+      search_cluster(items[static_cast<std::size_t>(i)], own_.threads[static_cast<std::size_t>(thread)],
+                     collection_.by_thread[static_cast<std::size_t>(thread)]);
+    });
+    n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  SearchReport report() {
+    std::int64_t n_queries = 0;
+    for (const auto &own : own_.threads) n_queries += own.n_queries;
+    return {n_queries, n_threads_, true, 0};
+  }
+
+ private:
+  void add_cluster(std::int64_t cluster, std::int64_t bit, Clustered::Thread &own) {
+    const std::size_t first = own.near_groups.size();
+    for (std::size_t k = 0; k < own.candidates.size(); ++k)
+      if (own.bits[k] >> bit & 1) own.near_groups.push_back(own.candidates[k]);
+    const std::size_t n = own.near_groups.size() - first;
+    if (n == 0) return;
+    own.leaf_bits.resize(first + n);
+    if (kernels_.near_boxes(task_, clusters_.clusters[static_cast<std::size_t>(cluster)], own.near_groups.data() + first,
+                            static_cast<std::int32_t>(n), own.leaf_bits.data() + first)) {
+      own.items.push_back({cluster, first, n, 0});
+    } else {
+      own.near_groups.resize(first);
+      own.leaf_bits.resize(first);
+    }
+  }
+
+  // The pairs of a cluster that the filter leaves, until they are decided.
+  struct Undecided {
+    std::int32_t n_pairs = 0;
+    std::uint32_t nodes[leaves_per_cluster] = {};    // that have pairs, a bit a node
+    std::uint32_t decided[leaves_per_cluster] = {};  // and that had some that were decided before
+  };
+
+  void search_cluster(const Clustered::Item &item, Clustered::Thread &own, std::vector<FoundNode> &found) {
+    const Clustered::Thread &from = own_.threads[static_cast<std::size_t>(item.thread)];
+    const std::int32_t *candidates = from.near_groups.data() + item.first;
+    const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
+    const Range leaves = clusters_.leaves_of(item.cluster);
+    Undecided undecided;
+    for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
+      own.leaf_groups.clear();
+      for (std::size_t k = 0; k < item.n; ++k)
+        if (leaf_bits[k] >> (leaf - leaves.begin) & 1) own.leaf_groups.push_back(candidates[k]);
+      if (!own.leaf_groups.empty()) filter_leaf(leaf, leaves.begin, own, undecided);
+    }
+    decide(leaves.begin, own, undecided);
+    for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
+      const std::int64_t i = leaf - leaves.begin;
+      for (std::uint32_t rest = undecided.decided[i]; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        const ClosestTriangle &closest = own.closest[static_cast<std::size_t>(nodes_per_leaf * i + lane)];
+        const double distance = std::sqrt(closest.distance_sq);
+        if (distance <= request_.distance_limit)
+          found.push_back({clusters_.leaves[static_cast<std::size_t>(leaf)].node[lane], distance, closest.triangle});
+      }
+    }
+  }
+
+  void filter_leaf(std::int64_t number, std::int64_t first_leaf, Clustered::Thread &own, Undecided &undecided) {
+    const Leaf &leaf = clusters_.leaves[static_cast<std::size_t>(number)];
+    const int n_nodes = clusters_.n_nodes_of(number);
+    LeafTask task;
+    task.leaf = &leaf;
+    task.first_node = static_cast<std::int32_t>((number - first_leaf) * nodes_per_leaf);
+    task.wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
+    if (request_.node_mask)
+      for (int lane = 0; lane < n_nodes; ++lane)
+        if (!request_.node_mask[leaf.node[lane]]) task.wanted &= ~(1u << lane);
+    task.near_groups = own.leaf_groups.data();
+    task.n_groups = static_cast<std::int32_t>(own.leaf_groups.size());
+    task.lower_bounds = own.room_for_bounds(own.leaf_groups.size());
+    task.next_group = 0;
+    task.rest = 0;
+    while (task.next_group < task.n_groups) {
+      constexpr std::int32_t room = Clustered::room_for_pairs, enough = 512;
+      if (room - undecided.n_pairs < enough) decide(first_leaf, own, undecided);
+      const std::int32_t n = undecided.n_pairs;
+      undecided.n_pairs += kernels_.filter_leaf(
+          task_, task, {own.pair_nodes.data() + n, own.pair_triangles.data() + n, own.pair_filtered.data() + n}, room - n);
+      undecided.nodes[number - first_leaf] |= task.found;
+      // The coordinates as they are lie anywhere: on their way while the filter goes on.
+      for (std::uint32_t rest = task.found; rest; rest &= rest - 1) {
+        const std::int64_t at = leaf.node[__builtin_ctz(rest)] * nodes_.stride;
+        __builtin_prefetch(nodes_.x + at);
+        __builtin_prefetch(nodes_.z + at);
+      }
+    }
+  }
+
+  void decide(std::int64_t first_leaf, Clustered::Thread &own, Undecided &undecided) {
+    for (std::int64_t i = 0; i < leaves_per_cluster; ++i) {
+      for (std::uint32_t rest = undecided.nodes[i] & ~undecided.decided[i]; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        const std::int64_t node = clusters_.leaves[static_cast<std::size_t>(first_leaf + i)].node[lane];
+        const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
+        const auto at = static_cast<std::size_t>(nodes_per_leaf * i + lane);
+        own.points[3 * at] = p.x, own.points[3 * at + 1] = p.y, own.points[3 * at + 2] = p.z;
+        own.closest[at] = {std::numeric_limits<double>::infinity(), -1};
+      }
+      undecided.decided[i] |= undecided.nodes[i];
+    }
+    kernels_.decide(undecided.n_pairs, own.pair_nodes.data(), own.pair_triangles.data(), own.points.data(),
+                    groups_.corners.data(), own.pair_decided.data());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(undecided.n_pairs); ++i) {
+      ClosestTriangle &best = own.closest[static_cast<std::size_t>(own.pair_nodes[i])];
+      if (is_closer(own.pair_decided[i], own.pair_triangles[i], best)) best = {own.pair_decided[i], own.pair_triangles[i]};
+    }
+    undecided.n_pairs = 0;
+  }
+
+  const SearchRequest &request_;
+  const StridedPoints &nodes_;
+  const TriangleScene &scene_;
+  const TriangleGroups &groups_;
+  const Clusters &clusters_;
+  const Kernels &kernels_;
+  Collection &collection_;
+  Clustered &own_;
+  FilterTask task_;
+  float reach_;
+  int n_threads_ = 1;
+};
+
+}  // namespace
+
+SearchReport search_clusters(const SearchRequest &request, Collection &collection) {
+  ClusterSearch search(request, collection);
+  search.find_near_clusters();
+  search.search_near_clusters();
+  return search.report();
+}
+
+}  // namespace riis

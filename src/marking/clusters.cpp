@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/clusters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr std::int64_t nodes_per_block = 32768;
+
+struct Item {
+  float x[3];
+  std::uint32_t node;
+};
+
+struct Box {
+  float lower[3] = {infinity, infinity, infinity}, upper[3] = {-infinity, -infinity, -infinity};
+
+  void add(const float *x) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = x[i] < lower[i] ? x[i] : lower[i];
+      upper[i] = x[i] > upper[i] ? x[i] : upper[i];
+    }
+  }
+  void add(const Box &box) {
+    add(box.lower);
+    add(box.upper);
+  }
+  int longest_axis() const {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if (upper[i] - lower[i] > upper[axis] - lower[axis]) axis = i;
+    return axis;
+  }
+};
+
+// Nodes in an order by counting along one axis, cut where the parts are multiples of a unit.
+class Sorter {
+ public:
+  Sorter(std::vector<Item> items, int n_threads)
+      : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
+
+  const std::vector<Item> &sort() {
+    // While parts are fewer than threads want, threads share a part; then each takes whole ones.
+    std::vector<Part> parts{{0, static_cast<std::int64_t>(items_.size())}}, next;
+    const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
+    while (static_cast<std::int64_t>(parts.size()) < enough && parts.front().size() > 8 * nodes_per_block) {
+      next.clear();
+      for (const Part &part : parts) {
+        sort_together(part);
+        for_each_cut(part, [&](const Part &cut) { next.push_back(cut); });
+      }
+      std::swap(parts, next);
+    }
+    parallel_for(static_cast<std::int64_t>(parts.size()), n_threads_,
+                 [&](std::int64_t i, int) { sort_alone(parts[static_cast<std::size_t>(i)]); });
+    return items_;
+  }
+
+ private:
+  static constexpr int n_bins = 256;
+  struct Part {
+    std::int64_t begin, end;
+    std::int64_t size() const { return end - begin; }
+  };
+  struct Bins {
+    int axis;
+    float from, per_unit;
+
+    explicit Bins(const Box &box) : axis(box.longest_axis()), from(box.lower[axis]) {
+      const float extent = box.upper[axis] - from;
+      per_unit = extent > 0 ? n_bins / extent : 0;
+      if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
+    }
+    int operator()(const Item &item) const {
+      const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
+      return bin < n_bins ? bin : n_bins - 1;
+    }
+  };
+
+  // Into as many parts as keep the cuts at multiples of a unit: clusters, and within a cluster leaves.
+  template <class Visit>
+  static void for_each_cut(const Part &part, const Visit &visit) {
+    const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
+    const std::int64_t n_units = (part.size() + unit - 1) / unit;
+    const std::int64_t n_parts = n_units >= 8 ? 4 : 2;
+    std::int64_t begin = part.begin;
+    for (std::int64_t i = 1; i <= n_parts; ++i) {
+      const std::int64_t end = std::min(part.begin + n_units * i / n_parts * unit, part.end);
+      visit(Part{begin, end});
+      begin = end;
+    }
+  }
+
+  // A small part by one thread, down to leaves.
+  void sort_alone(const Part &part) {
+    if (part.size() <= nodes_per_leaf) return;
+    Box box;
+    for (std::int64_t i = part.begin; i < part.end; ++i) box.add(items_[static_cast<std::size_t>(i)].x);
+    const Bins bins(box);
+    std::array<std::uint32_t, n_bins> at{};
+    for (std::int64_t i = part.begin; i < part.end; ++i)
+      ++at[static_cast<std::size_t>(bins(items_[static_cast<std::size_t>(i)]))];
+    std::uint32_t n = 0;
+    for (std::uint32_t &count : at) {
+      const std::uint32_t begin = n;
+      n += count;
+      count = begin;
+    }
+    Item *sorted = buffer_.data() + part.begin;
+    for (std::int64_t i = part.begin; i < part.end; ++i) {
+      const Item &item = items_[static_cast<std::size_t>(i)];
+      sorted[at[static_cast<std::size_t>(bins(item))]++] = item;
+    }
+    std::copy(sorted, sorted + part.size(), items_.begin() + part.begin);
+    for_each_cut(part, [&](const Part &cut) { sort_alone(cut); });
+  }
+
+  // A large part by all threads, in the same order as one would.
+  void sort_together(const Part &part) {
+    const auto n_blocks = static_cast<std::size_t>((part.size() + nodes_per_block - 1) / nodes_per_block);
+    std::vector<Box> boxes(n_blocks);
+    std::vector<std::array<std::uint32_t, n_bins>> at(n_blocks);
+    const auto for_each_block = [&](const auto &visit) {
+      parallel_for_ranges(part.size(), nodes_per_block, n_threads_, [&](const Range &range, int) {
+        visit(static_cast<std::size_t>(range.begin / nodes_per_block), part.begin + range.begin, part.begin + range.end);
+      });
+    };
+    for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) boxes[block].add(items_[static_cast<std::size_t>(i)].x);
+    });
+    Box box;
+    for (const Box &of_block : boxes) box.add(of_block);
+    const Bins bins(box);
+    for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
+      at[block].fill(0);
+      for (std::int64_t i = begin; i < end; ++i)
+        ++at[block][static_cast<std::size_t>(bins(items_[static_cast<std::size_t>(i)]))];
+    });
+    std::uint32_t n = 0;
+    for (std::size_t bin = 0; bin < n_bins; ++bin)
+      for (std::size_t block = 0; block < n_blocks; ++block) {
+        const std::uint32_t count = at[block][bin];
+        at[block][bin] = n;
+        n += count;
+      }
+    for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) {
+        const Item &item = items_[static_cast<std::size_t>(i)];
+        buffer_[static_cast<std::size_t>(part.begin) + at[block][static_cast<std::size_t>(bins(item))]++] = item;
+      }
+    });
+    for_each_block([&](std::size_t, std::int64_t begin, std::int64_t end) {
+      std::copy(buffer_.begin() + begin, buffer_.begin() + end, items_.begin() + begin);
+    });
+  }
+
+  std::vector<Item> items_, buffer_;
+  int n_threads_;
+};
+
+Vec3 node_at(const StridedPoints &nodes, std::int64_t i) { return checked_point(nodes, i, "node", RIIS_INVALID_MESH); }
+
+// Where the mesh's frame is.
+void frame_nodes(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
+  const auto n_blocks = static_cast<std::size_t>((nodes.n + nodes_per_block - 1) / nodes_per_block);
+  struct Extent {
+    Vec3 lower, upper;
+  };
+  std::vector<Extent> extents(n_blocks);
+  parallel_for_ranges(nodes.n, nodes_per_block, n_threads, [&](const Range &range, int) {
+    Extent extent{node_at(nodes, range.begin), node_at(nodes, range.begin)};
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const Vec3 p = node_at(nodes, i);
+      extent.lower = {std::min(extent.lower.x, p.x), std::min(extent.lower.y, p.y), std::min(extent.lower.z, p.z)};
+      extent.upper = {std::max(extent.upper.x, p.x), std::max(extent.upper.y, p.y), std::max(extent.upper.z, p.z)};
+    }
+    extents[static_cast<std::size_t>(range.begin / nodes_per_block)] = extent;
+  });
+  Extent all = extents.front();
+  for (const Extent &e : extents) {
+    all.lower = {std::min(all.lower.x, e.lower.x), std::min(all.lower.y, e.lower.y), std::min(all.lower.z, e.lower.z)};
+    all.upper = {std::max(all.upper.x, e.upper.x), std::max(all.upper.y, e.upper.y), std::max(all.upper.z, e.upper.z)};
+  }
+  clusters.centre = 0.5 * all.lower + 0.5 * all.upper;
+  const Vec3 extent = 0.5 * all.upper - 0.5 * all.lower;
+  int exponent = 0;
+  std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
+  clusters.scale = std::ldexp(1.0, -exponent);
+}
+
+void put_box(const Box &box, Boxes &boxes, std::int64_t at) {
+  for (int i = 0; i < 3; ++i) {
+    boxes.lower[i][at] = box.lower[i];
+    boxes.upper[i][at] = box.upper[i];
+  }
+}
+
+Box box_of(const Boxes &boxes) {
+  Box box;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 16; ++k) {
+      box.lower[i] = std::min(box.lower[i], boxes.lower[i][k]);
+      box.upper[i] = std::max(box.upper[i], boxes.upper[i][k]);
+    }
+  return box;
+}
+
+// The box of lanes that there are not: far from everything, finite.
+Boxes no_boxes() {
+  Boxes boxes;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 16; ++k) boxes.lower[i][k] = infinity, boxes.upper[i][k] = -infinity;
+  return boxes;
+}
+
+std::int64_t n_of(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
+
+// Fills leaves by item_of(position), which says node and coordinates in the mesh's frame; then the boxes.
+template <class ItemOf>
+void fill(Clusters &clusters, int n_threads, const ItemOf &item_of) {
+  const auto n_leaves = static_cast<std::size_t>(n_of(clusters.n_nodes, nodes_per_leaf));
+  const auto n_clusters = static_cast<std::size_t>(n_of(clusters.n_nodes, nodes_per_cluster));
+  clusters.leaves.resize(n_leaves);
+  clusters.clusters.resize(n_clusters);
+  clusters.regions.resize(static_cast<std::size_t>(n_of(static_cast<std::int64_t>(n_clusters), Clusters::clusters_per_region)));
+  clusters.boxes.resize(clusters.regions.size());
+  parallel_for(static_cast<std::int64_t>(clusters.regions.size()), n_threads, [&](std::int64_t r, int) {
+    Boxes &region = clusters.regions[static_cast<std::size_t>(r)];
+    region = no_boxes();
+    const Range of_region = clusters.clusters_of(r);
+    for (std::int64_t c = of_region.begin; c < of_region.end; ++c) {
+      Boxes &cluster = clusters.clusters[static_cast<std::size_t>(c)];
+      cluster = no_boxes();
+      const Range of_cluster = clusters.leaves_of(c);
+      for (std::int64_t l = of_cluster.begin; l < of_cluster.end; ++l) {
+        Leaf &leaf = clusters.leaves[static_cast<std::size_t>(l)];
+        const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
+        Box box;
+        for (int i = 0; i < nodes_per_leaf; ++i) {
+          const Item item = item_of(std::min(first + i, last));
+          leaf.x[i] = item.x[0], leaf.y[i] = item.x[1], leaf.z[i] = item.x[2];
+          leaf.node[i] = item.node;
+          box.add(item.x);
+        }
+        put_box(box, cluster, l - of_cluster.begin);
+      }
+      put_box(box_of(cluster), region, c - of_region.begin);
+    }
+    const Box box = box_of(region);
+    Clusters::Box &whole = clusters.boxes[static_cast<std::size_t>(r)];
+    std::copy(box.lower, box.lower + 3, whole.lower);
+    std::copy(box.upper, box.upper + 3, whole.upper);
+  });
+}
+
+Item item_at(const StridedPoints &nodes, const Clusters &clusters, std::int64_t node) {
+  const Vec3 p = clusters.scale * (node_at(nodes, node) - clusters.centre);
+  return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, static_cast<std::uint32_t>(node)};
+}
+
+}  // namespace
+
+Range Clusters::leaves_of(std::int64_t cluster) const {
+  const std::int64_t begin = cluster * leaves_per_cluster;
+  return {begin, std::min(begin + leaves_per_cluster, static_cast<std::int64_t>(leaves.size()))};
+}
+
+Range Clusters::clusters_of(std::int64_t region) const {
+  const std::int64_t begin = region * clusters_per_region;
+  return {begin, std::min(begin + clusters_per_region, static_cast<std::int64_t>(clusters.size()))};
+}
+
+int Clusters::n_nodes_of(std::int64_t leaf) const {
+  return static_cast<int>(std::min<std::int64_t>(nodes_per_leaf, n_nodes - leaf * nodes_per_leaf));
+}
+
+void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
+  frame_nodes(nodes, n_threads, clusters);
+  std::vector<Item> items(static_cast<std::size_t>(nodes.n));
+  parallel_for_ranges(nodes.n, nodes_per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i)
+      items[static_cast<std::size_t>(i)] = item_at(nodes, clusters, i);
+  });
+  Sorter sorter(std::move(items), n_threads);
+  const std::vector<Item> &sorted = sorter.sort();
+  clusters.n_nodes = nodes.n;
+  fill(clusters, n_threads, [&](std::int64_t i) { return sorted[static_cast<std::size_t>(i)]; });
+}
+
+void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
+  frame_nodes(nodes, n_threads, clusters);
+  const std::vector<Leaf> &leaves = clusters.leaves;
+  fill(clusters, n_threads, [&](std::int64_t i) {
+    const Leaf &leaf = leaves[static_cast<std::size_t>(i / nodes_per_leaf)];
+    return item_at(nodes, clusters, leaf.node[i % nodes_per_leaf]);
+  });
+}
+
+}  // namespace riis

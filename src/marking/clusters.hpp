@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mesh's nodes in leaves of 32 near ones, 16 leaves to a cluster, 16 clusters to a region, each with a box: what a search can dismiss
+// together. Made once for a mesh; when nodes move the order stays and places and boxes are made again.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/strided.hpp"
+#include "kernels/kernels.hpp"
+#include "parallel/range.hpp"
+
+namespace riis {
+
+struct Clusters {
+  static constexpr std::int64_t clusters_per_region = 16;
+
+  std::int64_t n_nodes = 0;
+  // Coordinates in leaves and boxes are (x - centre) * scale, scale a power of two that brings them between -1 and 1.
+  Vec3 centre{0, 0, 0};
+  double scale = 1;
+  std::vector<Leaf> leaves;
+  std::vector<Boxes> clusters;  // the boxes of its leaves
+  std::vector<Boxes> regions;   // the boxes of its clusters
+  struct Box {
+    float lower[3], upper[3];
+  };
+  std::vector<Box> boxes;  // of regions
+
+  Range leaves_of(std::int64_t cluster) const;
+  Range clusters_of(std::int64_t region) const;
+  int n_nodes_of(std::int64_t leaf) const;
+};
+
+// More nodes than have numbers in a leaf.
+inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
+
+// Both fail with RIIS_INVALID_MESH for a coordinate that is not finite. Clusters of no nodes are none yet.
+void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
+// The nodes of the clusters where they are now.
+void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
+
+}  // namespace riis

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/triangle_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Centroid {
+  float at[3];
+  std::int32_t triangle;
+};
+
+// Halves the triangles along the longest side of their centroids' box, at a multiple of the size of groups, until there are groups.
+template <class Visit>
+void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
+  if (n <= triangles_per_group) {
+    visit(centroids, static_cast<int>(n));
+    return;
+  }
+  float lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) lower[i] = upper[i] = centroids[0].at[i];
+  for (std::int64_t k = 1; k < n; ++k)
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], centroids[k].at[i]);
+      upper[i] = std::max(upper[i], centroids[k].at[i]);
+    }
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (upper[i] - lower[i] > upper[axis] - lower[axis]) axis = i;
+  const std::int64_t n_groups = (n + triangles_per_group - 1) / triangles_per_group;
+  const std::int64_t n_left = (n_groups + 1) / 2 * triangles_per_group;
+  std::nth_element(centroids, centroids + n_left, centroids + n, [axis](const Centroid &a, const Centroid &b) {
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.triangle < b.triangle;
+  });
+  for_each_group(centroids, n_left, visit);
+  for_each_group(centroids + n_left, n - n_left, visit);
+}
+
+}  // namespace
+
+Frame::Frame(const Bounds &bounds) {
+  centre = 0.5 * bounds.lower + 0.5 * bounds.upper;
+  const Vec3 extent = bounds.upper - bounds.lower;
+  int exponent = 0;
+  std::frexp(0.5 * std::max({extent.x, extent.y, extent.z}), &exponent);
+  scale = std::ldexp(1.0, -exponent);
+}
+
+float round_down(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafterf(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float round_up(double x) { return -round_down(-x); }
+
+Bounds bounds_of(const TriangleSet &set) {
+  Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for (const std::int64_t id : set.vertex_id) {
+    const Vec3 p = set.vertex(id);
+    bounds.lower = {std::min(bounds.lower.x, p.x), std::min(bounds.lower.y, p.y), std::min(bounds.lower.z, p.z)};
+    bounds.upper = {std::max(bounds.upper.x, p.x), std::max(bounds.upper.y, p.y), std::max(bounds.upper.z, p.z)};
+  }
+  return bounds;
+}
+
+void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping) {
+  std::vector<Centroid> centroids;
+  centroids.reserve(static_cast<std::size_t>(end - begin));
+  const Vec3 origin = set.corners(static_cast<std::size_t>(begin))[0];
+  double largest = 0;
+  for (std::int32_t i = begin; i < end; ++i)
+    for (const Vec3 p : set.corners(static_cast<std::size_t>(i))) {
+      const Vec3 q = p - origin;
+      largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    }
+  // Between -3 and 3, whatever the unit is.
+  const double scale = largest > 0 ? 1 / largest : 0;
+  for (std::int32_t i = begin; i < end; ++i) {
+    Vec3 sum{0, 0, 0};
+    for (const Vec3 p : set.corners(static_cast<std::size_t>(i))) sum = sum + scale * (p - origin);
+    centroids.push_back({{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, i});
+  }
+  for_each_group(centroids.data(), static_cast<std::int64_t>(centroids.size()), [&](Centroid *members, int n) {
+    std::sort(members, members + n, [](const Centroid &a, const Centroid &b) { return a.triangle < b.triangle; });
+    for (int i = 0; i < n; ++i) grouping.order.push_back(members[i].triangle);
+    grouping.end.push_back(static_cast<std::int32_t>(grouping.order.size()));
+  });
+}
+
+TriangleGroups::TriangleGroups(const TriangleSet &set, const Frame &surface_frame, int n_threads)
+    : frame(surface_frame), corners(9 * set.n_triangles()) {
+  const std::vector<std::int32_t> &end = set.grouping.end;
+  groups.resize(end.size());
+  bounds.resize(end.size());
+  const Kernels &simd = kernels(best_instruction_set());
+  constexpr std::int64_t groups_per_block = 64;
+  parallel_for_ranges(static_cast<std::int64_t>(end.size()), groups_per_block, n_threads, [&](const Range &range, int) {
+    for (auto g = static_cast<std::size_t>(range.begin); g < static_cast<std::size_t>(range.end); ++g) {
+      const std::int32_t first = g == 0 ? 0 : end[g - 1];
+      GroupBounds &of_group = bounds[g];
+      of_group.n = end[g] - first;
+      double framed[9 * triangles_per_group];
+      for (int i = 0; i < of_group.n; ++i) {
+        const std::int32_t triangle = set.grouping.order[static_cast<std::size_t>(first + i)];
+        of_group.triangle[i] = triangle;
+        double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle), *to = framed + 9 * i;
+        for (const Vec3 p : set.corners(static_cast<std::size_t>(triangle))) {
+          const Vec3 q = frame(p);
+          as_is[0] = p.x, as_is[1] = p.y, as_is[2] = p.z;
+          to[0] = q.x, to[1] = q.y, to[2] = q.z;
+          as_is += 3, to += 3;
+        }
+      }
+      simd.make_group(framed, groups[g], of_group);
+    }
+  });
+}
+
+}  // namespace riis

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Neighbouring triangles in groups of up to 16, as the filters take them (kernels/kernels.hpp).
+// In: a triangle set. Out: groups in the surface's frame, their bounds, and all corners as they are.
+#pragma once
+
+#include <vector>
+
+#include "kernels/kernels.hpp"
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+
+struct Bounds {
+  Vec3 lower, upper;
+};
+
+// Coordinates relative to the surface: (x - centre) * scale, scale a power of two that makes the surface's half extent
+// from 1/2 to 1. Both operations are right to rounding of their result.
+struct Frame {
+  Vec3 centre;
+  double scale;
+
+  explicit Frame(const Bounds &bounds);
+  Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
+};
+
+// Rounded to single precision towards minus and plus infinity.
+float round_down(double x);
+float round_up(double x);
+
+// The bounds of the corners that triangles use.
+Bounds bounds_of(const TriangleSet &set);
+
+// What the filters' distances in the surface's frame may be off by (docs/theory.md, section 8), for points that were in a frame
+// `ratio` times as large and moved by `shift`, and for distances up to `reach`.
+inline float filter_error(double ratio, double shift, double reach) {
+  return static_cast<float>(0x1p-18 * (ratio + shift + 2 + reach));
+}
+
+// Groups the triangles from begin to end - 1 of a set by where they are, and adds the groups.
+void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
+
+struct TriangleGroups {
+  Frame frame;
+  std::vector<double> corners;  // (3, 3, n_triangles), as they are
+  std::vector<TriangleGroup> groups;
+  std::vector<GroupBounds> bounds;
+
+  TriangleGroups(const TriangleSet &set, const Frame &frame, int n_threads);
+};
+
+}  // namespace riis
