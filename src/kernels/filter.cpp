@@ -108,6 +108,33 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats
   for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
 }
 
+RIIS_INLINE void swap_groups(const LeafTask &leaf, int32_t i, int32_t k) {
+  const int32_t group = leaf.near_groups[i];
+  leaf.near_groups[i] = leaf.near_groups[k];
+  leaf.near_groups[k] = group;
+  for (int h = 0; h < halves; ++h) {
+    float *a = leaf.lower_bounds + nodes_per_leaf * i + 16 * h, *b = leaf.lower_bounds + nodes_per_leaf * k + 16 * h;
+    const Floats of_a = Floats::load(a);
+    Floats::load(b).store(a);
+    of_a.store(b);
+  }
+}
+
+// The groups that are nearest to the leaf as a whole to the front: what is near is found before what need not be looked at then.
+RIIS_INLINE void nearest_first(const LeafTask &leaf) {
+  constexpr int32_t n_first = 4;
+  for (int32_t i = 0; i < n_first && i + 1 < leaf.n_groups; ++i) {
+    int32_t nearest = i;
+    float least_sum = __builtin_inff();
+    for (int32_t k = i; k < leaf.n_groups; ++k) {
+      const float *bounds = leaf.lower_bounds + nodes_per_leaf * k;
+      const float sum = sum_of_lanes(Floats::load(bounds) + Floats::load(bounds + 16));
+      if (sum < least_sum) least_sum = sum, nearest = k;
+    }
+    if (nearest != i) swap_groups(leaf, i, nearest);
+  }
+}
+
 RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, int32_t k) {
   uint32_t near = 0;
   for (int h = 0; h < halves; ++h) {
@@ -133,6 +160,7 @@ int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, 
   uint32_t rest = leaf.rest;
   if (k == 0 && rest == 0) {
     begin_leaf(task, leaf, p);
+    nearest_first(leaf);
     rest = leaf.n_groups > 0 ? nodes_near(task, leaf, 0) : 0;
   }
   const Floats margin = Floats::all(task.margin);

@@ -58,7 +58,7 @@ struct LeafTask {
   const Leaf *leaf;
   int32_t first_node;         // its place in the cluster
   uint32_t wanted;            // a bit a node
-  const int32_t *near_groups;
+  int32_t *near_groups;       // in any order; left in another
   int32_t n_groups;
   float *lower_bounds;        // room for nodes_per_leaf * n_groups, aligned
   int32_t next_group;         // 0 at first; n_groups when done

@@ -13,6 +13,18 @@ namespace {
 
 typedef Collection::Clustered Clustered;
 
+// The mesh's frame in the surface's.
+struct Placing {
+  double ratio;
+  Vec3 shift;
+  double largest_shift;
+
+  Placing(const Clusters &clusters, const Frame &frame)
+      : ratio(frame.scale / clusters.scale),
+        shift(frame.scale * (clusters.centre - frame.centre)),
+        largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
+};
+
 class ClusterSearch {
  public:
   ClusterSearch(const SearchRequest &request, Collection &collection)
@@ -25,18 +37,19 @@ class ClusterSearch {
         collection_(collection),
         own_(collection.clustered) {
     const Frame &frame = groups_.frame;
-    const double ratio = frame.scale / clusters_.scale;
-    const Vec3 shift = frame.scale * (clusters_.centre - frame.centre);
+    const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
-    const double error = filter_error(ratio, std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)}), limit);
+    // With the rounding of the decision's distances.
+    const double error =
+        filter_error(placing.ratio, placing.largest_shift, limit) + 4 * scene_.rounding() * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
-    task_.ratio = static_cast<float>(ratio);
-    task_.shift[0] = static_cast<float>(shift.x);
-    task_.shift[1] = static_cast<float>(shift.y);
-    task_.shift[2] = static_cast<float>(shift.z);
+    task_.ratio = static_cast<float>(placing.ratio);
+    task_.shift[0] = static_cast<float>(placing.shift.x);
+    task_.shift[1] = static_cast<float>(placing.shift.y);
+    task_.shift[2] = static_cast<float>(placing.shift.z);
     task_.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
     task_.tolerance = static_cast<float>(8 * error * (limit + 2 * error));
-    task_.margin = static_cast<float>(error);
+    task_.margin = static_cast<float>(0.5 * error);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
     collection.prepare(request.n_threads);
@@ -215,6 +228,15 @@ class ClusterSearch {
 };
 
 }  // namespace
+
+bool can_search_clusters(const SearchRequest &request) {
+  if (request.mesh.nodes().n > max_clustered_nodes) return false;
+  const Frame &frame = request.surface.scene().groups().frame;
+  const Placing placing(request.mesh.clusters(request.n_threads), frame);
+  constexpr double large = 0x1p20;
+  return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large &&
+         request.distance_limit * frame.scale <= large;
+}
 
 SearchReport search_clusters(const SearchRequest &request, Collection &collection) {
   ClusterSearch search(request, collection);

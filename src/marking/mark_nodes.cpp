@@ -10,12 +10,12 @@
 namespace riis {
 namespace {
 
-// The library's choice is what was fastest where it was measured (docs/performance.md): a walk asks the same near nodes, and
-// more for its proof.
+// The clusters, once they pay for themselves; a single marking asks the nodes one by one.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
-  if (asked_for == RIIS_SEARCH_AUTO) return RIIS_SEARCH_EXHAUSTIVE;
-  const bool has_adjacency = request.mesh.adjacency().has_value();
-  if ((asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER) && !has_adjacency)
+  if (asked_for == RIIS_SEARCH_AUTO) asked_for = request.mesh.pays_for_clusters() ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+  if (asked_for == RIIS_SEARCH_CLUSTERS && !can_search_clusters(request)) return RIIS_SEARCH_EXHAUSTIVE;
+  const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
+  if (walks && !request.mesh.adjacency().has_value())
     fail(RIIS_INVALID_ARGUMENT,
          "options.search is %d, which walks along the mesh's adjacency, but the mesh has none: "
          "see riis_mesh_set_adjacency",

@@ -8,6 +8,7 @@ void Mesh::set_nodes(const StridedPoints &nodes) {
     adjacency_.reset();
     groups_.order.clear();
     clusters_.n_nodes = 0;
+    was_marked_.store(false, std::memory_order_relaxed);
   }
   nodes_ = nodes;
   forget_places();

@@ -37,6 +37,11 @@ class Mesh {
   // The same in clusters, for at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
 
+  // Counts a marking of these nodes; true if it is not the first, or if clusters are there already: then they pay.
+  bool pays_for_clusters() const {
+    return has_clusters_.load(std::memory_order_relaxed) || was_marked_.exchange(true, std::memory_order_relaxed);
+  }
+
  private:
   StridedPoints nodes_;
   std::optional<Adjacency> adjacency_;
@@ -45,7 +50,7 @@ class Mesh {
   mutable std::atomic<bool> has_groups_{false};
   mutable std::mutex clusters_mutex_;
   mutable Clusters clusters_;
-  mutable std::atomic<bool> has_clusters_{false};
+  mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
 };
 
 }  // namespace riis

@@ -34,6 +34,10 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
 // Clusters of nodes that the surface may be near to, filtered in single precision, sixteen at a time (docs/theory.md, section 8).
 SearchReport search_clusters(const SearchRequest &request, Collection &collection);
 
+// False where single precision does not separate what is near from what is far, since the mesh is a million times as large as the
+// surface, far from it, or smaller than it, or the limit is that large; and for more nodes than fit (max_clustered_nodes).
+bool can_search_clusters(const SearchRequest &request);
+
 // From neighbour to neighbour, and what is not reached is proven far (paper, 4.2.2 "Recursive neighbor search";
 // docs/theory.md, section 7). `last` are nodes to begin with, such as those of the last marking. The mesh has an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,

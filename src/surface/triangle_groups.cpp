@@ -95,7 +95,10 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 
 TriangleGroups::TriangleGroups(const TriangleSet &set, const Frame &surface_frame, int n_threads)
     : frame(surface_frame), corners(9 * set.n_triangles()) {
-  const std::vector<std::int32_t> &end = set.grouping.end;
+  Grouping by_place;
+  if (set.grouping.end.empty()) group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), by_place);
+  const Grouping &grouping = set.grouping.end.empty() ? by_place : set.grouping;
+  const std::vector<std::int32_t> &end = grouping.end;
   groups.resize(end.size());
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
@@ -107,7 +110,7 @@ TriangleGroups::TriangleGroups(const TriangleSet &set, const Frame &surface_fram
       of_group.n = end[g] - first;
       double framed[9 * triangles_per_group];
       for (int i = 0; i < of_group.n; ++i) {
-        const std::int32_t triangle = set.grouping.order[static_cast<std::size_t>(first + i)];
+        const std::int32_t triangle = grouping.order[static_cast<std::size_t>(first + i)];
         of_group.triangle[i] = triangle;
         double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle), *to = framed + 9 * i;
         for (const Vec3 p : set.corners(static_cast<std::size_t>(triangle))) {

@@ -31,10 +31,10 @@ float round_up(double x);
 // The bounds of the corners that triangles use.
 Bounds bounds_of(const TriangleSet &set);
 
-// What the filters' distances in the surface's frame may be off by (docs/theory.md, section 8), for points that were in a frame
-// `ratio` times as large and moved by `shift`, and for distances up to `reach`.
+// What the filters' distances in the surface's frame may be off by (docs/theory.md, section 8): for points that were in a frame
+// `ratio` times as large and moved by `shift`, up to `reach` from the surface.
 inline float filter_error(double ratio, double shift, double reach) {
-  return static_cast<float>(0x1p-18 * (ratio + shift + 2 + reach));
+  return static_cast<float>(0x1p-18 * (ratio + shift + 4 + reach));
 }
 
 // Groups the triangles from begin to end - 1 of a set by where they are, and adds the groups.

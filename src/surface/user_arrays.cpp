@@ -5,7 +5,6 @@
 
 #include "api/integer_array.hpp"
 #include "api/log.hpp"
-#include "surface/triangle_groups.hpp"
 
 namespace riis {
 namespace {
@@ -106,7 +105,6 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
   }
   set.patch_id.assign(set.triangle_id.size(), 0);
   if (set.n_triangles() == 0) fail(RIIS_INVALID_SURFACE, "none of the %lld faces has any area", ll{arrays.n_faces});
-  group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), set.grouping);
   if (set.n_zero_area > 0)
     log_message(RIIS_LOG_WARNING, "%lld of %lld triangles have zero area and were left out", ll{set.n_zero_area},
                 ll{arrays.n_faces * halves});
