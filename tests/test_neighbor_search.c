@@ -558,7 +558,8 @@ static void auto_is_never_incomplete(void **state) {
   assert_int_equal(stats_of(result).search, RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(stats_of(result).complete, 1);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_int_equal(stats_of(result).search, RIIS_SEARCH_EXHAUSTIVE);
+  assert_int_equal(stats_of(result).search, RIIS_SEARCH_CLUSTERS);
+  assert_int_equal(stats_of(result).complete, 1);
   options.search = RIIS_SEARCH_NEIGHBOR;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   assert_int_equal(stats_of(result).search, RIIS_SEARCH_NEIGHBOR);
@@ -567,7 +568,7 @@ static void auto_is_never_incomplete(void **state) {
   assert_int_equal(stats_of(result).search, RIIS_SEARCH_EXHAUSTIVE);
   CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_int_equal(stats_of(result).search, RIIS_SEARCH_EXHAUSTIVE);
+  assert_int_equal(stats_of(result).search, RIIS_SEARCH_CLUSTERS);
   assert_int_equal(stats_of(result).complete, 1);
   assert_int_equal(stats_of(result).n_unreached, 0);
   options.search = 4;

@@ -360,6 +360,7 @@ static struct totals {
   int64_t meshes[n_kinds], markings, nodes, pairs, pairs_within, marked, undecided;
   int64_t different_bits, different_distances, different_marks, incomplete;
   int64_t unreached, most_threads;
+  int64_t by_instructions[RIIS_INSTRUCTIONS_AVX512 + 1]; /* markings over clusters */
   double largest; /* error, relative to the coordinates */
 } totals;
 
@@ -410,6 +411,28 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   free_brute_force(&b);
 }
 
+/* The clusters by every instruction set that there is: the exhaustive search's result, bit by bit. */
+static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *asked,
+                             const riis_mark_result *exhaustive, riis_mark_result *clustered) {
+  riis_mark_options options = *asked;
+  options.search = RIIS_SEARCH_CLUSTERS;
+  for (options.instructions = RIIS_INSTRUCTIONS_BASELINE; options.instructions <= RIIS_INSTRUCTIONS_AVX512; ++options.instructions) {
+    options.n_threads = (int32_t)random_integer(1, 4);
+    const riis_status status = riis_mark_nodes(surface, mesh, &options, clustered);
+    if (status == RIIS_UNAVAILABLE) continue;
+    CHECK_OK(status);
+    const riis_mark_stats stats = stats_of(clustered);
+    assert_int_equal(stats.search, RIIS_SEARCH_CLUSTERS);
+    assert_int_equal(stats.instructions, options.instructions);
+    ++totals.by_instructions[options.instructions];
+    totals.incomplete += stats.complete != 1;
+    if (same_results(clustered, exhaustive)) continue;
+    ++totals.different_bits;
+    printf("clusters, instructions %d, %lld nodes: %lld within the limit instead of %lld\n", options.instructions,
+           (long long)stats.n_nodes, (long long)stats.n_within_limit, (long long)stats_of(exhaustive).n_within_limit);
+  }
+}
+
 static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   shape s = random_shape();
   riis_surface *surface = NULL;
@@ -432,7 +455,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   place(&where, &nodes);
 
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *neighbor = new_result(), *exhaustive = new_result();
+  riis_mark_result *neighbor = new_result(), *exhaustive = new_result(), *clustered = new_result();
   uint8_t *mask = NULL;
   for (int64_t step = 0, n_steps = random_integer(1, 4); step < n_steps; ++step) {
     update_surface(&surface, &s, &options);
@@ -468,16 +491,18 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
              kind_names[kind], (long long)nodes.n, (long long)step, limit, mask != NULL,
              (long long)stats.n_within_limit, (long long)stats_of(exhaustive).n_within_limit);
     }
+    compare_clusters(surface, mesh, &marking, exhaustive, clustered);
     ++totals.markings;
     totals.nodes += nodes.n;
     totals.marked += stats.n_marked;
     totals.unreached += stats.n_unreached;
-    compare_with_brute_force(surface, &nodes, mask, neighbor, limit, n_compared);
+    compare_with_brute_force(surface, &nodes, mask, one_in(2) ? neighbor : clustered, limit, n_compared);
   }
   ++totals.meshes[kind];
   free(mask);
   riis_mark_result_destroy(&neighbor);
   riis_mark_result_destroy(&exhaustive);
+  riis_mark_result_destroy(&clustered);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   free_shape(&s);
@@ -502,6 +527,9 @@ static void random_cases_equal_brute_force(void **state) {
       "bit, %lld not complete\n",
       (long long)totals.markings, (long long)totals.nodes, (long long)totals.marked, (long long)totals.unreached,
       (long long)totals.most_threads, (long long)totals.different_bits, (long long)totals.incomplete);
+  printf("%lld markings over clusters by the baseline's instructions, %lld by AVX2, %lld by AVX-512\n",
+         (long long)totals.by_instructions[RIIS_INSTRUCTIONS_BASELINE], (long long)totals.by_instructions[RIIS_INSTRUCTIONS_AVX2],
+         (long long)totals.by_instructions[RIIS_INSTRUCTIONS_AVX512]);
   printf(
       "%lld pairs of node and surface by brute force, %lld within the limit: %lld distances and %lld marks differ; "
       "%lld too close to "

@@ -395,6 +395,12 @@ RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const do
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride);
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
+/* Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does: the order of its nodes in clusters,
+ * about 17 bytes a node while the handle lives, about 32 more while they are made. After riis_mesh_update with as many nodes the order
+ * stays, and only places are made again. Nothing if it is there already.
+ *   n_threads  1 to 1024, or 0: the processors the calling thread may use
+ * Errors: RIIS_INVALID_MESH for a coordinate that was made non-finite since it was given. */
+RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* Which nodes are neighbours, as compressed sparse rows: those of node i are columns[offsets[i]] to columns[offsets[i + 1] - 1], less
  * the base. Filled by its init function; then set what there is. */
@@ -482,8 +488,8 @@ RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 
 /* How nodes are sought. */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* the library's choice, never incomplete: in this release the exhaustive search, which was the faster
-                                 one nearly everywhere it was measured (docs/performance.md) */
+  RIIS_SEARCH_AUTO = 0,       /* the library's choice, never incomplete: clusters from the second marking of a mesh on, or once it is
+                                 prepared; the exhaustive search for the first, which would not pay for them */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* every node is asked (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* from marked nodes to their neighbours (paper, algorithm "Recursive neighbor search"), started from
                                  the nodes that the result last had, or in every group of nodes that the surface may be near to;
@@ -493,7 +499,19 @@ enum {
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: one start, the node nearest to the first
                                  triangle's first vertex; only marked nodes pass it on. Misses what is not connected to that, and never says
                                  complete. The mesh must have an adjacency */
-  RIIS_SEARCH_CLUSTERS = 4
+  RIIS_SEARCH_CLUSTERS = 4    /* nodes in clusters, made by riis_mesh_prepare or the first such search of a mesh; clusters that the
+                                 surface may be near to are filtered in single precision, sixteen at a time, and decided in double
+                                 (docs/theory.md, section 8). Complete, needs no adjacency. Where single precision cannot tell near
+                                 from far, since the mesh or the limit is a million times as large as the surface, or the mesh as far
+                                 away, and for 2^32 nodes and more, the exhaustive search runs in its place, as stats.search says */
+};
+
+/* Which instructions of the processor a marking uses. All give the same bits. */
+enum {
+  RIIS_INSTRUCTIONS_AUTO = 0,     /* the best that there are */
+  RIIS_INSTRUCTIONS_BASELINE = 1, /* of every processor that the library was built for: SSE2 on x86-64 */
+  RIIS_INSTRUCTIONS_AVX2 = 2,     /* and FMA */
+  RIIS_INSTRUCTIONS_AVX512 = 3    /* F, DQ, BW, VL */
 };
 
 typedef struct riis_mark_options {
@@ -504,6 +522,9 @@ typedef struct riis_mark_options {
                                 out have finite coordinates, too */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* 1 to 1024, or 0, the default: the processors the calling thread may use */
+  int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default RIIS_INSTRUCTIONS_AUTO. Those that the
+                                processor has not are refused with RIIS_UNAVAILABLE */
+  int32_t reserved;          /* 0 */
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size);
 
@@ -555,6 +576,8 @@ typedef struct riis_mark_stats {
   int32_t reserved;
   int64_t n_unreached;  /* nodes within the limit that the neighbour search did not reach from neighbour to neighbour, and that
                            its proof found */
+  int32_t instructions; /* those that were used, never RIIS_INSTRUCTIONS_AUTO */
+  int32_t reserved_2;
 } riis_mark_stats;
 /* struct_size is sizeof(riis_mark_stats) of the caller; no more than that is written. */
 RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size);

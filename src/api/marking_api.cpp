@@ -14,7 +14,8 @@ namespace {
 // Sizes of the first release.
 constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64;
 
-const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0};
+const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0,
+                                           RIIS_INSTRUCTIONS_AUTO, 0};
 
 const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
 const riis_cells default_cells{sizeof(riis_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
@@ -38,6 +39,16 @@ riis::StridedPoints checked_nodes(const riis::StridedPoints &nodes) {
 void check_search(std::int32_t search) {
   if (search < RIIS_SEARCH_AUTO || search > RIIS_SEARCH_CLUSTERS)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", search);
+}
+
+riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
+  if (instructions < RIIS_INSTRUCTIONS_AUTO || instructions > RIIS_INSTRUCTIONS_AVX512)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.instructions is %d; it must be one of RIIS_INSTRUCTIONS_*", instructions);
+  if (instructions == RIIS_INSTRUCTIONS_AUTO) return riis::best_instruction_set();
+  const auto set = static_cast<riis::InstructionSet>(instructions - RIIS_INSTRUCTIONS_BASELINE);
+  if (!riis::has(set))
+    riis::fail(RIIS_UNAVAILABLE, "options.instructions is %d, which this processor has not", instructions);
+  return set;
 }
 
 void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **node_id, const double **distance,
@@ -68,6 +79,17 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     content.forget_places();  // they moved, whether or not what they moved to is accepted
     content.set_nodes(checked_nodes({n_nodes, x, y, z, stride}));
+  });
+}
+
+riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
+  return guarded([&] {
+    const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
+    const int n = riis::threads_asked_for(n_threads, "n_threads");
+    if (content.nodes().n > riis::max_clustered_nodes)
+      riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of %lld nodes is not made clusters of: at most %lld",
+                 static_cast<long long>(content.nodes().n), static_cast<long long>(riis::max_clustered_nodes));
+    content.clusters(n);
   });
 }
 
@@ -154,8 +176,10 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     require_handle(result, "result");
     const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
     const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
-                                      riis::threads_asked_for(whole.n_threads, "options.n_threads")};
+                                      riis::threads_asked_for(whole.n_threads, "options.n_threads"),
+                                      instructions_asked_for(whole.instructions)};
     check_search(whole.search);
+    riis::check_reserved("options.reserved", whole.reserved);
     riis::mark_nodes(request, whole.search, result->result);
   });
 }

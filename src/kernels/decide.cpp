@@ -32,8 +32,17 @@ RIIS_INLINE Doubles magnitude(Doubles a) {
 }
 RIIS_INLINE Doubles root(Doubles a) {
   Doubles r;
-  for (int i = 0; i < Doubles::n_registers; ++i)
+  for (int i = 0; i < Doubles::n_registers; ++i) {
+#if defined(__AVX512F__)
+    r.part[i] = (DoubleRegister)_mm512_sqrt_pd((__m512d)a.part[i]);
+#elif defined(__AVX2__)
+    r.part[i] = (DoubleRegister)_mm256_sqrt_pd((__m256d)a.part[i]);
+#elif defined(__SSE2__)
+    r.part[i] = (DoubleRegister)_mm_sqrt_pd((__m128d)a.part[i]);
+#else
     for (int j = 0; j < Doubles::per_register; ++j) r.part[i][j] = __builtin_sqrt(a.part[i][j]);
+#endif
+  }
   return r;
 }
 
@@ -106,13 +115,16 @@ void decide(int32_t n, const int32_t *point, const int32_t *triangle, const doub
   }
 }
 
-void put(Doubles x, float *to) {
-  alignas(64) double numbers[Doubles::n];
-  x.store(numbers);
-  for (int lane = 0; lane < Doubles::n; ++lane) to[lane] = static_cast<float>(numbers[lane]);
+typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
+
+RIIS_INLINE void put(Doubles x, float *to) {
+  for (int i = 0; i < Doubles::n_registers; ++i) {
+    const HalfRegister single = __builtin_convertvector(x.part[i], HalfRegister);
+    __builtin_memcpy(to + i * Doubles::per_register, &single, sizeof single);
+  }
 }
 
-void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
+RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.x, to[0] + from);
   put(v.y, to[1] + from);
   put(v.z, to[2] + from);

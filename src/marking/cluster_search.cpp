@@ -33,7 +33,7 @@ class ClusterSearch {
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
         clusters_(request.mesh.clusters(request.n_threads)),
-        kernels_(kernels(best_instruction_set())),
+        kernels_(kernels(request.instructions)),
         collection_(collection),
         own_(collection.clustered) {
     const Frame &frame = groups_.frame;

@@ -33,7 +33,7 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
           const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
           if (!scene.may_be_within(p, limit)) continue;
           ++n_queries_here;
-          const ClosestTriangle closest = scene.closest(p, limit);
+          const ClosestTriangle closest = scene.closest(p, limit, request.instructions);
           if (closest.triangle >= 0) found.push_back({i, std::sqrt(closest.distance_sq), closest.triangle});
         }
         n_queries.fetch_add(n_queries_here, std::memory_order_relaxed);

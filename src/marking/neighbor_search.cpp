@@ -76,7 +76,7 @@ class NeighborSearch {
         const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
         if (!scene_.may_be_within(ball.centre, within)) return false;
         ++own.n_queries;
-        const ClosestTriangle closest = scene_.closest(ball.centre, within);
+        const ClosestTriangle closest = scene_.closest(ball.centre, within, request_.instructions);
         distance = std::sqrt(closest.distance_sq);
         return closest.triangle >= 0;
       };
@@ -141,7 +141,7 @@ class NeighborSearch {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!scene_.may_be_within(p, limit_)) return false;
     ++walked_.threads[static_cast<std::size_t>(thread)].n_queries;
-    const ClosestTriangle closest = scene_.closest(p, limit_);
+    const ClosestTriangle closest = scene_.closest(p, limit_, request_.instructions);
     if (closest.triangle < 0) return false;
     collection_.by_thread[static_cast<std::size_t>(thread)].push_back(
         {node, std::sqrt(closest.distance_sq), closest.triangle});

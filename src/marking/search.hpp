@@ -15,6 +15,7 @@ struct SearchRequest {
   double distance_limit;
   const std::uint8_t *node_mask;  // or null
   int n_threads;
+  InstructionSet instructions;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
 };

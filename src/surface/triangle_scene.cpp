@@ -66,7 +66,6 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 struct TriangleScene::Implementation {
   TriangleGroups groups;
   double rounding;  // the scene's rounding_ in the frame's units
-  const Kernels *kernels;
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device;
   Scene scene;
 };
@@ -75,6 +74,7 @@ namespace {
 
 struct Query {
   const TriangleScene::Implementation *in;
+  const Kernels *kernels;
   Vec3 p;  // the point as it is
   Vec3 q;  // and in the frame
   double largest;  // a bound of q's coordinates and of distances that matter
@@ -111,7 +111,7 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   float distance_sq[triangles_per_group];
   const float error = filter_error(1, 0, query.largest) + static_cast<float>(4 * query.in->rounding);
   const float point[3] = {static_cast<float>(query.q.x), static_cast<float>(query.q.y), static_cast<float>(query.q.z)};
-  query.in->kernels->group_distances(groups.groups[arguments->primID], point, error, distance_sq);
+  query.kernels->group_distances(groups.groups[arguments->primID], point, error, distance_sq);
   const float reach = arguments->query->radius + 2 * error;
   bool is_closer = false;
   for (int i = 0; i < bounds.n; ++i)
@@ -142,7 +142,7 @@ TriangleScene::TriangleScene(const TriangleSet &set, int n_threads)
     : bounds_(bounds_of(set)), rounding_(rounding_of_distances(bounds_)) {
   const Frame frame(bounds_);
   implementation_ = std::make_unique<Implementation>(
-      Implementation{TriangleGroups(set, frame, n_threads), rounding_ * frame.scale, &kernels(best_instruction_set()), shared_device(), nullptr});
+      Implementation{TriangleGroups(set, frame, n_threads), rounding_ * frame.scale, shared_device(), nullptr});
   Implementation &in = *implementation_;
 
   const RTCDevice device = in.device.get();
@@ -175,12 +175,12 @@ bool TriangleScene::may_be_within(Vec3 p, double limit) const {
   return distance <= limit * (1 + 1e-12) + rounding_;
 }
 
-ClosestTriangle TriangleScene::closest(Vec3 p, double limit) const {
+ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet instructions) const {
   const Implementation &in = *implementation_;
   const Frame &frame = in.groups.frame;
   const Vec3 q = frame(p);
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  Query query{&in, p, q, largest, {infinity, -1}};
+  Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}};
   if (!(largest <= far_away)) {
     // Also where the frame's units overflow. The surface is farther than its own size: most limits end here.
     if (!may_be_within(p, limit)) return {infinity, -1};

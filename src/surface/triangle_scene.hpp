@@ -25,7 +25,7 @@ class TriangleScene {
 
   // The closest triangle to p, if its distance is at most limit (>= 0, may be infinite); triangle -1 if there is none.
   // p is finite with coordinates up to max_coordinate. May be called by several threads at once.
-  ClosestTriangle closest(Vec3 p, double limit) const;
+  ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set()) const;
 
   // False only where no triangle is within the limit of p: a cheap question to the bounds, in double.
   bool may_be_within(Vec3 p, double limit) const;
