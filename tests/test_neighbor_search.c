@@ -571,8 +571,8 @@ static void auto_is_never_incomplete(void **state) {
   assert_int_equal(stats_of(result).search, RIIS_SEARCH_CLUSTERS);
   assert_int_equal(stats_of(result).complete, 1);
   assert_int_equal(stats_of(result).n_unreached, 0);
-  options.search = 4;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 4", riis_mark_nodes(surface, mesh, &options, result));
+  options.search = 5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 5", riis_mark_nodes(surface, mesh, &options, result));
   options.search = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is -1", riis_mark_nodes(surface, mesh, &options, result));
   riis_mark_result_destroy(&result);
