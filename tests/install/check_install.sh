@@ -29,6 +29,9 @@ examples=(first_marking prosthesis opening_valve csr_from_elements openmp_caller
 declare -A more_flags=([opening_valve]=-lm [openmp_caller]=-fopenmp)
 expected=$source/tests/install/expected
 
+# In the order that a compiler wants them in.
+fortran_modules=(riis_c.f90 riis_support.f90 riis_valves.f90 riis_surfaces.f90 riis_meshes.f90 riis_marking.f90 riis.f90)
+
 configure_consumer() { # source directory, build directory, prefix, more options
   local arguments=(-DCMAKE_PREFIX_PATH="$3" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX"
     -DCMAKE_C_FLAGS="${c_flags[*]}")
@@ -118,10 +121,11 @@ check_by_pkg_config() { # prefix, more pkg-config options
   rm -rf "$out"
   mkdir -p "$out"
   local example file more
-  # As with a compiler that cannot read the module file: from the installed source, once.
+  local include
+  include=$(dirname "$(find "$1" -name riis.h)")
+  # As with a compiler that cannot read the module files: from the installed sources.
   if has Fortran; then
-    # shellcheck disable=SC2046
-    (cd "$out" && quietly "$FC" "${fortran_flags[@]}" -c "$(find "$1" -name riis_c.f90)")
+    (cd "$out" && quietly "$FC" "${fortran_flags[@]}" -c "${fortran_modules[@]/#/$include/}")
   fi
   for example in "${examples[@]}"; do
     file=$source/examples/$example
@@ -134,7 +138,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
       quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" $more \
         $(flags --cflags --libs "${@:2}" riis-fortran)
       # shellcheck disable=SC2046,SC2086
-      quietly "$FC" "${fortran_flags[@]}" -I "$out" "$file.f90" "$out/riis_c.o" -o "$out/${example}_source" $more \
+      quietly "$FC" "${fortran_flags[@]}" -I "$out" "$file.f90" "$out"/*.o -o "$out/${example}_source" $more \
         $(flags --libs "${@:2}" riis)
     fi
   done
