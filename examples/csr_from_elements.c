@@ -7,8 +7,7 @@
 
 enum { n = 27, n_nodes = n * n * n, n_cells = 6 * (n - 1) * (n - 1) * (n - 1) };
 static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
-static int32_t node_ids[n_cells]
-                       [4]; /* (4, n_cells) in Fortran's order: the four nodes of tetrahedron after tetrahedron */
+static int32_t node_ids[n_cells][4]; /* the nodes of tetrahedron after tetrahedron; node_ids(4, n_cells) in Fortran */
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
@@ -22,8 +21,7 @@ static void make_tetrahedra(void) {
   static const int step[3] = {1, n, n * n};
   int cell = 0;
   for (int node = 0; node < n_nodes; ++node) {
-    if (node % n == n - 1 || node / n % n == n - 1 || node / (n * n) == n - 1)
-      continue; /* the last: no cube begins here */
+    if (node % n == n - 1 || node / n % n == n - 1 || node / (n * n) == n - 1) continue; /* no cube begins here */
     for (int i = 0; i < 6; ++i, ++cell) {
       node_ids[cell][0] = node + 1;
       for (int j = 0; j < 3; ++j) node_ids[cell][j + 1] = node_ids[cell][j] + step[axes[i][j]];

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum { n = 27, plane = n * n, n_nodes = n * plane };
-static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm; for brevity on every rank */
+static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm; here, all on every rank */
 static double distance[n_nodes], by_ranks[n_nodes];
 static int32_t offsets[n_nodes + 1], columns[6 * n_nodes];
 

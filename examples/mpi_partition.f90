@@ -7,7 +7,7 @@ program mpi_partition
   use riis
   implicit none
   integer, parameter :: n = 27, plane = n**2, n_nodes = n * plane
-  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm; for brevity on every rank
+  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm; here, all on every rank
   double precision :: distance(n_nodes), by_ranks(n_nodes)
   integer :: offsets(n_nodes + 1), columns(6 * n_nodes)
   type(riis_valve) :: valve

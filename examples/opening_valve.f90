@@ -5,10 +5,10 @@ program opening_valve
   use riis
   implicit none
   integer, parameter :: n = 37, n_nodes = n**3, n_steps = 5
-  double precision, parameter :: R = 1d4   ! [kg/(m s)] of the model, from its literature or by calibration
+  double precision, parameter :: R = 1d4    ! [kg/(m s)] of the model, from its literature or by calibration
   double precision, parameter :: eps = 1d-3 ! [m] the half thickness
-  double precision :: xyz(3, n_nodes)      ! [m] a cube of 4.5 cm around the valve, a node every 1.25 mm
-  double precision :: resistance(n_nodes)  ! [kg/(m^3 s)] times the flow's velocity relative to the valve: N/m^3 against it
+  double precision :: xyz(3, n_nodes)       ! [m] a cube of 4.5 cm around the valve, a node every 1.25 mm
+  double precision :: resistance(n_nodes)   ! [kg/(m^3 s)] times the flow's velocity relative to the valve: N/m^3 against it
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
@@ -25,14 +25,14 @@ program opening_valve
 
   ! Made once: what they hold is reused by every step.
   call valve%create('mitral')
-  call surface%create(valve, half_thickness=eps, scale=0.01d0) ! scale: centimetres to metres; eps is in the mesh's unit
+  call surface%create(valve, half_thickness=eps, scale=0.01d0) ! centimetres to metres; eps is in the mesh's unit
   call mesh%create(xyz)
 
   allocate (node_num(0))
   do step = 0, n_steps
     resistance(node_num) = 0 ! what the last step set, and no other node
 
-    opening = dble(step) / n_steps ! a curve of time in earnest
+    opening = dble(step) / n_steps ! a solver has a curve of time
     call valve%set('opening', opening)
     call surface%update(valve) ! with the options that it has
     call riis_mark_nodes(surface, mesh, result)

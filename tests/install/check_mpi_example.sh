@@ -19,7 +19,8 @@ export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_defau
 programs=("$build/mpi_partition")
 [[ " $* " != *" Fortran "* ]] || programs+=("$build/mpi_partition_fortran")
 for program in "${programs[@]}"; do
-  printed=$("$MPIEXEC" -n "$n_ranks" "$program" </dev/null)
+  printed=$("$MPIEXEC" -n "$n_ranks" "$program" </dev/null) ||
+    { echo "problem: $program failed; it printed: $printed" >&2; exit 1; }
   diff <(printf '%s\n' "19683 nodes, marked: 823" "$n_ranks ranks, marked: 823, the same nodes and distances") \
     <(printf '%s\n' "$printed") || { echo "problem: $program does not print what it should" >&2; exit 1; }
 done
