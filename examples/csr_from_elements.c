@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 enum { n = 27, n_nodes = n * n * n, n_cells = 6 * (n - 1) * (n - 1) * (n - 1) };
-static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
+static double xyz[3 * n_nodes];      /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
 static int32_t node_ids[n_cells][4]; /* four nodes a tetrahedron; in Fortran node_ids(4, n_cells) */
 
 static void check(riis_status status) {

@@ -33,7 +33,7 @@ program csr_from_elements
   call mark(RIIS_SEARCH_EXHAUSTIVE, 'exhaustive', by_all, node_num_of_all, distance_of_all)
   same = size(node_num) == size(node_num_of_all)
   if (same) same = all(node_num == node_num_of_all) .and. all(abs(distance - distance_of_all) <= 0)
-  print '(2a)', 'nodes and distances: ', merge('the same, bit for bit', 'different            ', same)
+  print '(2a)', 'nodes and distances: ', trim(merge('the same, bit for bit', 'different            ', same))
 
   call by_all%destroy()
   call by_neighbors%destroy()
