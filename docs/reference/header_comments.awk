@@ -3,7 +3,7 @@
 #   comment before a declaration -> /**;  after a field or value -> /**<;  banner of a section -> a group;  the first -> the file's
 #   "  name  text" in a function's comment -> @param;  "Errors: " -> a paragraph;  other indented lines -> verbatim
 function verbatim(on) {
-  if (on != in_verbatim) print(on ? " * @verbatim" : " * @endverbatim")
+  if (on != in_verbatim) print(on ? " * @verbatim" : "@endverbatim")
   in_verbatim = on
 }
 
@@ -72,7 +72,7 @@ kind == "file" || kind == "before" {
   text = $0
   sub(/ *\*\/ *$/, "", text)
   sub(/^ \* ?/, "", text)
-  if (kind == "file") sub(/^riis[a-z_]*\.h - /, "", text)
+  if (kind == "file") if (sub(/^riis[a-z_]*\.h - /, "", text)) text = toupper(substr(text, 1, 1)) substr(text, 2)
   if (!closes || text !~ /^ *$/) text_line(text)
   if (closes) {
     verbatim(0)
