@@ -40,9 +40,13 @@ endif()
 
 if(RIIS_WITH_FORTRAN)
   riis_install_library(riis_fortran)
-  # The source goes beside the module, for those whose Fortran compiler is another one: it is all they have to compile.
-  install(FILES ${PROJECT_SOURCE_DIR}/fortran/riis_c.f90
-    $<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/riis_c.mod DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+  # The sources go beside the modules, for those whose Fortran compiler is another one: they are all they have to compile.
+  get_target_property(riis_fortran_sources riis_fortran SOURCES)
+  foreach(source IN LISTS riis_fortran_sources)
+    install(FILES ${PROJECT_SOURCE_DIR}/fortran/${source} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+  endforeach()
+  install(DIRECTORY $<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis
+    FILES_MATCHING PATTERN *.mod)
 endif()
 
 if(RIIS_BUILD_PROGRAM)
