@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts.sh compare DUMP DESCRIBED [LIBRARY]
 #   The library, built with debug information, fits callers that were compiled with the release that the dump is of: whatever
-#   abidiff finds is an error, but for new functions and for fields appended to structs. With LIBRARY, which has no debug
+#   abidiff finds is an error but for new functions and for fields appended to structs. With LIBRARY, which has no debug
 #   information, the described one must also export what that one does.
 # check_layouts.sh write DUMP DESCRIBED
 #   Makes the dump: the exported functions and the public types, no path of the machine.

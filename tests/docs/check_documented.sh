@@ -73,7 +73,7 @@ headers=(include/riis/riis.h include/riis/riis_vtk.h)
 n=$(names "${headers[@]}" | wc -l)
 missing=$(undocumented "$scratch/all" "${headers[@]}")
 if [ -n "$missing" ]; then
-  printf 'not documented: %s\n' "$missing" >&2
+  sed 's/^/not documented: /' <<<"$missing" >&2
   exit 1
 fi
 

@@ -69,6 +69,11 @@ fortran_fields=$(sed 's/!.*//' "$module" | awk '
   }')
 compare fields "$c_fields" "$fortran_fields"
 
+# What test_layout.f90 compares: the fields that the twin lists; it compares their number and their places.
+listed=$(tr '\n' ' ' <"$(dirname "$0")/c_twin.c" | grep -o -E 'LAYOUT\(riis_[a-z_]*,( *AT\([a-z_]*\),?)*' |
+  awk '{ gsub(/LAYOUT\(|AT\(|[),]/, " "); for (i = 2; i <= NF; ++i) print $1, $i }')
+compare "fields of which the place is tested" "$(cut -d ' ' -f 1,2 <<<"$c_fields")" "$listed"
+
 constants=$(grep -o -E '\bRIIS_[A-Z0-9_]+ = -?[0-9]+' "$header")
 parameters=$(grep -o -E 'integer\([a-z0-9_]*\), parameter :: RIIS_[A-Z0-9_]+ = -?[0-9]+' "$module" | sed 's/.*:: //')
 compare constants "$constants" "$parameters"
