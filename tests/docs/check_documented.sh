@@ -73,7 +73,7 @@ headers=(include/riis/riis.h include/riis/riis_vtk.h)
 n=$(names "${headers[@]}" | wc -l)
 missing=$(undocumented "$scratch/all" "${headers[@]}")
 if [ -n "$missing" ]; then
-  sed 's/^/not documented: /' <<<"$missing" >&2
+  echo "not documented: ${missing//$'\n'/, }" >&2
   exit 1
 fi
 
