@@ -42,7 +42,7 @@ if(RIIS_WITH_FORTRAN)
   riis_install_library(riis_fortran)
   # The sources go beside the modules, for those whose Fortran compiler is another one: they are all they have to compile.
   get_target_property(riis_fortran_sources riis_fortran SOURCES)
-  foreach(source IN LISTS riis_fortran_sources)
+  foreach(source IN LISTS riis_fortran_sources ITEMS riisf.h)
     install(FILES ${PROJECT_SOURCE_DIR}/fortran/${source} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
   endforeach()
   install(DIRECTORY $<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis

@@ -9,6 +9,7 @@ module riis_support
   implicit none
   private
   public :: strided_points, points_of, address_of, text_of
+  public :: c_handle_of, handle_of, location_of
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
 
   !> Where points lie, as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
@@ -127,6 +128,27 @@ contains
     if (n /= expected) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; there are ' // &
       text_of(expected) // ' ' // of)
   end function check_size
+
+  !> A handle as Fortran 77 has it, as C has it.
+  function c_handle_of(handle) result(c_handle)
+    integer(int64), intent(in) :: handle                    !< 0 for none.
+    type(c_ptr) :: c_handle                                 !< c_null_ptr for none.
+    c_handle = transfer(int(handle, c_intptr_t), c_handle)
+  end function c_handle_of
+
+  !> A handle as C has it, as Fortran 77 has it.
+  function handle_of(c_handle) result(handle)
+    type(c_ptr), intent(in) :: c_handle                     !< c_null_ptr for none.
+    integer(int64) :: handle                                !< 0 for none.
+    handle = int(transfer(c_handle, 0_c_intptr_t), int64)
+  end function handle_of
+
+  !> Where an array of a Fortran 77 caller's begins: there TARGET would ask for an explicit interface.
+  function location_of(array) result(location)
+    type(*), intent(in), target :: array(*)                 !< Any kind.
+    type(c_ptr) :: location                                 !< Its first entry.
+    location = c_loc(array)
+  end function location_of
 
   !> The address as a number, for differences.
   function address_of(location) result(address)

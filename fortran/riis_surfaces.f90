@@ -393,6 +393,8 @@ contains
     arrays%index_base = 1
     if (code == RIIS_OK .and. n_corners /= 3 .and. n_corners /= 4) &
       code = refuse('the first extent of vertex_ids is ' // text_of(n_corners) // '; it must be 3 or 4')
+    if (code == RIIS_OK .and. points%n == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no vertices')
+    if (code == RIIS_OK .and. n_faces == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no faces')
     call get_integer(index_base, 'index_base', arrays%index_base, code)
     if (code /= RIIS_OK .or. .not. present(leaflet_id)) return
     code = check_size(size(leaflet_id, kind=int64), n_faces, 'leaflet_id', 'faces')

@@ -136,7 +136,7 @@ contains
     end if
   end subroutine valve_from_patches_int64
 
-  !> Whether there are as many entries as the library will read.
+  ! Whether there are as many entries as the library will read.
   function check_patches(degree, control, curve_id, reversed, leaflet_id) result(code)
     integer(int32), intent(in) :: degree(:)
     real(c_double), intent(in) :: control(:, :)
@@ -161,7 +161,7 @@ contains
       code = check_size(size(leaflet_id, kind=int64), size(curve_id, 2, int64), 'leaflet_id', 'patches')
   end function check_patches
 
-  !> Whether a conversion to integer(int32) changes nothing.
+  ! Whether a conversion to integer(int32) changes nothing.
   function check_fits(values, name) result(code)
     integer(int64), intent(in) :: values(:)
     character(len=*), intent(in) :: name
