@@ -31,6 +31,10 @@ for module in project.modules:
                     if part.permission == "public":
                         look(part, item.name + "%")
 
+for file in project.files:
+    for item in file.functions + file.subroutines:  # external ones
+        look(item)
+
 for source in settings.src_dir:
     for path in sorted(pathlib.Path(source).glob("*.f90")):
         text = re.sub(r"!.*", "", path.read_text())

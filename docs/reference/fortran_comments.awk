@@ -45,6 +45,7 @@ FNR == 1 { plain = FILENAME ~ /riis_c\.f90$/ }
   if ($0 !~ /^ *![!>]     /) { # nor emphasis, but in code
     gsub(/\*_/, "\\*_")
     gsub(/_\*/, "_\\*")
+    gsub(/INTEGER\*/, "INTEGER\\*")
   }
   print
   next
