@@ -12,9 +12,16 @@ module riis_meshes
 
   !> The caller's nodes. The coordinates are borrowed, as are the rows of an adjacency: they are never copied, and must stay
   !! where they are until the mesh is destroyed or given others. So pass variables that outlive it, whole or as sections by
-  !! subscript triplets: not an expression, nor (xyz) in parentheses, nor a section by a vector subscript, which are copies
-  !! that the compiler makes and drops after the call (gfortran -Warray-temporaries shows them), nor a local variable that
-  !! ends or an allocatable that is reallocated. TARGET is not needed.
+  !! subscript triplets, of any positive stride; TARGET is not needed. What the compiler copies for the call is gone after
+  !! it, and the mesh reads what is there instead. It copies
+  !!
+  !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses; sections by vector subscripts;
+  !! - with gfortran also components of arrays of a derived type, such as nodes%x, and pointers to such: pass the first node
+  !!   by nodes(1)%x, nodes(1)%y, nodes(1)%z and a stride instead;
+  !! - sections on their way through an argument of yours that is CONTIGUOUS or of explicit shape.
+  !!
+  !! gfortran shows them with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Equally bad are local
+  !! variables that end, and allocatables that are reallocated.
   !!
   !! Empty until %create, and again after %destroy, which has to be called. May be read by any number of threads at once; is
   !! written by one with no reader beside it.
@@ -23,8 +30,10 @@ module riis_meshes
     type(c_ptr) :: handle = c_null_ptr
     integer(int64) :: n = 0
   contains
-    generic :: create => create_xyz, create_x_y_z                       !< Borrows coordinates.
-    generic :: update => update_xyz, update_x_y_z                       !< Tells that the coordinates moved.
+    generic :: create => create_xyz, create_x_y_z, create_first_int32, create_first_int64
+                                                                        !< Borrows coordinates.
+    generic :: update => update_xyz, update_x_y_z, update_first_int32, update_first_int64
+                                                                        !< Tells that the coordinates moved.
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, &
       adjacency_int64_int64, adjacency_handle                  !< Gives what the neighbour search walks along.
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes it away.
@@ -38,6 +47,10 @@ module riis_meshes
     procedure, private, non_overridable :: create_x_y_z => mesh_create_x_y_z
     procedure, private, non_overridable :: update_xyz => mesh_update_xyz
     procedure, private, non_overridable :: update_x_y_z => mesh_update_x_y_z
+    procedure, private, non_overridable :: create_first_int32 => mesh_create_first_int32
+    procedure, private, non_overridable :: create_first_int64 => mesh_create_first_int64
+    procedure, private, non_overridable :: update_first_int32 => mesh_update_first_int32
+    procedure, private, non_overridable :: update_first_int64 => mesh_update_first_int64
     procedure, private, non_overridable :: adjacency_int32_int32 => mesh_adjacency_int32_int32
     procedure, private, non_overridable :: adjacency_int32_int64 => mesh_adjacency_int32_int64
     procedure, private, non_overridable :: adjacency_int64_int32 => mesh_adjacency_int64_int32
@@ -74,6 +87,38 @@ contains
     call finish(code, status)
   end subroutine mesh_create_x_y_z
 
+  !> The same for coordinates in an array of a derived type, or wherever else they lie at equal distances:
+  !! call mesh%create(size(nodes), nodes(1)%x, nodes(1)%y, nodes(1)%z, storage_size(nodes) / storage_size(nodes(1)%x)). No
+  !! compiler can check that there are so many.
+  subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    integer(int32), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int32), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call create_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_create_first_int32
+
+  !> The same for integer(int64).
+  subroutine mesh_create_first_int64(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    integer(int64), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int64), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call create_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_create_first_int64
+
   !> Tells the mesh that the coordinates moved, in place or to another array, and checks them again. To be called after any
   !! change of coordinates. The adjacency stays if the number of nodes does. Errors as of %create.
   subroutine mesh_update_xyz(this, xyz, status)
@@ -101,7 +146,37 @@ contains
     call finish(code, status)
   end subroutine mesh_update_x_y_z
 
-  ! What both specifics of create have in common; does nothing after an error.
+  !> The same for coordinates in an array of a derived type.
+  subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    integer(int32), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int32), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_update_first_int32
+
+  !> The same for integer(int64).
+  subroutine mesh_update_first_int64(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    integer(int64), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int64), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_update_first_int64
+
+  ! What all specifics of create have in common; does nothing after an error.
   subroutine create_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
