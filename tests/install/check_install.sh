@@ -24,6 +24,10 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
+# The installed Fortran sources, in the order in which they use each other.
+fortran_sources=(riis_c riis_support riis_valves riis_surfaces riis_adjacencies riis_meshes riis_marking riis
+  riis_f77 riis_f77_adjacency riis_f77_marking)
+
 examples=(first_marking prosthesis)
 
 configure_consumer() { # source directory, build directory, prefix, more options
@@ -121,6 +125,17 @@ check_by_pkg_config() { # prefix, more pkg-config options
   rm -rf "$out"
   mkdir -p "$out"
   local example file
+  if has Fortran; then
+    # As with a compiler that cannot read the module files: from the installed sources.
+    file=$(dirname "$(find "$1" -name riis_c.f90)")
+    for example in "${fortran_sources[@]}"; do
+      quietly "$FC" "${fortran_flags[@]}" -J "$out" -c "$file/$example.f90" -o "$out/$example.o"
+    done
+    # As codes without modules.
+    # shellcheck disable=SC2046
+    quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" -o "$out/test_f77" \
+      $(flags --cflags --libs "${@:2}" riis-fortran)
+  fi
   for example in "${examples[@]}"; do
     file=$source/examples/$example
     # The flags are words.
@@ -130,9 +145,8 @@ check_by_pkg_config() { # prefix, more pkg-config options
       # shellcheck disable=SC2046
       quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" \
         $(flags --cflags --libs "${@:2}" riis-fortran)
-      # As with a compiler that cannot read the module file: from the installed source.
       # shellcheck disable=SC2046
-      quietly "$FC" "${fortran_flags[@]}" -J "$out" "$(find "$1" -name riis_c.f90)" "$file.f90" \
+      quietly "$FC" "${fortran_flags[@]}" -I "$out" "$file.f90" "$out"/*.o \
         -o "$out/${example}_source" $(flags --libs "${@:2}" riis)
     fi
   done
@@ -144,6 +158,9 @@ check_by_pkg_config() { # prefix, more pkg-config options
       compare_example "$example" "$out/$example" "$out/${example}_source"
     fi
   done
+  if has Fortran; then
+    quietly "$out/test_f77"
+  fi
   if has VTK && [ "$kind" = shared ]; then
     # shellcheck disable=SC2046
     quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
@@ -181,6 +198,13 @@ prefix=$work/prefix
 
 quietly "$CMAKE" --install "$build" --prefix "$prefix"
 (cd "$prefix" && find . | sort) >"$work/files.txt"
+if has Fortran; then
+  { printf '%s.f90\n' "${fortran_sources[@]}" && echo riisf.h; } | sort >"$work/fortran_files.txt"
+  (cd "$source/fortran" && printf '%s\n' *.f90 *.h | sort) | diff "$work/fortran_files.txt" - ||
+    problem "this script does not know all Fortran sources"
+  (cd "$(dirname "$(find "$prefix" -name riis_c.f90)")" && printf '%s\n' *.f90 riisf.h | sort) |
+    diff "$work/fortran_files.txt" - || problem "not all Fortran sources are installed"
+fi
 if [ "$kind" = shared ]; then
   grep -q '/libriis\.so$' "$work/files.txt" || problem "no libriis.so is installed"
 else
