@@ -38,7 +38,8 @@
 !!   the rows of an adjacency, are borrowed beyond the call: see riis_mesh. Other arrays are used during the call only, and
 !!   are copied for it where their argument is CONTIGUOUS and a section is not, or where it says so.
 !! - Threads. An object may be read (intent(in)) by any number of threads at once; it is written by one with no reader beside
-!!   it. Different objects never interfere. Results are bitwise the same for any number of threads.
+!!   it. Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region,
+!!   declare a thread's own objects in a procedure that it calls or in a BLOCK: copies by PRIVATE gfortran leaves undefined.
 !! - With compiler options that change the default kinds (-fdefault-integer-8), logical arguments need the kind that this
 !!   module was compiled with.
 module riis
@@ -55,7 +56,8 @@ module riis
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
   use riis_surfaces, only: riis_surface
-  use riis_meshes, only: riis_mesh, riis_adjacency
+  use riis_adjacencies, only: riis_adjacency
+  use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_mark_result, riis_mark_nodes
   implicit none
   private

@@ -18,26 +18,26 @@ module riis_marking
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    procedure :: n_marked => result_n_marked                   !< How many nodes are marked.
-    procedure :: n_within_limit => result_n_within_limit       !< How many nodes are within the distance limit.
-    procedure :: marked => result_marked                       !< Pointers to the marked nodes' arrays.
-    procedure :: within_limit => result_within_limit           !< Pointers to those of the nodes within the distance limit.
-    generic :: marked_nodes => marked_int32, marked_int64      !< Copies of the marked nodes, counted from 1.
-    generic :: nodes_within_limit => within_int32, within_int64 !< Copies of those within the limit, counted from 1.
-    generic :: dense => dense_int8, dense_int32, dense_logical !< One entry a node, into the caller's arrays.
-    procedure :: get_stats => result_get_stats                 !< How the last marking went.
-    procedure :: is_created => result_is_created               !< Whether there is anything in it.
-    procedure :: c_handle => result_c_handle                   !< For calls of riis_c.
-    procedure :: destroy => result_destroy                     !< Frees what it holds.
-    generic :: assignment(=) => assign                         !< Refused: a handle cannot be copied.
-    procedure, private :: assign => result_assign
-    procedure, private :: marked_int32 => result_marked_int32
-    procedure, private :: marked_int64 => result_marked_int64
-    procedure, private :: within_int32 => result_within_int32
-    procedure, private :: within_int64 => result_within_int64
-    procedure, private :: dense_int8 => result_dense_int8
-    procedure, private :: dense_int32 => result_dense_int32
-    procedure, private :: dense_logical => result_dense_logical
+    procedure, non_overridable :: n_marked => result_n_marked           !< How many nodes are marked.
+    procedure, non_overridable :: n_within_limit => result_n_within_limit !< How many nodes are within the distance limit.
+    procedure, non_overridable :: marked => result_marked               !< Pointers to the marked nodes' arrays.
+    procedure, non_overridable :: within_limit => result_within_limit   !< The same of those within the distance limit.
+    generic :: marked_nodes => marked_int32, marked_int64               !< Copies of the marked nodes, counted from 1.
+    generic :: nodes_within_limit => within_int32, within_int64         !< Copies of those within the limit, counted from 1.
+    generic :: dense => dense_int8, dense_int32, dense_logical          !< One entry a node, into the caller's arrays.
+    procedure, non_overridable :: get_stats => result_get_stats         !< How the last marking went.
+    procedure, non_overridable :: is_created => result_is_created       !< Whether there is anything in it.
+    procedure, non_overridable :: c_handle => result_c_handle           !< For calls of riis_c.
+    procedure, non_overridable :: destroy => result_destroy             !< Frees what it holds.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => result_assign
+    procedure, private, non_overridable :: marked_int32 => result_marked_int32
+    procedure, private, non_overridable :: marked_int64 => result_marked_int64
+    procedure, private, non_overridable :: within_int32 => result_within_int32
+    procedure, private, non_overridable :: within_int64 => result_within_int64
+    procedure, private, non_overridable :: dense_int8 => result_dense_int8
+    procedure, private, non_overridable :: dense_int32 => result_dense_int32
+    procedure, private, non_overridable :: dense_logical => result_dense_logical
   end type riis_mark_result
 
   !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit.

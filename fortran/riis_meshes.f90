@@ -1,57 +1,27 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Meshes and adjacencies: the part of module riis that is riis_mesh_* and riis_adjacency_* in riis.h.
+!> Meshes: the part of module riis that is riis_mesh_* in riis.h.
 module riis_meshes
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c
+  use riis_adjacencies, only: riis_adjacency
   use riis_support
   implicit none
   private
-  public :: riis_mesh, riis_adjacency
-
-  !> Which nodes are neighbours, made from what solvers have: cells, faces or a structured grid. Empty until one of the
-  !! creations, and again after %destroy, which has to be called. May be read by any number of threads at once.
-  type :: riis_adjacency
-    private
-    type(c_ptr) :: handle = c_null_ptr
-  contains
-    generic :: create_from_cells => cells_int32_int32, cells_int32_int64, cells_int64_int32, cells_int64_int64, &
-      mixed_int32_int32, mixed_int32_int64, mixed_int64_int32, mixed_int64_int64
-                                                               !< Cells by their nodes.
-    generic :: create_from_faces => faces_int32_int32, faces_int32_int64, faces_int64_int32, faces_int64_int64, &
-      owner_int32_int32, owner_int32_int64, owner_int64_int32, owner_int64_int64
-                                                               !< Faces between cells.
-    generic :: create_from_grid => grid_int32, grid_int64      !< A structured grid.
-    procedure :: is_created => adjacency_is_created            !< Whether there is anything in it.
-    procedure :: c_handle => adjacency_c_handle                !< For calls of riis_c.
-    procedure :: destroy => adjacency_destroy                  !< Frees what it holds.
-    generic :: assignment(=) => assign                         !< Refused: a handle cannot be copied.
-    procedure, private :: assign => adjacency_assign
-    procedure, private :: cells_int32_int32 => adjacency_cells_int32_int32
-    procedure, private :: cells_int32_int64 => adjacency_cells_int32_int64
-    procedure, private :: cells_int64_int32 => adjacency_cells_int64_int32
-    procedure, private :: cells_int64_int64 => adjacency_cells_int64_int64
-    procedure, private :: mixed_int32_int32 => adjacency_mixed_int32_int32
-    procedure, private :: mixed_int32_int64 => adjacency_mixed_int32_int64
-    procedure, private :: mixed_int64_int32 => adjacency_mixed_int64_int32
-    procedure, private :: mixed_int64_int64 => adjacency_mixed_int64_int64
-    procedure, private :: faces_int32_int32 => adjacency_faces_int32_int32
-    procedure, private :: faces_int32_int64 => adjacency_faces_int32_int64
-    procedure, private :: faces_int64_int32 => adjacency_faces_int64_int32
-    procedure, private :: faces_int64_int64 => adjacency_faces_int64_int64
-    procedure, private :: owner_int32_int32 => adjacency_owner_int32_int32
-    procedure, private :: owner_int32_int64 => adjacency_owner_int32_int64
-    procedure, private :: owner_int64_int32 => adjacency_owner_int64_int32
-    procedure, private :: owner_int64_int64 => adjacency_owner_int64_int64
-    procedure, private :: grid_int32 => adjacency_grid_int32
-    procedure, private :: grid_int64 => adjacency_grid_int64
-  end type riis_adjacency
+  public :: riis_mesh
 
   !> The caller's nodes. The coordinates are borrowed, as are the rows of an adjacency: they are never copied, and must stay
   !! where they are until the mesh is destroyed or given others. So pass variables that outlive it, whole or as sections by
-  !! subscript triplets: not an expression, nor (xyz) in parentheses, nor a section by a vector subscript, which are copies
-  !! that the compiler makes and drops after the call (gfortran -Warray-temporaries shows them), nor a local variable that
-  !! ends or an allocatable that is reallocated. TARGET is not needed.
+  !! subscript triplets, of any positive stride; TARGET is not needed. What the compiler copies for the call is gone after
+  !! it, and the mesh reads what is there instead. It copies
+  !!
+  !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses; sections by vector subscripts;
+  !! - with gfortran also components of arrays of a derived type, such as nodes%x, and pointers to such: pass the first node
+  !!   by nodes(1)%x, nodes(1)%y, nodes(1)%z and a stride instead;
+  !! - sections on their way through an argument of yours that is CONTIGUOUS or of explicit shape.
+  !!
+  !! gfortran shows them with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Equally bad are local
+  !! variables that end, and allocatables that are reallocated.
   !!
   !! Empty until %create, and again after %destroy, which has to be called. May be read by any number of threads at once; is
   !! written by one with no reader beside it.
@@ -60,26 +30,32 @@ module riis_meshes
     type(c_ptr) :: handle = c_null_ptr
     integer(int64) :: n = 0
   contains
-    generic :: create => create_xyz, create_x_y_z              !< Borrows coordinates.
-    generic :: update => update_xyz, update_x_y_z              !< Tells that the coordinates moved.
+    generic :: create => create_xyz, create_x_y_z, create_first_int32, create_first_int64
+                                                                        !< Borrows coordinates.
+    generic :: update => update_xyz, update_x_y_z, update_first_int32, update_first_int64
+                                                                        !< Tells that the coordinates moved.
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, &
       adjacency_int64_int64, adjacency_handle                  !< Gives what the neighbour search walks along.
-    procedure :: clear_adjacency => mesh_clear_adjacency       !< Takes it away.
-    procedure :: n_nodes => mesh_n_nodes                       !< How many nodes.
-    procedure :: is_created => mesh_is_created                 !< Whether there is anything in it.
-    procedure :: c_handle => mesh_c_handle                     !< For calls of riis_c.
-    procedure :: destroy => mesh_destroy                       !< Frees what it holds; the coordinates are the caller's.
-    generic :: assignment(=) => assign                         !< Refused: a handle cannot be copied.
-    procedure, private :: assign => mesh_assign
-    procedure, private :: create_xyz => mesh_create_xyz
-    procedure, private :: create_x_y_z => mesh_create_x_y_z
-    procedure, private :: update_xyz => mesh_update_xyz
-    procedure, private :: update_x_y_z => mesh_update_x_y_z
-    procedure, private :: adjacency_int32_int32 => mesh_adjacency_int32_int32
-    procedure, private :: adjacency_int32_int64 => mesh_adjacency_int32_int64
-    procedure, private :: adjacency_int64_int32 => mesh_adjacency_int64_int32
-    procedure, private :: adjacency_int64_int64 => mesh_adjacency_int64_int64
-    procedure, private :: adjacency_handle => mesh_adjacency_handle
+    procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes it away.
+    procedure, non_overridable :: n_nodes => mesh_n_nodes               !< How many nodes.
+    procedure, non_overridable :: is_created => mesh_is_created         !< Whether there is anything in it.
+    procedure, non_overridable :: c_handle => mesh_c_handle             !< For calls of riis_c.
+    procedure, non_overridable :: destroy => mesh_destroy               !< Frees what it holds, not the coordinates.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => mesh_assign
+    procedure, private, non_overridable :: create_xyz => mesh_create_xyz
+    procedure, private, non_overridable :: create_x_y_z => mesh_create_x_y_z
+    procedure, private, non_overridable :: update_xyz => mesh_update_xyz
+    procedure, private, non_overridable :: update_x_y_z => mesh_update_x_y_z
+    procedure, private, non_overridable :: create_first_int32 => mesh_create_first_int32
+    procedure, private, non_overridable :: create_first_int64 => mesh_create_first_int64
+    procedure, private, non_overridable :: update_first_int32 => mesh_update_first_int32
+    procedure, private, non_overridable :: update_first_int64 => mesh_update_first_int64
+    procedure, private, non_overridable :: adjacency_int32_int32 => mesh_adjacency_int32_int32
+    procedure, private, non_overridable :: adjacency_int32_int64 => mesh_adjacency_int32_int64
+    procedure, private, non_overridable :: adjacency_int64_int32 => mesh_adjacency_int64_int32
+    procedure, private, non_overridable :: adjacency_int64_int64 => mesh_adjacency_int64_int64
+    procedure, private, non_overridable :: adjacency_handle => mesh_adjacency_handle
   end type riis_mesh
 
 contains
@@ -111,6 +87,38 @@ contains
     call finish(code, status)
   end subroutine mesh_create_x_y_z
 
+  !> The same for coordinates in an array of a derived type, or wherever else they lie at equal distances:
+  !! call mesh%create(size(nodes), nodes(1)%x, nodes(1)%y, nodes(1)%z, storage_size(nodes) / storage_size(nodes(1)%x)). No
+  !! compiler can check that there are so many.
+  subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    integer(int32), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int32), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call create_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_create_first_int32
+
+  !> The same for integer(int64).
+  subroutine mesh_create_first_int64(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    integer(int64), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int64), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call create_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_create_first_int64
+
   !> Tells the mesh that the coordinates moved, in place or to another array, and checks them again. To be called after any
   !! change of coordinates. The adjacency stays if the number of nodes does. Errors as of %create.
   subroutine mesh_update_xyz(this, xyz, status)
@@ -138,7 +146,37 @@ contains
     call finish(code, status)
   end subroutine mesh_update_x_y_z
 
-  ! What both specifics of create have in common; does nothing after an error.
+  !> The same for coordinates in an array of a derived type.
+  subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    integer(int32), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int32), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_update_first_int32
+
+  !> The same for integer(int64).
+  subroutine mesh_update_first_int64(this, n_nodes, x, y, z, stride, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    integer(int64), intent(in) :: n_nodes                    !< >= 1.
+    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< Of the first node.
+    real(c_double), intent(in), target :: z                 !< Of the first node.
+    integer(int64), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
+    call finish(code, status)
+  end subroutine mesh_update_first_int64
+
+  ! What all specifics of create have in common; does nothing after an error.
   subroutine create_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -319,8 +357,8 @@ contains
     type(riis_csr) :: csr
     integer(riis_status) :: code
     code = check_created(this%handle, 'the mesh')
-    if (code == RIIS_OK) code = check_created(adjacency%handle, 'adjacency')
-    if (code == RIIS_OK) code = riis_adjacency_csr(adjacency%handle, csr, c_sizeof(csr))
+    if (code == RIIS_OK) code = check_created(adjacency%c_handle(), 'adjacency')
+    if (code == RIIS_OK) code = riis_adjacency_csr(adjacency%c_handle(), csr, c_sizeof(csr))
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle, csr)
     call finish(code, status)
   end subroutine mesh_adjacency_handle
@@ -341,473 +379,6 @@ contains
     integer(int64) :: n                                     !< 0 for an empty one.
     n = this%n
   end function mesh_n_nodes
-
-  !> Makes the adjacency of cells that all have the same number of nodes: neighbours are nodes that an edge of a cell joins.
-  !! What a cell is, its number of nodes says: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron, in VTK's order. The array is
-  !! read during the call only; a section that is not contiguous is copied for it. Errors: RIIS_INVALID_ARGUMENT for an
-  !! argument out of range, RIIS_INVALID_MESH naming the cell, counted from 0, and its value.
-  subroutine adjacency_cells_int32_int32(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    the_cells%n_cells = size(cells, 2, int64)
-    the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
-    the_cells%id_bits = storage_size(cells)
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_cells_int32_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_cells_int32_int64(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    the_cells%n_cells = size(cells, 2, int64)
-    the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
-    the_cells%id_bits = storage_size(cells)
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_cells_int32_int64
-
-  !> The same for other kinds.
-  subroutine adjacency_cells_int64_int32(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    the_cells%n_cells = size(cells, 2, int64)
-    the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
-    the_cells%id_bits = storage_size(cells)
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_cells_int64_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_cells_int64_int64(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    the_cells%n_cells = size(cells, 2, int64)
-    the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
-    the_cells%id_bits = storage_size(cells)
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_cells_int64_int64
-
-  !> The same of mixed cells, one after the other; the nodes of cell i are node_ids(offsets(i) : offsets(i + 1) - 1) where
-  !! offsets begins with 1.
-  subroutine adjacency_mixed_int32_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
-    integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    n = size(offsets, kind=int64)
-    if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
-      'than the cells, of which there is at least 1')
-    if (code == RIIS_OK) then
-      code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
-      the_cells%n_cells = n - 1
-      the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
-      the_cells%id_bits = storage_size(node_ids)
-    end if
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_mixed_int32_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_mixed_int32_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
-    integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    n = size(offsets, kind=int64)
-    if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
-      'than the cells, of which there is at least 1')
-    if (code == RIIS_OK) then
-      code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
-      the_cells%n_cells = n - 1
-      the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
-      the_cells%id_bits = storage_size(node_ids)
-    end if
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_mixed_int32_int64
-
-  !> The same for other kinds.
-  subroutine adjacency_mixed_int64_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
-    integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    n = size(offsets, kind=int64)
-    if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
-      'than the cells, of which there is at least 1')
-    if (code == RIIS_OK) then
-      code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
-      the_cells%n_cells = n - 1
-      the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
-      the_cells%id_bits = storage_size(node_ids)
-    end if
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_mixed_int64_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_mixed_int64_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
-    integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
-    integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_cells) :: the_cells
-    integer(riis_status) :: code
-    integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
-    n = size(offsets, kind=int64)
-    if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
-      'than the cells, of which there is at least 1')
-    if (code == RIIS_OK) then
-      code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
-      the_cells%n_cells = n - 1
-      the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
-      the_cells%id_bits = storage_size(node_ids)
-    end if
-    call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_mixed_int64_int64
-
-  ! Whether offsets asks for no more nodes than there are.
-  function check_nodes_of_cells(n_asked_for, n) result(code)
-    integer(int64), intent(in) :: n_asked_for, n
-    integer(riis_status) :: code
-    code = RIIS_OK
-    if (n_asked_for > n) code = refuse('offsets asks for ' // text_of(n_asked_for) // ' nodes of cells; node_ids has ' // &
-      text_of(n) // ' entries')
-  end function check_nodes_of_cells
-
-  ! What all specifics of create_from_cells have in common; does nothing after an error.
-  subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
-    class(riis_adjacency), intent(inout) :: this
-    integer(int64), intent(in) :: n_nodes
-    type(riis_cells), intent(inout) :: cells
-    class(*), intent(in), optional :: index_base, n_threads
-    integer(riis_status), intent(inout) :: code
-    cells%n_nodes = n_nodes
-    cells%index_base = 1
-    call get_integer(index_base, 'index_base', cells%index_base, code)
-    call get_integer(n_threads, 'n_threads', cells%n_threads, code)
-    if (code == RIIS_OK) code = check_not_created(this%handle, 'the adjacency')
-    if (code == RIIS_OK) code = riis_adjacency_create_from_cells(cells, this%handle)
-  end subroutine create_from_cells
-
-  !> Makes the adjacency of cells with common faces, for codes that mark cell centres. The array is read during the call
-  !! only; a section that is not contiguous is copied for it. Errors as of %create_from_cells.
-  subroutine adjacency_faces_int32_int32(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
-                                                            !! index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
-      code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
-    faces%n_faces = size(face_cells, 2, int64)
-    faces%stride = 2
-    faces%id_bits = storage_size(face_cells)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(face_cells(1, 1))
-      faces%neighbor = c_loc(face_cells(2, 1))
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_faces_int32_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_faces_int32_int64(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
-                                                            !! index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
-      code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
-    faces%n_faces = size(face_cells, 2, int64)
-    faces%stride = 2
-    faces%id_bits = storage_size(face_cells)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(face_cells(1, 1))
-      faces%neighbor = c_loc(face_cells(2, 1))
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_faces_int32_int64
-
-  !> The same for other kinds.
-  subroutine adjacency_faces_int64_int32(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
-                                                            !! index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
-      code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
-    faces%n_faces = size(face_cells, 2, int64)
-    faces%stride = 2
-    faces%id_bits = storage_size(face_cells)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(face_cells(1, 1))
-      faces%neighbor = c_loc(face_cells(2, 1))
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_faces_int64_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_faces_int64_int64(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
-                                                            !! index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
-      code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
-    faces%n_faces = size(face_cells, 2, int64)
-    faces%stride = 2
-    faces%id_bits = storage_size(face_cells)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(face_cells(1, 1))
-      faces%neighbor = c_loc(face_cells(2, 1))
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_faces_int64_int64
-
-  !> The same with both sides of a face in arrays of their own.
-  subroutine adjacency_owner_int32_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
-    integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
-    faces%n_faces = size(owner, kind=int64)
-    faces%id_bits = storage_size(owner)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(owner)
-      faces%neighbor = c_loc(neighbor)
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_owner_int32_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_owner_int32_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
-    integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
-    faces%n_faces = size(owner, kind=int64)
-    faces%id_bits = storage_size(owner)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(owner)
-      faces%neighbor = c_loc(neighbor)
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_owner_int32_int64
-
-  !> The same for other kinds.
-  subroutine adjacency_owner_int64_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
-    integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
-    faces%n_faces = size(owner, kind=int64)
-    faces%id_bits = storage_size(owner)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(owner)
-      faces%neighbor = c_loc(neighbor)
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_owner_int64_int32
-
-  !> The same for other kinds.
-  subroutine adjacency_owner_int64_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
-    integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
-    integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    type(riis_faces) :: faces
-    integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
-    if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
-    faces%n_faces = size(owner, kind=int64)
-    faces%id_bits = storage_size(owner)
-    if (code == RIIS_OK .and. faces%n_faces > 0) then
-      faces%owner = c_loc(owner)
-      faces%neighbor = c_loc(neighbor)
-    end if
-    call create_from_faces(this, int(n_cells, int64), faces, index_base, n_threads, code)
-    call finish(code, status)
-  end subroutine adjacency_owner_int64_int64
-
-  ! What all specifics of create_from_faces have in common; does nothing after an error.
-  subroutine create_from_faces(this, n_cells, faces, index_base, n_threads, code)
-    class(riis_adjacency), intent(inout) :: this
-    integer(int64), intent(in) :: n_cells
-    type(riis_faces), intent(inout) :: faces
-    class(*), intent(in), optional :: index_base, n_threads
-    integer(riis_status), intent(inout) :: code
-    faces%n_cells = n_cells
-    faces%index_base = 1
-    call get_integer(index_base, 'index_base', faces%index_base, code)
-    call get_integer(n_threads, 'n_threads', faces%n_threads, code)
-    if (code == RIIS_OK) code = check_not_created(this%handle, 'the adjacency')
-    if (code == RIIS_OK) code = riis_adjacency_create_from_faces(faces, this%handle)
-  end subroutine create_from_faces
-
-  !> Makes the adjacency of a structured grid of ni * nj * nk nodes, as xyz(3, ni, nj, nk): neighbours differ by 1 in one of
-  !! i, j, k. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
-  subroutine adjacency_grid_int32(this, ni, nj, nk, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: ni                        !< >= 1.
-    integer(int32), intent(in) :: nj                        !< >= 1.
-    integer(int32), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, status)
-  end subroutine adjacency_grid_int32
-
-  !> The same for integer(int64).
-  subroutine adjacency_grid_int64(this, ni, nj, nk, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: ni                        !< >= 1.
-    integer(int64), intent(in) :: nj                        !< >= 1.
-    integer(int64), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    integer(int32) :: n_threads_or_0
-    integer(riis_status) :: code
-    n_threads_or_0 = 0
-    code = check_not_created(this%handle, 'the adjacency')
-    call get_integer(n_threads, 'n_threads', n_threads_or_0, code)
-    if (code == RIIS_OK) code = riis_adjacency_create_from_grid(ni, nj, nk, n_threads_or_0, this%handle)
-    call finish(code, status)
-  end subroutine adjacency_grid_int64
 
   !> Whether the mesh was created and not destroyed.
   pure function mesh_is_created(this) result(is_created)
@@ -837,31 +408,4 @@ contains
     class(riis_mesh), intent(in) :: right                    !< Empty.
     call refuse_copy(left%handle, right%handle, 'riis_mesh')
   end subroutine mesh_assign
-
-  !> Whether the adjacency was created and not destroyed.
-  pure function adjacency_is_created(this) result(is_created)
-    class(riis_adjacency), intent(in) :: this                     !< Any.
-    logical :: is_created                                   !< .false. for an empty one.
-    is_created = c_associated(this%handle)
-  end function adjacency_is_created
-
-  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
-  function adjacency_c_handle(this) result(handle)
-    class(riis_adjacency), intent(in) :: this                     !< Any.
-    type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
-    handle = this%handle
-  end function adjacency_c_handle
-
-  !> Frees what it holds; it is empty then, and can be created again. Nothing happens to an empty one.
-  subroutine adjacency_destroy(this)
-    class(riis_adjacency), intent(inout) :: this                  !< Any.
-    call riis_adjacency_destroy(this%handle)
-  end subroutine adjacency_destroy
-
-  !> Stops the program, unless both are empty.
-  impure elemental subroutine adjacency_assign(left, right)
-    class(riis_adjacency), intent(inout) :: left                  !< Empty.
-    class(riis_adjacency), intent(in) :: right                    !< Empty.
-    call refuse_copy(left%handle, right%handle, 'riis_adjacency')
-  end subroutine adjacency_assign
 end module riis_meshes

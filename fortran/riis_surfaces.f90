@@ -21,33 +21,33 @@ module riis_surfaces
     type(c_ptr) :: handle = c_null_ptr
     type(riis_surface_options) :: options ! those in use; defined while there is a handle
   contains
-    procedure :: create => surface_create                      !< From a valve.
+    procedure, non_overridable :: create => surface_create              !< From a valve.
     generic :: create_from_arrays => create_xyz_int32, create_xyz_int64, create_x_y_z_int32, create_x_y_z_int64
                                                                !< From the caller's triangles or quads.
-    procedure :: update => surface_update                      !< For a valve that moved.
+    procedure, non_overridable :: update => surface_update              !< For a valve that moved.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
                                                                !< For the caller's triangles or quads that moved.
-    procedure :: get_info => surface_get_info                  !< Counts, bounds, area, times.
-    procedure :: vertices => surface_vertices                  !< The vertices.
-    procedure :: vertex_parameters => surface_vertex_parameters !< Where they lie on their patches.
-    procedure :: triangles => surface_triangles                !< The triangles.
-    procedure :: closest_point => surface_closest_point        !< Of one point.
+    procedure, non_overridable :: get_info => surface_get_info          !< Counts, bounds, area, times.
+    procedure, non_overridable :: vertices => surface_vertices          !< The vertices.
+    procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Where they lie on their patches.
+    procedure, non_overridable :: triangles => surface_triangles        !< The triangles.
+    procedure, non_overridable :: closest_point => surface_closest_point !< Of one point.
     generic :: closest_points => closest_points_xyz, closest_points_x_y_z !< Of many points, in parallel.
-    procedure :: is_created => surface_is_created              !< Whether there is anything in it.
-    procedure :: c_handle => surface_c_handle                  !< For calls of riis_c.
-    procedure :: destroy => surface_destroy                    !< Frees what it holds.
-    generic :: assignment(=) => assign                         !< Refused: a handle cannot be copied.
-    procedure, private :: assign => surface_assign
-    procedure, private :: create_xyz_int32 => surface_create_from_arrays_xyz_int32
-    procedure, private :: create_xyz_int64 => surface_create_from_arrays_xyz_int64
-    procedure, private :: create_x_y_z_int32 => surface_create_from_arrays_x_y_z_int32
-    procedure, private :: create_x_y_z_int64 => surface_create_from_arrays_x_y_z_int64
-    procedure, private :: update_xyz_int32 => surface_update_from_arrays_xyz_int32
-    procedure, private :: update_xyz_int64 => surface_update_from_arrays_xyz_int64
-    procedure, private :: update_x_y_z_int32 => surface_update_from_arrays_x_y_z_int32
-    procedure, private :: update_x_y_z_int64 => surface_update_from_arrays_x_y_z_int64
-    procedure, private :: closest_points_xyz => surface_closest_points_xyz
-    procedure, private :: closest_points_x_y_z => surface_closest_points_x_y_z
+    procedure, non_overridable :: is_created => surface_is_created      !< Whether there is anything in it.
+    procedure, non_overridable :: c_handle => surface_c_handle          !< For calls of riis_c.
+    procedure, non_overridable :: destroy => surface_destroy            !< Frees what it holds.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => surface_assign
+    procedure, private, non_overridable :: create_xyz_int32 => surface_create_from_arrays_xyz_int32
+    procedure, private, non_overridable :: create_xyz_int64 => surface_create_from_arrays_xyz_int64
+    procedure, private, non_overridable :: create_x_y_z_int32 => surface_create_from_arrays_x_y_z_int32
+    procedure, private, non_overridable :: create_x_y_z_int64 => surface_create_from_arrays_x_y_z_int64
+    procedure, private, non_overridable :: update_xyz_int32 => surface_update_from_arrays_xyz_int32
+    procedure, private, non_overridable :: update_xyz_int64 => surface_update_from_arrays_xyz_int64
+    procedure, private, non_overridable :: update_x_y_z_int32 => surface_update_from_arrays_x_y_z_int32
+    procedure, private, non_overridable :: update_x_y_z_int64 => surface_update_from_arrays_x_y_z_int64
+    procedure, private, non_overridable :: closest_points_xyz => surface_closest_points_xyz
+    procedure, private, non_overridable :: closest_points_x_y_z => surface_closest_points_x_y_z
   end type riis_surface
 
   ! What a pointer points to where there is nothing: its size can be asked for.

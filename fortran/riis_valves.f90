@@ -26,26 +26,26 @@ module riis_valves
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    procedure :: create => valve_create                        !< By the name of its kind.
+    procedure, non_overridable :: create => valve_create                !< By the name of its kind.
     generic :: create_from_patches => from_patches_int32, from_patches_int64 !< The caller's own valve.
-    generic :: set => set_scalar, set_vector                   !< A parameter's value or values.
-    generic :: get => get_scalar, get_vector                   !< A parameter's value or values.
-    procedure :: set_open_state => valve_set_open_state        !< A second state to open to.
-    procedure :: n_parameters => valve_n_parameters            !< How many parameters it has.
-    generic :: parameter => parameter_int32, parameter_int64   !< Describes a parameter.
-    procedure :: is_created => valve_is_created                !< Whether there is anything in it.
-    procedure :: c_handle => valve_c_handle                    !< For calls of riis_c.
-    procedure :: destroy => valve_destroy                      !< Frees what it holds.
-    generic :: assignment(=) => assign                         !< Refused: a handle cannot be copied.
-    procedure, private :: assign => valve_assign
-    procedure, private :: from_patches_int32 => valve_from_patches_int32
-    procedure, private :: from_patches_int64 => valve_from_patches_int64
-    procedure, private :: set_scalar => valve_set_scalar
-    procedure, private :: set_vector => valve_set_vector
-    procedure, private :: get_scalar => valve_get_scalar
-    procedure, private :: get_vector => valve_get_vector
-    procedure, private :: parameter_int32 => valve_parameter_int32
-    procedure, private :: parameter_int64 => valve_parameter_int64
+    generic :: set => set_scalar, set_vector                            !< A parameter's value or values.
+    generic :: get => get_scalar, get_vector                            !< A parameter's value or values.
+    procedure, non_overridable :: set_open_state => valve_set_open_state !< A second state to open to.
+    procedure, non_overridable :: n_parameters => valve_n_parameters    !< How many parameters it has.
+    generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
+    procedure, non_overridable :: is_created => valve_is_created        !< Whether there is anything in it.
+    procedure, non_overridable :: c_handle => valve_c_handle            !< For calls of riis_c.
+    procedure, non_overridable :: destroy => valve_destroy              !< Frees what it holds.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => valve_assign
+    procedure, private, non_overridable :: from_patches_int32 => valve_from_patches_int32
+    procedure, private, non_overridable :: from_patches_int64 => valve_from_patches_int64
+    procedure, private, non_overridable :: set_scalar => valve_set_scalar
+    procedure, private, non_overridable :: set_vector => valve_set_vector
+    procedure, private, non_overridable :: get_scalar => valve_get_scalar
+    procedure, private, non_overridable :: get_vector => valve_get_vector
+    procedure, private, non_overridable :: parameter_int32 => valve_parameter_int32
+    procedure, private, non_overridable :: parameter_int64 => valve_parameter_int64
   end type riis_valve
 
 contains

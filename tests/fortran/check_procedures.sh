@@ -20,7 +20,7 @@ documented=$(awk '
     sub(/^ *(pure |impure |elemental )*(subroutine|function) /, ""); sub(/\(.*/, ""); print
   }
   { is_documented = 0 }' "${sources[@]}" | grep -v '^riis_log_procedure$' | sort -u) # an abstract interface
-named=$(sed 's/!.*//' "${sources[@]}" | sed -n -E 's/^ *procedure(, private)? :: .* => ([a-z0-9_]+) *$/\2/p
+named=$(sed 's/!.*//' "${sources[@]}" | sed -n -E 's/^ *procedure(, [a-z_]+)* :: .* => ([a-z0-9_]+) *$/\2/p
   s/^ *module procedure ([a-z0-9_]+) *$/\1/p; s/^subroutine (riisf_[a-z0-9_]+).*/\1/p' | sort -u)
 undocumented=$(comm -13 <(echo "$documented") <(echo "$named"))
 if [ -n "$undocumented" ]; then

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Module riis: meshes without copies, adjacencies of all kinds.
 program test_meshes
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_intptr_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use box
@@ -21,7 +21,6 @@ program test_meshes
   call test_sections()
   call test_in_place()
   call test_mesh_errors()
-  call test_odd_stride()
   call test_rows()
   call test_row_errors()
   call test_adjacencies()
@@ -75,8 +74,18 @@ contains
     do k = 1, n_nodes
       nodes(k)%at = xyz(:, k)
     end do
-    call mesh%create(nodes%at(1), nodes%at(2), nodes%at(3))
+    k = storage_size(nodes) / storage_size(nodes(1)%at)
+    call mesh%create(n_nodes, nodes(1)%at(1), nodes(1)%at(2), nodes(1)%at(3), k)
     call check_marking(mesh, 'components')
+    call mesh%update(int(n_nodes, int64), xyz(1, 1), xyz(2, 1), xyz(3, 1), 3_int64)
+    nodes%at(1) = 99
+    call check_marking(mesh, 'an update from components')
+    call mesh%update(n_nodes, nodes(1)%at(2), nodes(1)%at(2), nodes(1)%at(3), 0, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'stride is 0')
+    call mesh%update(n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 3)
+    call mesh%destroy()
+    call mesh%create(int(n_nodes, int64), x(1), y(1), z(1), 1_int64)
+    call check_marking(mesh, 'first elements')
     call mesh%destroy()
 
     call mesh%create(xyz(:, 5:5), status)
@@ -144,27 +153,6 @@ contains
     call mesh%update(y, y, z, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created, or was destroyed')
   end subroutine test_mesh_errors
-
-  ! Reals that are 12 bytes apart, as in packed records.
-  subroutine test_odd_stride()
-    type(riis_mesh) :: mesh
-    type :: packed
-      sequence
-      integer(int32) :: before
-      real(c_double) :: value
-    end type packed
-    type(packed) :: records(4)
-    integer(c_intptr_t) :: bytes
-    records = packed(0, 0d0)
-    bytes = storage_size(records) / 8
-    call mesh%create(records%value, records%value, records%value, status)
-    if (mod(bytes, 8_c_intptr_t) == 0) then ! padded, as most compilers do
-      call check_ok(status, 'reals of padded records')
-      call mesh%destroy()
-    else
-      call check_refused(status, RIIS_INVALID_ARGUMENT, 'it must be a multiple of 8')
-    end if
-  end subroutine test_odd_stride
 
   subroutine test_rows()
     type(riis_mesh) :: mesh

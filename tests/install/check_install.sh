@@ -29,8 +29,10 @@ examples=(first_marking prosthesis opening_valve csr_from_elements openmp_caller
 declare -A more_flags=([opening_valve]=-lm [openmp_caller]=-fopenmp)
 expected=$source/tests/install/expected
 
-# In the order that a compiler wants them in.
-fortran_modules=(riis_c.f90 riis_support.f90 riis_valves.f90 riis_surfaces.f90 riis_meshes.f90 riis_marking.f90 riis.f90)
+# The installed Fortran sources, in the order in which they use each other.
+fortran_sources=(riis_c riis_support riis_valves riis_surfaces riis_adjacencies riis_meshes riis_marking riis
+  riis_f77 riis_f77_adjacency riis_f77_marking)
+
 
 configure_consumer() { # source directory, build directory, prefix, more options
   local arguments=(-DCMAKE_PREFIX_PATH="$3" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX"
@@ -120,12 +122,17 @@ check_by_pkg_config() { # prefix, more pkg-config options
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"
-  local example file more
-  local include
-  include=$(dirname "$(find "$1" -name riis.h)")
-  # As with a compiler that cannot read the module files: from the installed sources.
+  local example file more source_name
   if has Fortran; then
-    (cd "$out" && quietly "$FC" "${fortran_flags[@]}" -c "${fortran_modules[@]/#/$include/}")
+    # As with a compiler that cannot read the module files: from the installed sources.
+    file=$(dirname "$(find "$1" -name riis_c.f90)")
+    for source_name in "${fortran_sources[@]}"; do
+      quietly "$FC" "${fortran_flags[@]}" -J "$out" -c "$file/$source_name.f90" -o "$out/$source_name.o"
+    done
+    # As codes without modules.
+    # shellcheck disable=SC2046
+    quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" -o "$out/test_f77" \
+      $(flags --cflags --libs "${@:2}" riis-fortran)
   fi
   for example in "${examples[@]}"; do
     file=$source/examples/$example
@@ -151,6 +158,9 @@ check_by_pkg_config() { # prefix, more pkg-config options
       check_example "$example" "$out/${example}_source"
     fi
   done
+  if has Fortran; then
+    quietly "$out/test_f77"
+  fi
   if has VTK && [ "$kind" = shared ]; then
     # shellcheck disable=SC2046
     quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
@@ -188,6 +198,13 @@ prefix=$work/prefix
 
 quietly "$CMAKE" --install "$build" --prefix "$prefix"
 (cd "$prefix" && find . | sort) >"$work/files.txt"
+if has Fortran; then
+  { printf '%s.f90\n' "${fortran_sources[@]}" && echo riisf.h; } | sort >"$work/fortran_files.txt"
+  (cd "$source/fortran" && printf '%s\n' *.f90 *.h | sort) | diff "$work/fortran_files.txt" - ||
+    problem "this script does not know all Fortran sources"
+  (cd "$(dirname "$(find "$prefix" -name riis_c.f90)")" && printf '%s\n' *.f90 riisf.h | sort) |
+    diff "$work/fortran_files.txt" - || problem "not all Fortran sources are installed"
+fi
 if [ "$kind" = shared ]; then
   grep -q '/libriis\.so$' "$work/files.txt" || problem "no libriis.so is installed"
 else
