@@ -125,12 +125,16 @@ check_by_pkg_config() { # prefix, more pkg-config options
   rm -rf "$out"
   mkdir -p "$out"
   local example file
-  if has Fortran; then
-    # As with a compiler that cannot read the module files: from the installed sources.
+  # As with a compiler that cannot read the module files: from the installed sources. Once, since they say nothing of where
+  # they are.
+  if has Fortran && [ ! -d "$work/fortran" ]; then
+    mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
     for example in "${fortran_sources[@]}"; do
-      quietly "$FC" "${fortran_flags[@]}" -J "$out" -c "$file/$example.f90" -o "$out/$example.o"
+      quietly "$FC" "${fortran_flags[@]}" -J "$work/fortran" -c "$file/$example.f90" -o "$work/fortran/$example.o"
     done
+  fi
+  if has Fortran; then
     # As codes without modules.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" -o "$out/test_f77" \
@@ -146,7 +150,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
       quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" \
         $(flags --cflags --libs "${@:2}" riis-fortran)
       # shellcheck disable=SC2046
-      quietly "$FC" "${fortran_flags[@]}" -I "$out" "$file.f90" "$out"/*.o \
+      quietly "$FC" "${fortran_flags[@]}" -I "$work/fortran" "$file.f90" "$work/fortran"/*.o \
         -o "$out/${example}_source" $(flags --libs "${@:2}" riis)
     fi
   done
