@@ -42,11 +42,12 @@ if(RIIS_WITH_FORTRAN)
   riis_install_library(riis_fortran)
   # The sources go beside the modules, for those whose Fortran compiler is another one: they are all they have to compile.
   get_target_property(riis_fortran_sources riis_fortran SOURCES)
-  foreach(source IN LISTS riis_fortran_sources ITEMS riisf.h)
-    install(FILES ${PROJECT_SOURCE_DIR}/fortran/${source} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
-  endforeach()
-  install(DIRECTORY $<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis
-    FILES_MATCHING PATTERN *.mod)
+  list(TRANSFORM riis_fortran_sources PREPEND ${PROJECT_SOURCE_DIR}/fortran/ OUTPUT_VARIABLE riis_fortran_files)
+  list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # external subroutines
+  list(TRANSFORM riis_fortran_sources REPLACE "(.*)\\.f90"
+    "$<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/\\1.mod" OUTPUT_VARIABLE riis_fortran_modules)
+  install(FILES ${riis_fortran_files} ${riis_fortran_modules} ${PROJECT_SOURCE_DIR}/fortran/riisf.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
 endif()
 
 if(RIIS_BUILD_PROGRAM)

@@ -29,14 +29,16 @@
 !!   as arguments, or point to them; functions cannot return them. (Array constructors and allocate(..., source=...) copy
 !!   without asking: do not use them.)
 !! - Integers. Ids, counts, numbers of threads and bases may be integer(int32), the default kind, or integer(int64). Optional
-!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused.
+!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. What the library
+!!   writes has the kind that it has in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
 !! - Counting. What is called *_id counts from 0, as in C, also triangle_id and leaflet_id (RIIS_LEAFLET_*); what is called
 !!   node_num counts from 1. What goes in counts from index_base, 1 unless it is given.
 !! - Reals are real(c_double), real(8) with most compilers. Lengths are in one unit of the caller's choice, angles in
 !!   degrees.
-!! - Arrays are whole ones or sections. Coordinates are never copied, whatever their positive stride. Those of a mesh, and
-!!   the rows of an adjacency, are borrowed beyond the call: see riis_mesh. Other arrays are used during the call only, and
-!!   are copied for it where their argument is CONTIGUOUS and a section is not, or where it says so.
+!! - Arrays are whole ones or sections. Coordinates are read where they are, whatever their positive stride. Those of a
+!!   mesh, and the rows of an adjacency, are borrowed beyond the call: see riis_mesh, also for what must not be passed there.
+!!   Other arrays are used during the call only, and are copied for it where their argument is CONTIGUOUS and a section is
+!!   not, or where it says so.
 !! - Threads. An object may be read (intent(in)) by any number of threads at once; it is written by one with no reader beside
 !!   it. Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region,
 !!   declare a thread's own objects in a procedure that it calls or in a BLOCK: copies by PRIVATE gfortran leaves undefined.

@@ -238,7 +238,7 @@ contains
     wide = value
     call get_int64(option, name, wide, code)
     if (code /= RIIS_OK) return
-    if (abs(wide) > huge(value)) then
+    if (wide > huge(value) .or. wide < -huge(value)) then
       code = refuse(name // ' is ' // text_of(wide) // '; it must fit in 32 bits')
     else
       value = int(wide, int32)

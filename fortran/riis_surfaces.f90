@@ -69,9 +69,9 @@ contains
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1: times half_thickness bounds the error of distances.
                                                             !! Default 0.05. Not used for surfaces from arrays.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length from 1e-50 on. Default (0, 0, 1).
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length from 1e-50 on. Default (0, 0, 1).
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees, counter-clockwise seen against the axis. Default 0.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units. Default 0.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_options) :: options
@@ -79,7 +79,8 @@ contains
     code = check_not_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
-    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals)
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -95,9 +96,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_options) :: options
@@ -106,8 +107,9 @@ contains
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) then
       options = this%options
-      call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals)
-      code = riis_surface_update(this%handle, valve%c_handle(), options)
+      call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+        flip_normals, code)
+      if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
       if (code == RIIS_OK) this%options = options
     end if
     call finish(code, status)
@@ -130,9 +132,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -159,9 +161,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -190,9 +192,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -221,9 +223,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -250,9 +252,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -279,9 +281,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -310,9 +312,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -341,9 +343,9 @@ contains
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< Of any length.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
-    real(c_double), intent(in), optional :: translation(3)  !< Mesh units.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     type(riis_surface_arrays) :: arrays
@@ -357,20 +359,37 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int64
 
-  ! Sets the options that are present.
-  subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals)
+  ! Sets the options that are present; does nothing after an error.
+  subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
     type(riis_surface_options), intent(inout) :: options
-    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(3), rotation_angle, &
-      translation(3)
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
     logical, intent(in), optional :: flip_normals
+    integer(riis_status), intent(inout) :: code
+    if (code /= RIIS_OK) return
     if (present(half_thickness)) options%half_thickness = half_thickness
     if (present(tolerance)) options%tolerance = tolerance
     if (present(scale)) options%scale = scale
-    if (present(rotation_axis)) options%rotation_axis = rotation_axis
     if (present(rotation_angle)) options%rotation_angle = rotation_angle
-    if (present(translation)) options%translation = translation
     if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
+    call set_vector(rotation_axis, 'rotation_axis', options%rotation_axis, code)
+    call set_vector(translation, 'translation', options%translation, code)
   end subroutine set_options
+
+  ! Sets an option of three reals.
+  subroutine set_vector(values, name, option, code)
+    real(c_double), intent(in), optional :: values(:)
+    character(len=*), intent(in) :: name
+    real(c_double), intent(inout) :: option(3)
+    integer(riis_status), intent(inout) :: code
+    if (code /= RIIS_OK .or. .not. present(values)) return
+    if (size(values) == 3) then
+      option = values
+    else
+      code = refuse('the size of ' // name // ' is ' // text_of(size(values)) // '; it must be 3')
+    end if
+  end subroutine set_vector
 
   ! Fills the struct, but for vertex_ids; does nothing after an error.
   subroutine get_arrays(points, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
@@ -406,17 +425,18 @@ contains
       rotation_angle, translation, flip_normals, code)
     class(riis_surface), intent(inout) :: this
     type(riis_surface_arrays), intent(in) :: arrays
-    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(3), rotation_angle, &
-      translation(3)
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
     logical, intent(in), optional :: skip_zero_area, flip_normals
     integer(riis_status), intent(inout) :: code
     type(riis_surface_options) :: options
     if (code == RIIS_OK) code = check_not_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
     if (code /= RIIS_OK) return
-    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals)
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
     if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
-    code = riis_surface_create_from_arrays(arrays, options, this%handle)
+    if (code == RIIS_OK) code = riis_surface_create_from_arrays(arrays, options, this%handle)
     if (code == RIIS_OK) this%options = options
   end subroutine create_from_arrays
 
@@ -425,17 +445,18 @@ contains
       rotation_angle, translation, flip_normals, code)
     class(riis_surface), intent(inout) :: this
     type(riis_surface_arrays), intent(in) :: arrays
-    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(3), rotation_angle, &
-      translation(3)
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
     logical, intent(in), optional :: skip_zero_area, flip_normals
     integer(riis_status), intent(inout) :: code
     type(riis_surface_options) :: options
     if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
     if (code /= RIIS_OK) return
     options = this%options
-    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals)
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
     if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
-    code = riis_surface_update_from_arrays(this%handle, arrays, options)
+    if (code == RIIS_OK) code = riis_surface_update_from_arrays(this%handle, arrays, options)
     if (code == RIIS_OK) this%options = options
   end subroutine update_from_arrays
 

@@ -169,7 +169,7 @@ contains
     integer :: i
     code = RIIS_OK
     do i = 1, size(values)
-      if (abs(values(i)) <= huge(0_int32)) cycle
+      if (values(i) <= huge(0_int32) .and. values(i) >= -huge(0_int32)) cycle
       code = refuse(name // ' has the entry ' // text_of(values(i)) // '; it must fit in 32 bits')
       return
     end do

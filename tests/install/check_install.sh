@@ -123,12 +123,16 @@ check_by_pkg_config() { # prefix, more pkg-config options
   rm -rf "$out"
   mkdir -p "$out"
   local example file more source_name
-  if has Fortran; then
-    # As with a compiler that cannot read the module files: from the installed sources.
+  # As with a compiler that cannot read the module files: from the installed sources. Once, since they say nothing of where
+  # they are.
+  if has Fortran && [ ! -d "$work/fortran" ]; then
+    mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
     for source_name in "${fortran_sources[@]}"; do
-      quietly "$FC" "${fortran_flags[@]}" -J "$out" -c "$file/$source_name.f90" -o "$out/$source_name.o"
+      quietly "$FC" "${fortran_flags[@]}" -J "$work/fortran" -c "$file/$source_name.f90" -o "$work/fortran/$source_name.o"
     done
+  fi
+  if has Fortran; then
     # As codes without modules.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" -o "$out/test_f77" \
@@ -145,8 +149,8 @@ check_by_pkg_config() { # prefix, more pkg-config options
       quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" $more \
         $(flags --cflags --libs "${@:2}" riis-fortran)
       # shellcheck disable=SC2046,SC2086
-      quietly "$FC" "${fortran_flags[@]}" -I "$out" "$file.f90" "$out"/*.o -o "$out/${example}_source" $more \
-        $(flags --libs "${@:2}" riis)
+      quietly "$FC" "${fortran_flags[@]}" -I "$work/fortran" "$file.f90" "$work/fortran"/*.o \
+        -o "$out/${example}_source" $more $(flags --libs "${@:2}" riis)
     fi
   done
   local -x LD_LIBRARY_PATH
