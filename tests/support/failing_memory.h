@@ -18,6 +18,9 @@ enum {
   MEMORY_OF_ALL = 3      /* malloc, too, whoever calls it; not with sanitizers, which have their own */
 };
 
+/* Whose the library's own code is: that of the object with this function. The core's, by default. */
+void memory_library_is_that_of(const char *function);
+
 /* From now on allocation number n (1, 2, ...) fails, and if and_all_after is not 0 those that follow it, too. */
 void memory_fail(int whose, int64_t n, int and_all_after);
 /* From now on none fails. Returns how many have failed. */
