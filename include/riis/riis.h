@@ -34,9 +34,10 @@
  * - A handle may be read (const) by any number of threads at once; it is written by one thread with no reader beside
  *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - Where a number of threads can be given, 0 stands for the processors that the calling thread may run on (its affinity
- *   mask); OMP_NUM_THREADS and omp_set_num_threads do not matter. More threads than the system grants end the process: that
- *   is how OpenMP's run-time answers, out of the library's reach. With 1 no thread is started, which is also all that a
- *   child of fork() may ask for.
+ *   mask); OMP_NUM_THREADS and omp_set_num_threads do not matter. More threads, or more memory for them, than the system
+ *   grants end the process: that is how OpenMP's run-time answers, and TBB's threads, out of the library's reach
+ *   (docs/building.md). With 1 no thread is started, which is also all that a child of fork() may ask for. Making a surface
+ *   is Embree's, on the threads that TBB grants.
  * - Each call runs with the default floating-point environment, a log function included, and puts the caller's back:
  *   traps, rounding mode and flush-to-zero of the caller neither change the result nor fire inside. The caller's OpenMP
  *   and TBB settings stay.
