@@ -21,10 +21,6 @@ namespace {
 
 using namespace bench;
 
-// Somewhat larger than the demo's round the aortic, and the same round the mitral valve: about 4 % of the nodes are marked, as many
-// as the paper's ratio of 18 to 26 lets suppose.
-constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
-
 const CylinderMesh &mesh_of(const benchmark::State &state) {
   static std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<CylinderMesh>> made;
   std::unique_ptr<CylinderMesh> &mesh = made[{state.range(0), state.range(1)}];

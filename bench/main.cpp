@@ -11,6 +11,16 @@
 
 namespace {
 
+// Whether a run ended early: Google Benchmark calls it error_occurred before its version 1.8, skipped since.
+template <class Run>
+auto ended_early(const Run &run, int) -> decltype(run.error_occurred) {
+  return run.error_occurred;
+}
+template <class Run>
+bool ended_early(const Run &run, long) {
+  return static_cast<bool>(run.skipped);
+}
+
 // Passes everything on to the reporter that the command line asks for.
 class Reporter : public benchmark::BenchmarkReporter {
  public:
@@ -20,7 +30,7 @@ class Reporter : public benchmark::BenchmarkReporter {
     own_->ReportRuns(runs);
     for (const Run &run : runs) {
       const bool least = run.run_type == Run::RT_Aggregate && run.aggregate_name == "least";
-      if (run.error_occurred || (run.run_type == Run::RT_Aggregate && !least)) continue;
+      if (ended_early(run, 0) || (run.run_type == Run::RT_Aggregate && !least)) continue;
       table_.add(run.run_name.function_name, run.run_name.args, run.counters);
     }
   }

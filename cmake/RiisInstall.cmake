@@ -40,9 +40,14 @@ endif()
 
 if(RIIS_WITH_FORTRAN)
   riis_install_library(riis_fortran)
-  # The source goes beside the module, for those whose Fortran compiler is another one: it is all they have to compile.
-  install(FILES ${PROJECT_SOURCE_DIR}/fortran/riis_c.f90
-    $<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/riis_c.mod DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+  # The sources go beside the modules, for those whose Fortran compiler is another one: they are all they have to compile.
+  get_target_property(riis_fortran_sources riis_fortran SOURCES)
+  list(TRANSFORM riis_fortran_sources PREPEND ${PROJECT_SOURCE_DIR}/fortran/ OUTPUT_VARIABLE riis_fortran_files)
+  list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # external subroutines
+  list(TRANSFORM riis_fortran_sources REPLACE "(.*)\\.f90"
+    "$<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/\\1.mod" OUTPUT_VARIABLE riis_fortran_modules)
+  install(FILES ${riis_fortran_files} ${riis_fortran_modules} ${PROJECT_SOURCE_DIR}/fortran/riisf.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
 endif()
 
 if(RIIS_BUILD_PROGRAM)

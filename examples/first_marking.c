@@ -13,6 +13,10 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
+static void print_node(const double *node, double distance) {
+  printf("(%6.3f, %6.3f, %6.3f) at %8.6f cm\n", node[0], node[1], node[2], distance);
+}
+
 int main(void) {
   for (int i = 0; i < n_nodes; ++i) {
     xyz[3 * i] = -1.625 + 0.125 * (i % n);
@@ -38,10 +42,11 @@ int main(void) {
   printf("%d nodes, marked: %lld, the first of them:\n", n_nodes, (long long)n_marked);
   int64_t closest = 0;
   for (int64_t i = 0; i < n_marked; ++i) {
-    if (i < 5) printf("node%6lld at%9.6f cm\n", (long long)node_id[i], distance[i]);
+    if (i < 5) print_node(xyz + 3 * node_id[i], distance[i]);
     if (distance[i] < distance[closest]) closest = i;
   }
-  if (n_marked > 0) printf("closest: node%6lld at%9.6f cm\n", (long long)node_id[closest], distance[closest]);
+  printf("and the closest:\n");
+  if (n_marked > 0) print_node(xyz + 3 * node_id[closest], distance[closest]);
 
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);

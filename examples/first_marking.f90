@@ -1,49 +1,42 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Marks the nodes of a box that lie near the default aortic valve. Lengths are in cm, as in the valve's tables.
 program first_marking
-  use, intrinsic :: iso_c_binding
-  use, intrinsic :: iso_fortran_env, only: error_unit
-  use riis_c
+  use riis
   implicit none
-  integer(c_int64_t), parameter :: n = 27, n_nodes = n**3
-  real(c_double), target :: xyz(3, n_nodes) ! a cube of 3.25 cm around the origin, a node every 1.25 mm
-  type(c_ptr) :: valve = c_null_ptr, surface = c_null_ptr, mesh = c_null_ptr, result = c_null_ptr
-  type(c_ptr) :: ids = c_null_ptr, distances = c_null_ptr
-  integer(c_int64_t), pointer :: node_id(:)
-  real(c_double), pointer :: distance(:)
-  integer(c_int64_t) :: n_marked = 0, i
+  integer, parameter :: n = 27, n_nodes = n**3
+  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the origin, a node every 1.25 mm
+  type(riis_valve) :: valve
+  type(riis_surface) :: surface
+  type(riis_mesh) :: mesh
+  type(riis_mark_result) :: result
+  integer, allocatable :: node_num(:)
+  double precision, allocatable :: distance(:)
+  character(len=*), parameter :: place = '("(", f6.3, ", ", f6.3, ", ", f6.3, ") at ", f8.6, " cm")'
+  integer :: i
 
   do i = 0, n_nodes - 1
     xyz(:, i + 1) = -1.625d0 + 0.125d0 * [mod(i, n), mod(i / n, n), i / n**2]
   end do
 
-  call check(riis_valve_create(riis_c_string('aortic'), valve))
-  call check(riis_surface_create(valve, surface=surface)) ! half thickness 0.1 cm, tolerance 5 % of it
-  call check(riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh))
-  call check(riis_mark_result_create(result))
-  call check(riis_mark_nodes(surface, mesh, result=result)) ! once a time step
-  call check(riis_mark_result_marked(result, n_marked, ids, distances))
+  ! No status is asked for, so an error stops the program and says what was wrong.
+  call valve%create('aortic')
+  call surface%create(valve) ! half thickness 0.1 cm, tolerance 5 % of it
+  call mesh%create(xyz)
+  call riis_mark_nodes(surface, mesh, result) ! once a time step
+  call result%marked_nodes(node_num, distance) ! node_num counts from 1: xyz(:, node_num(i)) is marked
 
-  print '(i0, a, i0, a)', n_nodes, ' nodes, marked: ', n_marked, ', the first of them:'
-  if (n_marked > 0) then
-    call c_f_pointer(ids, node_id, [n_marked]) ! node_id counts from 0: node_id(i) is xyz(:, node_id(i) + 1)
-    call c_f_pointer(distances, distance, [n_marked])
-    print '(a, i6, a, f9.6, a)', ('node', node_id(i), ' at', distance(i), ' cm', i = 1, min(n_marked, 5_c_int64_t))
+  print '(i0, a, i0, a)', n_nodes, ' nodes, marked: ', size(node_num), ', the first of them:'
+  do i = 1, min(size(node_num), 5)
+    print place, xyz(:, node_num(i)), distance(i)
+  end do
+  print '(a)', 'and the closest:'
+  if (size(node_num) > 0) then
     i = minloc(distance, dim=1)
-    print '(a, i6, a, f9.6, a)', 'closest: node', node_id(i), ' at', distance(i), ' cm'
+    print place, xyz(:, node_num(i)), distance(i)
   end if
 
-  call riis_mark_result_destroy(result)
-  call riis_mesh_destroy(mesh)
-  call riis_surface_destroy(surface)
-  call riis_valve_destroy(valve)
-
-contains
-
-  subroutine check(status)
-    integer(riis_status), intent(in) :: status
-    if (status == RIIS_OK) return
-    write (error_unit, '(3a)') riis_c_text(riis_status_name(status)), ': ', riis_c_text(riis_last_error())
-    error stop
-  end subroutine check
+  call result%destroy()
+  call mesh%destroy()
+  call surface%destroy()
+  call valve%destroy()
 end program first_marking

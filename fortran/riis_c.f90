@@ -1,33 +1,32 @@
 ! SPDX-License-Identifier: Apache-2.0
-!
-! riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. What a function does, its
-! ranges and its errors are said once, in riis.h; here is only how each C argument looks from Fortran.
-!
-!   status = riis_valve_create(riis_c_string('aortic'), valve)
-!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
-!   status = riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh)
-!   status = riis_mark_result_create(result)
-!   status = riis_mark_nodes(surface, mesh, result=result)                          ! once a time step
-!   status = riis_mark_result_marked(result, n_marked, node_id, distance)
-!   if (n_marked > 0) call c_f_pointer(node_id, ids, [n_marked])        ! integer(c_int64_t), pointer :: ids(:)
-!
-! Conventions, true for every interface below:
-!
-! - What may be NULL in C is OPTIONAL here, and what is left out is NULL: use keywords for the arguments after it.
-! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them back to it.
-! - Whatever a call writes is intent(inout), not out, because a call that is refused leaves it as it was.
-! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element with a
-!   stride. The coordinates and the rows of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc asks for
-!   TARGET, and no compiler can slip in a temporary copy. Keep the array where it is (not a local that ends, not
-!   reallocated).
-! - Arrays that the library owns come as type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to
-!   them. They are c_null_ptr when there is nothing in them.
-! - Ids that come out count from 0, also here: node_id + 1 is the column of xyz(3, n). Ids that go in by a struct count
-!   from its index_base, so set that to 1; of which kind they are its *_bits say: storage_size(the array).
-! - Structs: have the init function fill them, with c_sizeof(the variable) as struct_size, then set what differs:
-!     status = riis_mark_options_init(options, c_sizeof(options))
-! - Texts go in through riis_c_string and come out through riis_c_text. A bare literal compiles, too, and is wrong: it
-!   has no end.
+!> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. What a function does, its
+!! ranges and its errors are said once, in riis.h; here is only how each C argument looks from Fortran.
+!!
+!!   status = riis_valve_create(riis_c_string('aortic'), valve)
+!!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
+!!   status = riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh)
+!!   status = riis_mark_result_create(result)
+!!   status = riis_mark_nodes(surface, mesh, result=result)                          ! once a time step
+!!   status = riis_mark_result_marked(result, n_marked, node_id, distance)
+!!   if (n_marked > 0) call c_f_pointer(node_id, ids, [n_marked])        ! integer(c_int64_t), pointer :: ids(:)
+!!
+!! Conventions, true for every interface below:
+!!
+!! - What may be NULL in C is OPTIONAL here, and what is left out is NULL: use keywords for the arguments after it.
+!! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them back to it.
+!! - Whatever a call writes is intent(inout), not out, because a call that is refused leaves it as it was.
+!! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element with a
+!!   stride. The coordinates and the rows of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc asks for
+!!   TARGET, and no compiler can slip in a temporary copy. Keep the array where it is (not a local that ends, not
+!!   reallocated).
+!! - Arrays that the library owns come as type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to
+!!   them. They are c_null_ptr when there is nothing in them.
+!! - Ids that come out count from 0, also here: node_id + 1 is the column of xyz(3, n). Ids that go in by a struct count
+!!   from its index_base, so set that to 1; of which kind they are its *_bits say: storage_size(the array).
+!! - Structs: have the init function fill them, with c_sizeof(the variable) as struct_size, then set what differs:
+!!     status = riis_mark_options_init(options, c_sizeof(options))
+!! - Texts go in through riis_c_string and come out through riis_c_text. A bare literal compiles, too, and is wrong: it
+!!   has no end.
 module riis_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, &
     c_ptr, c_size_t, c_associated, c_f_pointer
@@ -40,7 +39,7 @@ module riis_c
   ! Constants
   ! -------------------------------------------------------------------------------------------------------------------
 
-  ! The kind of a status: integer(riis_status) :: status
+  !> The kind of a status: integer(riis_status) :: status
   integer, parameter :: riis_status = c_int32_t
 
   integer(riis_status), parameter :: RIIS_OK = 0
@@ -82,18 +81,18 @@ module riis_c
   type, bind(c) :: riis_patches
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_curves
-    type(c_ptr) :: degree              ! integer(c_int32_t), (n_curves)
-    type(c_ptr) :: control             ! real(c_double), (3, sum(degree + 1))
+    type(c_ptr) :: degree              !< integer(c_int32_t), (n_curves)
+    type(c_ptr) :: control             !< real(c_double), (3, sum(degree + 1))
     integer(c_int64_t) :: n_patches
-    type(c_ptr) :: curve_id            ! integer(c_int32_t), (4, n_patches)
-    type(c_ptr) :: reversed            ! integer(c_int32_t), (4, n_patches), or c_null_ptr
-    type(c_ptr) :: leaflet_id          ! integer(c_int32_t), (n_patches), or c_null_ptr
-    integer(c_int32_t) :: index_base   ! 1 for curves that count as Fortran does
+    type(c_ptr) :: curve_id            !< integer(c_int32_t), (4, n_patches)
+    type(c_ptr) :: reversed            !< integer(c_int32_t), (4, n_patches), or c_null_ptr
+    type(c_ptr) :: leaflet_id          !< integer(c_int32_t), (n_patches), or c_null_ptr
+    integer(c_int32_t) :: index_base   !< 1 for curves that count as Fortran does
     integer(c_int32_t) :: reserved
   end type riis_patches
 
   type, bind(c) :: riis_parameter
-    type(c_ptr) :: name         ! for riis_c_text, like the next two
+    type(c_ptr) :: name         !< for riis_c_text, like the next two
     type(c_ptr) :: unit
     type(c_ptr) :: description
     integer(c_int64_t) :: n_values
@@ -108,7 +107,7 @@ module riis_c
     real(c_double) :: tolerance
     real(c_double) :: scale
     real(c_double) :: rotation_axis(3)
-    real(c_double) :: rotation_angle   ! degrees
+    real(c_double) :: rotation_angle   !< degrees
     real(c_double) :: translation(3)
     integer(c_int32_t) :: zero_area
     integer(c_int32_t) :: flip_normals
@@ -117,36 +116,39 @@ module riis_c
   type, bind(c) :: riis_surface_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: x, y, z             ! real(c_double); xyz(3, n_vertices): c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride       ! and 3
+    type(c_ptr) :: x, y, z             !< real(c_double); xyz(3, n_vertices): c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride       !< and 3
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: vertex_ids          ! integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
+    type(c_ptr) :: vertex_ids          !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
     integer(c_int32_t) :: vertex_id_bits
-    integer(c_int32_t) :: index_base   ! 1 for ids that count as Fortran does
+    integer(c_int32_t) :: index_base   !< 1 for ids that count as Fortran does
     integer(c_int32_t) :: corners_per_face
     integer(c_int32_t) :: reserved
-    type(c_ptr) :: leaflet_id          ! integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: leaflet_id          !< integer(c_int32_t), (n_faces), or c_null_ptr
   end type riis_surface_arrays
 
+  !> What a surface is.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices
-    integer(c_int64_t) :: n_triangles
-    integer(c_int64_t) :: n_zero_area
-    real(c_double) :: half_thickness
-    real(c_double) :: area
-    real(c_double) :: lower(3), upper(3)
-    real(c_double) :: seconds_triangles
-    real(c_double) :: seconds_scene
+    integer(c_int64_t) :: n_vertices     !< How many vertices.
+    integer(c_int64_t) :: n_triangles    !< How many triangles are asked for closest points.
+    integer(c_int64_t) :: n_zero_area    !< How many were left out because they have no area.
+    real(c_double) :: half_thickness     !< Placed units.
+    real(c_double) :: area               !< Of all triangles, placed units squared.
+    real(c_double) :: lower(3), upper(3) !< Bounds of the triangles, placed units.
+    real(c_double) :: seconds_triangles  !< Wall time of the last create or update: checks and triangles,
+    real(c_double) :: seconds_scene      !< and the Embree scene.
   end type riis_surface_info
 
+  !> The closest point of a surface to one point.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance
-    real(c_double) :: point(3)
-    real(c_double) :: barycentric(3)
-    real(c_double) :: normal(3)
-    integer(c_int64_t) :: triangle_id
-    integer(c_int32_t) :: leaflet_id
-    integer(c_int32_t) :: side
+    real(c_double) :: distance           !< >= 0.
+    real(c_double) :: point(3)           !< On the triangle.
+    real(c_double) :: barycentric(3)     !< Its weights of the triangle's three vertices, >= 0, sum 1.
+    real(c_double) :: normal(3)          !< Unit normal of the triangle, by the right-hand rule.
+    integer(c_int64_t) :: triangle_id    !< From 0: the lowest of the closest triangles' ids.
+    integer(c_int32_t) :: leaflet_id     !< RIIS_LEAFLET_*, or the caller's.
+    integer(c_int32_t) :: side           !< 1 where normals point to (downstream), -1 on the other side, 0 on the surface or
+                                         !! level with its rim.
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -157,14 +159,14 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_closest_options
 
-  type, bind(c) :: riis_closest_arrays  ! c_null_ptr for what is not wanted
+  type, bind(c) :: riis_closest_arrays  !< c_null_ptr for what is not wanted
     integer(c_int64_t) :: struct_size
-    type(c_ptr) :: distance            ! real(c_double), (n_points)
-    type(c_ptr) :: point               ! real(c_double), (3, n_points), like the next two
+    type(c_ptr) :: distance            !< real(c_double), (n_points)
+    type(c_ptr) :: point               !< real(c_double), (3, n_points), like the next two
     type(c_ptr) :: barycentric
     type(c_ptr) :: normal
-    type(c_ptr) :: triangle_id         ! integer(c_int64_t), (n_points)
-    type(c_ptr) :: leaflet_id          ! integer(c_int32_t), (n_points), like the next
+    type(c_ptr) :: triangle_id         !< integer(c_int64_t), (n_points)
+    type(c_ptr) :: leaflet_id          !< integer(c_int32_t), (n_points), like the next
     type(c_ptr) :: side
   end type riis_closest_arrays
 
@@ -172,11 +174,11 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_rows
     integer(c_int64_t) :: n_all
-    type(c_ptr) :: offsets             ! integer(c_int32_t) or (c_int64_t), (n_rows + 1)
-    type(c_ptr) :: columns             ! integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
-    integer(c_int32_t) :: offset_bits  ! storage_size(offsets)
-    integer(c_int32_t) :: column_bits  ! storage_size(columns)
-    integer(c_int32_t) :: index_base   ! 1 for offsets and columns that count as Fortran does
+    type(c_ptr) :: offsets             !< integer(c_int32_t) or (c_int64_t), (n_rows + 1)
+    type(c_ptr) :: columns             !< integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
+    integer(c_int32_t) :: offset_bits  !< storage_size(offsets)
+    integer(c_int32_t) :: column_bits  !< storage_size(columns)
+    integer(c_int32_t) :: index_base   !< 1 for offsets and columns that count as Fortran does
     integer(c_int32_t) :: reserved
   end type riis_csr
 
@@ -184,12 +186,12 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
     integer(c_int64_t) :: n_cells
-    type(c_ptr) :: node_ids            ! integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
-    type(c_ptr) :: offsets             ! of the kind of node_ids, (n_cells + 1), from 0 also with index_base 1; or
-                                       ! c_null_ptr
+    type(c_ptr) :: node_ids            !< integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
+    type(c_ptr) :: offsets             !< of the kind of node_ids, (n_cells + 1), from 0 also with index_base 1; or
+                                       !! c_null_ptr
     integer(c_int32_t) :: nodes_per_cell
-    integer(c_int32_t) :: id_bits      ! storage_size(node_ids)
-    integer(c_int32_t) :: index_base   ! 1 for node_ids that count as Fortran does
+    integer(c_int32_t) :: id_bits      !< storage_size(node_ids)
+    integer(c_int32_t) :: index_base   !< 1 for node_ids that count as Fortran does
     integer(c_int32_t) :: n_threads
   end type riis_cells
 
@@ -197,11 +199,11 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_cells
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: owner               ! integer(c_int32_t) or (c_int64_t), like the next;
-    type(c_ptr) :: neighbor            ! face_cells(2, n_faces): c_loc(face_cells(1, 1)), c_loc(face_cells(2, 1))
-    integer(c_int64_t) :: stride       ! and 2
-    integer(c_int32_t) :: id_bits      ! storage_size(face_cells)
-    integer(c_int32_t) :: index_base   ! 1 for cells that count as Fortran does; neighbor is then 0 at the boundary
+    type(c_ptr) :: owner               !< integer(c_int32_t) or (c_int64_t), like the next;
+    type(c_ptr) :: neighbor            !< face_cells(2, n_faces): c_loc(face_cells(1, 1)), c_loc(face_cells(2, 1))
+    integer(c_int64_t) :: stride       !< and 2
+    integer(c_int32_t) :: id_bits      !< storage_size(face_cells)
+    integer(c_int32_t) :: index_base   !< 1 for cells that count as Fortran does; neighbor is then 0 at the boundary
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
   end type riis_faces
@@ -209,22 +211,24 @@ module riis_c
   type, bind(c) :: riis_mark_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: distance_limit
-    type(c_ptr) :: node_mask           ! integer(c_int8_t), (n_nodes), or c_null_ptr
+    type(c_ptr) :: node_mask           !< integer(c_int8_t), (n_nodes), or c_null_ptr
     integer(c_int32_t) :: search
     integer(c_int32_t) :: n_threads
   end type riis_mark_options
 
+  !> How a marking went.
   type, bind(c) :: riis_mark_stats
-    integer(c_int64_t) :: n_nodes
-    integer(c_int64_t) :: n_marked
-    integer(c_int64_t) :: n_within_limit
-    integer(c_int64_t) :: n_queries
-    real(c_double) :: seconds
-    integer(c_int32_t) :: search
-    integer(c_int32_t) :: n_threads
-    integer(c_int32_t) :: complete
-    integer(c_int32_t) :: reserved
-    integer(c_int64_t) :: n_unreached
+    integer(c_int64_t) :: n_nodes        !< Of the mesh.
+    integer(c_int64_t) :: n_marked       !< Within the half thickness.
+    integer(c_int64_t) :: n_within_limit !< Within the distance limit.
+    integer(c_int64_t) :: n_queries      !< Closest-point queries that were made, of nodes and of groups of nodes.
+    real(c_double) :: seconds            !< Wall time.
+    integer(c_int32_t) :: search         !< The search that ran, never RIIS_SEARCH_AUTO.
+    integer(c_int32_t) :: n_threads      !< Threads that really ran, the most in any part of the search.
+    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain; 0: it is not.
+    integer(c_int32_t) :: reserved       !< 0.
+    integer(c_int64_t) :: n_unreached    !< Nodes within the limit that the neighbour search did not reach from neighbour to
+                                         !! neighbour, and that its proof found.
   end type riis_mark_stats
 
   ! -------------------------------------------------------------------------------------------------------------------
@@ -235,9 +239,9 @@ module riis_c
     subroutine riis_log_function(user_data, level, message) bind(c)
       import :: c_int32_t, c_ptr
       implicit none
-      type(c_ptr), value :: user_data           ! what riis_set_log was given
-      integer(c_int32_t), value :: level        ! RIIS_LOG_*
-      type(c_ptr), value :: message             ! for riis_c_text, valid during the call only
+      type(c_ptr), value :: user_data           !< what riis_set_log was given
+      integer(c_int32_t), value :: level        !< RIIS_LOG_*
+      type(c_ptr), value :: message             !< for riis_c_text, valid during the call only
     end subroutine riis_log_function
   end interface
 
@@ -246,7 +250,7 @@ module riis_c
     ! Status, errors, log, version
     ! -----------------------------------------------------------------------------------------------------------------
 
-    ! The status's own name, for riis_c_text.
+    !> The status's own name, for riis_c_text.
     function riis_status_name(status) result(name) bind(c, name='riis_status_name')
       import :: c_ptr, riis_status
       implicit none
@@ -254,7 +258,7 @@ module riis_c
       type(c_ptr) :: name
     end function riis_status_name
 
-    ! The text of the calling thread's last failed call, for riis_c_text.
+    !> The text of the calling thread's last failed call, for riis_c_text.
     function riis_last_error() result(text) bind(c, name='riis_last_error')
       import :: c_ptr
       implicit none
@@ -267,15 +271,15 @@ module riis_c
       integer(c_int32_t), intent(out), optional :: major, minor, patch
     end subroutine riis_version
 
-    ! For riis_c_text.
+    !> For riis_c_text.
     function riis_version_string() result(text) bind(c, name='riis_version_string')
       import :: c_ptr
       implicit none
       type(c_ptr) :: text
     end function riis_version_string
 
-    !   function   c_funloc of a procedure with the interface riis_log_function; c_null_funptr for silence
-    !   user_data  c_loc of a target that outlives the log function, or c_null_ptr
+    !>   function   c_funloc of a procedure with the interface riis_log_function; c_null_funptr for silence
+    !!   user_data  c_loc of a target that outlives the log function, or c_null_ptr
     subroutine riis_set_log(function, user_data) bind(c, name='riis_set_log')
       import :: c_funptr, c_ptr
       implicit none
@@ -287,7 +291,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !   kind  riis_c_string('aortic') or riis_c_string('mitral')
+    !>   kind  riis_c_string('aortic') or riis_c_string('mitral')
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none
@@ -302,8 +306,8 @@ module riis_c
       type(c_ptr), intent(inout) :: valve
     end subroutine riis_valve_destroy
 
-    !   name    riis_c_string('right.rotation')
-    !   values  (n_values), copied; lengths in the unit of the valve, angles in degrees
+    !>   name    riis_c_string('right.rotation')
+    !!   values  (n_values), copied; lengths in the unit of the valve, angles in degrees
     function riis_valve_set(valve, name, n_values, values) result(status) bind(c, name='riis_valve_set')
       import :: c_char, c_double, c_int64_t, c_ptr, riis_status
       implicit none
@@ -323,7 +327,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_set_scalar
 
-    !   values  (n_values)
+    !>   values  (n_values)
     function riis_valve_get(valve, name, n_values, values) result(status) bind(c, name='riis_valve_get')
       import :: c_char, c_double, c_int64_t, c_ptr, riis_status
       implicit none
@@ -342,7 +346,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_set_open_state
 
-    !   struct_size  c_sizeof(patches)
+    !>   struct_size  c_sizeof(patches)
     function riis_patches_init(patches, struct_size) result(status) bind(c, name='riis_patches_init')
       import :: c_int64_t, riis_patches, riis_status
       implicit none
@@ -368,8 +372,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_n_parameters
 
-    !   parameter_id  from 0
-    !   struct_size   c_sizeof(parameter)
+    !>   parameter_id  from 0
+    !!   struct_size   c_sizeof(parameter)
     function riis_valve_parameter(valve, parameter_id, parameter, struct_size) result(status) &
         bind(c, name='riis_valve_parameter')
       import :: c_int64_t, c_ptr, riis_parameter, riis_status
@@ -385,7 +389,7 @@ module riis_c
     ! Surface
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !   struct_size  c_sizeof(options)
+    !>   struct_size  c_sizeof(options)
     function riis_surface_options_init(options, struct_size) result(status) bind(c, name='riis_surface_options_init')
       import :: c_int64_t, riis_status, riis_surface_options
       implicit none
@@ -394,7 +398,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_options_init
 
-    !   options  left out: all defaults
+    !>   options  left out: all defaults
     function riis_surface_create(valve, options, surface) result(status) bind(c, name='riis_surface_create')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -404,7 +408,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create
 
-    !   struct_size  c_sizeof(arrays)
+    !>   struct_size  c_sizeof(arrays)
     function riis_surface_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_surface_arrays_init')
       import :: c_int64_t, riis_status, riis_surface_arrays
       implicit none
@@ -413,7 +417,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_arrays_init
 
-    !   options  left out: all defaults
+    !>   options  left out: all defaults
     function riis_surface_create_from_arrays(arrays, options, surface) result(status) &
         bind(c, name='riis_surface_create_from_arrays')
       import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
@@ -424,7 +428,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_arrays
 
-    !   options  left out: those that the surface has
+    !>   options  left out: those that the surface has
     function riis_surface_update(surface, valve, options) result(status) bind(c, name='riis_surface_update')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -434,7 +438,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update
 
-    !   options  left out: those that the surface has
+    !>   options  left out: those that the surface has
     function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
         bind(c, name='riis_surface_update_from_arrays')
       import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
@@ -451,7 +455,7 @@ module riis_c
       type(c_ptr), intent(inout) :: surface
     end subroutine riis_surface_destroy
 
-    !   struct_size  c_sizeof(info)
+    !>   struct_size  c_sizeof(info)
     function riis_surface_get_info(surface, info, struct_size) result(status) bind(c, name='riis_surface_get_info')
       import :: c_int64_t, c_ptr, riis_status, riis_surface_info
       implicit none
@@ -461,7 +465,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_info
 
-    !   xyz  real(c_double), (3, n_vertices)
+    !>   xyz  real(c_double), (3, n_vertices)
     function riis_surface_vertices(surface, n_vertices, xyz) result(status) bind(c, name='riis_surface_vertices')
       import :: c_int64_t, c_ptr, riis_status
       implicit none
@@ -471,7 +475,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_vertices
 
-    !   uv  real(c_double), (2, n_vertices); c_null_ptr for a surface from arrays
+    !>   uv  real(c_double), (2, n_vertices); c_null_ptr for a surface from arrays
     function riis_surface_vertex_parameters(surface, n_vertices, uv) result(status) &
         bind(c, name='riis_surface_vertex_parameters')
       import :: c_int64_t, c_ptr, riis_status
@@ -482,9 +486,9 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_vertex_parameters
 
-    !   vertex_id             integer(c_int64_t), (3, n_triangles), from 0
-    !   triangle_id           integer(c_int64_t), (n_triangles)
-    !   leaflet_id, patch_id  integer(c_int32_t), (n_triangles)
+    !>   vertex_id             integer(c_int64_t), (3, n_triangles), from 0
+    !!   triangle_id           integer(c_int64_t), (n_triangles)
+    !!   leaflet_id, patch_id  integer(c_int32_t), (n_triangles)
     function riis_surface_triangles(surface, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id) result(status) &
         bind(c, name='riis_surface_triangles')
       import :: c_int64_t, c_ptr, riis_status
@@ -499,7 +503,7 @@ module riis_c
     ! Closest points
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !   struct_size  c_sizeof(closest)
+    !>   struct_size  c_sizeof(closest)
     function riis_closest_point(surface, point, closest, struct_size) result(status) bind(c, name='riis_closest_point')
       import :: c_double, c_int64_t, c_ptr, riis_closest, riis_status
       implicit none
@@ -510,7 +514,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_closest_point
 
-    !   struct_size  c_sizeof(options)
+    !>   struct_size  c_sizeof(options)
     function riis_closest_options_init(options, struct_size) result(status) bind(c, name='riis_closest_options_init')
       import :: c_int64_t, riis_closest_options, riis_status
       implicit none
@@ -519,7 +523,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_closest_options_init
 
-    !   struct_size  c_sizeof(arrays)
+    !>   struct_size  c_sizeof(arrays)
     function riis_closest_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_closest_arrays_init')
       import :: c_int64_t, riis_closest_arrays, riis_status
       implicit none
@@ -528,9 +532,9 @@ module riis_c
       integer(riis_status) :: status
     end function riis_closest_arrays_init
 
-    !   x, y, z  point i is x(i * stride + 1), ...: pass xyz(1, 1), xyz(2, 1), xyz(3, 1) and 3, or x, y, z and 1
-    !   options  left out: all defaults
-    !   arrays   what its pointers point to is written
+    !>   x, y, z  point i is x(i * stride + 1), ...: pass xyz(1, 1), xyz(2, 1), xyz(3, 1) and 3, or x, y, z and 1
+    !!   options  left out: all defaults
+    !!   arrays   what its pointers point to is written
     function riis_closest_points(surface, n_points, x, y, z, stride, options, arrays) result(status) &
         bind(c, name='riis_closest_points')
       import :: c_double, c_int64_t, c_ptr, riis_closest_arrays, riis_closest_options, riis_status
@@ -548,9 +552,9 @@ module riis_c
     ! Mesh
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !   x, y, z  c_loc of real(c_double) targets, borrowed until the mesh is destroyed or updated:
-    !            c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)) and stride 3,
-    !            or c_loc(x), c_loc(y), c_loc(z) and stride 1
+    !>   x, y, z  c_loc of real(c_double) targets, borrowed until the mesh is destroyed or updated:
+    !!            c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)) and stride 3,
+    !!            or c_loc(x), c_loc(y), c_loc(z) and stride 1
     function riis_mesh_create(n_nodes, x, y, z, stride, mesh) result(status) bind(c, name='riis_mesh_create')
       import :: c_int64_t, c_ptr, riis_status
       implicit none
@@ -561,7 +565,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mesh_create
 
-    !   x, y, z  as above
+    !>   x, y, z  as above
     function riis_mesh_update(mesh, n_nodes, x, y, z, stride) result(status) bind(c, name='riis_mesh_update')
       import :: c_int64_t, c_ptr, riis_status
       implicit none
@@ -578,7 +582,7 @@ module riis_c
       type(c_ptr), intent(inout) :: mesh
     end subroutine riis_mesh_destroy
 
-    !   struct_size  c_sizeof(csr)
+    !>   struct_size  c_sizeof(csr)
     function riis_csr_init(csr, struct_size) result(status) bind(c, name='riis_csr_init')
       import :: c_int64_t, riis_csr, riis_status
       implicit none
@@ -587,8 +591,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_csr_init
 
-    !   csr  what its pointers point to is borrowed until the mesh is destroyed or given another, csr itself is not;
-    !        left out: the mesh has none any more
+    !>   csr  what its pointers point to is borrowed until the mesh is destroyed or given another, csr itself is not;
+    !!        left out: the mesh has none any more
     function riis_mesh_set_adjacency(mesh, csr) result(status) bind(c, name='riis_mesh_set_adjacency')
       import :: c_ptr, riis_csr, riis_status
       implicit none
@@ -601,7 +605,7 @@ module riis_c
     ! Adjacency
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !   struct_size  c_sizeof(cells)
+    !>   struct_size  c_sizeof(cells)
     function riis_cells_init(cells, struct_size) result(status) bind(c, name='riis_cells_init')
       import :: c_int64_t, riis_cells, riis_status
       implicit none
@@ -610,7 +614,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_cells_init
 
-    !   cells  what its pointers point to is read during the call only
+    !>   cells  what its pointers point to is read during the call only
     function riis_adjacency_create_from_cells(cells, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_cells')
       import :: c_ptr, riis_cells, riis_status
@@ -620,7 +624,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_cells
 
-    !   struct_size  c_sizeof(faces)
+    !>   struct_size  c_sizeof(faces)
     function riis_faces_init(faces, struct_size) result(status) bind(c, name='riis_faces_init')
       import :: c_int64_t, riis_faces, riis_status
       implicit none
@@ -629,7 +633,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_faces_init
 
-    !   faces  what its pointers point to is read during the call only
+    !>   faces  what its pointers point to is read during the call only
     function riis_adjacency_create_from_faces(faces, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_faces')
       import :: c_ptr, riis_faces, riis_status
@@ -639,7 +643,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_faces
 
-    !   ni, nj, nk  the extents of xyz(3, ni, nj, nk)
+    !>   ni, nj, nk  the extents of xyz(3, ni, nj, nk)
     function riis_adjacency_create_from_grid(ni, nj, nk, n_threads, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_grid')
       import :: c_int32_t, c_int64_t, c_ptr, riis_status
@@ -650,10 +654,10 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_grid
 
-    !   csr          ready for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets are
-    !                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
-    !                column_bits is 64, (offsets(n_rows + 1)), from 0
-    !   struct_size  c_sizeof(csr)
+    !>   csr          ready for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets are
+    !!                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
+    !!                column_bits is 64, (offsets(n_rows + 1)), from 0
+    !!   struct_size  c_sizeof(csr)
     function riis_adjacency_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_csr')
       import :: c_int64_t, c_ptr, riis_csr, riis_status
       implicit none
@@ -686,7 +690,7 @@ module riis_c
       type(c_ptr), intent(inout) :: result
     end subroutine riis_mark_result_destroy
 
-    !   struct_size  c_sizeof(options)
+    !>   struct_size  c_sizeof(options)
     function riis_mark_options_init(options, struct_size) result(status) bind(c, name='riis_mark_options_init')
       import :: c_int64_t, riis_mark_options, riis_status
       implicit none
@@ -695,7 +699,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_options_init
 
-    !   options  left out: all defaults
+    !>   options  left out: all defaults
     function riis_mark_nodes(surface, mesh, options, result) result(status) bind(c, name='riis_mark_nodes')
       import :: c_ptr, riis_mark_options, riis_status
       implicit none
@@ -706,10 +710,10 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_nodes
 
-    !   node_id      integer(c_int64_t), (n_marked), ascending, from 0
-    !   distance     real(c_double), (n_marked)
-    !   triangle_id  integer(c_int64_t), (n_marked)
-    !   leaflet_id   integer(c_int32_t), (n_marked)
+    !>   node_id      integer(c_int64_t), (n_marked), ascending, from 0
+    !!   distance     real(c_double), (n_marked)
+    !!   triangle_id  integer(c_int64_t), (n_marked)
+    !!   leaflet_id   integer(c_int32_t), (n_marked)
     function riis_mark_result_marked(result, n_marked, node_id, distance, triangle_id, leaflet_id) result(status) &
         bind(c, name='riis_mark_result_marked')
       import :: c_int64_t, c_ptr, riis_status
@@ -720,7 +724,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_result_marked
 
-    !   the same, (n_within)
+    !>   the same, (n_within)
     function riis_mark_result_within_limit(result, n_within, node_id, distance, triangle_id, leaflet_id) &
         result(status) bind(c, name='riis_mark_result_within_limit')
       import :: c_int64_t, c_ptr, riis_status
@@ -731,7 +735,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_result_within_limit
 
-    !   mark, distance, triangle_id, leaflet_id  (n_nodes), contiguous, every entry is written
+    !>   mark, distance, triangle_id, leaflet_id  (n_nodes), contiguous, every entry is written
     function riis_mark_result_dense(result, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) &
         result(status) bind(c, name='riis_mark_result_dense')
       import :: c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr, riis_status
@@ -746,7 +750,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_result_dense
 
-    !   struct_size  c_sizeof(stats)
+    !>   struct_size  c_sizeof(stats)
     function riis_mark_result_stats(result, stats, struct_size) result(status) bind(c, name='riis_mark_result_stats')
       import :: c_int64_t, c_ptr, riis_mark_stats, riis_status
       implicit none
@@ -769,14 +773,14 @@ module riis_c
 
 contains
 
-  ! The text without its trailing blanks, ended as C wants it.
+  !> The text without its trailing blanks, ended as C wants it.
   pure function riis_c_string(text) result(c_text)
     character(len=*), intent(in) :: text
     character(len=len_trim(text) + 1, kind=c_char) :: c_text
     c_text = trim(text) // c_null_char
   end function riis_c_string
 
-  ! A copy of a text of the library's; '' for c_null_ptr.
+  !> A copy of a text of the library's; '' for c_null_ptr.
   function riis_c_text(c_text) result(text)
     type(c_ptr), intent(in) :: c_text
     character(len=:), allocatable :: text

@@ -34,9 +34,10 @@
  * - A handle may be read (const) by any number of threads at once; it is written by one thread with no reader beside
  *   it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - Where a number of threads can be given, 0 stands for the processors that the calling thread may run on (its affinity
- *   mask); OMP_NUM_THREADS and omp_set_num_threads do not matter. More threads than the system grants end the process: that
- *   is how OpenMP's run-time answers, out of the library's reach. With 1 no thread is started, which is also all that a
- *   child of fork() may ask for.
+ *   mask); OMP_NUM_THREADS and omp_set_num_threads do not matter. More threads, or more memory for them, than the system
+ *   grants end the process: that is how OpenMP's run-time answers, and TBB's threads, out of the library's reach
+ *   (docs/building.md). With 1 no thread is started, which is also all that a child of fork() may ask for. Making a surface
+ *   is Embree's, on the threads that TBB grants.
  * - Each call runs with the default floating-point environment, a log function included, and puts the caller's back:
  *   traps, rounding mode and flush-to-zero of the caller neither change the result nor fire inside. The caller's OpenMP
  *   and TBB settings stay.
@@ -50,12 +51,12 @@
 
 #include <stdint.h>
 
-#define RIIS_VERSION_MAJOR 0
-#define RIIS_VERSION_MINOR 1
-#define RIIS_VERSION_PATCH 0
+#define RIIS_VERSION_MAJOR 0 /* of this header; grows when compiled callers would break, or the library's name changes */
+#define RIIS_VERSION_MINOR 1 /* grows when something is added */
+#define RIIS_VERSION_PATCH 0 /* grows when something is mended */
 
 #if defined(__GNUC__)
-#define RIIS_API __attribute__((visibility("default")))
+#define RIIS_API __attribute__((visibility("default"))) /* stands before what the library exports */
 #else
 #define RIIS_API
 #endif
@@ -70,8 +71,9 @@ extern "C" {
 
 /* What a call returns. The values are part of the ABI and never change; new ones are appended at either end. */
 typedef int32_t riis_status;
+/* Values of riis_status. */
 enum {
-  RIIS_OK = 0,
+  RIIS_OK = 0,                  /* success */
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
   RIIS_INVALID_STRUCT_SIZE = 2, /* struct_size does not fit any release of this struct: not filled by its init function,
                                    or the caller was compiled against a newer riis.h than the library */
@@ -96,18 +98,23 @@ RIIS_API const char *riis_last_error(void);
 
 /* Version of the library that was linked, not of this header. Any pointer may be NULL. */
 RIIS_API void riis_version(int32_t *major, int32_t *minor, int32_t *patch);
-/* The same as static text, "0.1.0". */
+/* The same as static text, such as "0.1.0". */
 RIIS_API const char *riis_version_string(void);
 
 /* Receives what the library would like to say: one line without a newline, valid during the call only. May be called
- * from any thread that calls the library; must not call the library and must not throw or jump out. */
+ * from any thread that calls the library; must not call the library and must not throw or jump out.
+ *   user_data  what riis_set_log was given
+ *   level      RIIS_LOG_INFO or RIIS_LOG_WARNING
+ *   message    borrowed: copy what is to be kept */
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
+/* The levels of a message. */
 enum {
   RIIS_LOG_INFO = 0,   /* what was built and how large */
   RIIS_LOG_WARNING = 1 /* something was done that the caller may not expect, such as skipped triangles */
 };
 /* Sets the log function of the process; NULL, the default, is silence. Safe from any thread; a message under way in
- * another thread may still reach the function that was set before. */
+ * another thread may still reach the function that was set before.
+ *   user_data  handed to the function as it is, never looked at; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* Takes the default where a field says so. */
@@ -123,6 +130,7 @@ typedef struct riis_valve riis_valve;
 /* Makes a valve of a kind by name with the paper's parameter values. Kinds: "aortic", three cusps, and "mitral", two leaflets.
  * Errors: RIIS_INVALID_PARAMETER for an unknown kind. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
+/* Destroys the valve. Surfaces that were made from it, and valves that open to it, stay as they are. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by the paper's name. Parameters of one cusp carry its name: "right.leaflet_angle", "left.rotation",
@@ -162,7 +170,7 @@ RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_val
  * where u = 1 ends, to 1e-9 of the valve's size. Normals are along S_u x S_v. Curves that patches share are given once and
  * named twice: they become one polyline, and the patches meet without cracks. A side may be collapsed to a point. */
 typedef struct riis_patches {
-  int64_t struct_size;
+  int64_t struct_size;       /* sizeof(riis_patches) of the caller, as its init function had it */
   int64_t n_curves;          /* 1 to 4,000,000; each the side of some patch */
   const int32_t *degree;     /* (n_curves): 1, 2 or 3, Bezier curves with degree + 1 control points */
   const double *control;     /* (3, sum of all degree + 1): the control points, curve after curve; finite, magnitude at most
@@ -175,6 +183,7 @@ typedef struct riis_patches {
   int32_t index_base;        /* 0 or 1: the number of the first curve in curve_id. Default 0 */
   int32_t reserved;          /* 0 */
 } riis_patches;
+/* Fills *patches with the defaults, all else with 0 and NULL; struct_size is sizeof(riis_patches) of the caller. */
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size);
 
 /* Makes a valve from patches. Its only parameter is "opening"; patch_id is the patch's number.
@@ -208,8 +217,13 @@ RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t param
 typedef struct riis_surface riis_surface;
 
 /* The leaflets of the aortic and of the mitral valve, as leaflet_id reports them. */
-enum { RIIS_LEAFLET_RIGHT = 0, RIIS_LEAFLET_LEFT = 1, RIIS_LEAFLET_NON_CORONARY = 2 };
-enum { RIIS_LEAFLET_ANTERIOR = 0, RIIS_LEAFLET_POSTERIOR = 1 };
+enum {
+  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left" */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary" */
+  RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
+  RIIS_LEAFLET_POSTERIOR = 1    /* mitral: the posterior leaflet, all three scallops */
+};
 
 /* What to do with triangles of zero area in the caller's arrays. */
 enum {
@@ -220,7 +234,7 @@ enum {
 /* How a surface is made and where it stands: x -> scale * rotation * x + translation, the placement, is applied last, to
  * valves and to arrays alike. */
 typedef struct riis_surface_options {
-  int64_t struct_size;
+  int64_t struct_size;     /* sizeof(riis_surface_options) of the caller, as its init function had it */
   double half_thickness;   /* d_min, in mesh units, 1e-50 to 1e50: a node is marked when its distance to the surface is at
                               most this (paper, 4.2). Default RIIS_AUTO: 0.1 * scale */
   double tolerance;        /* generated valves: tolerance * half_thickness bounds the difference between distances to the
@@ -251,7 +265,7 @@ RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_sur
 /* The caller's own surface, triangles or quads, by arrays that are read during the call only. Filled by its init function;
  * then set what there is. */
 typedef struct riis_surface_arrays {
-  int64_t struct_size;
+  int64_t struct_size;       /* sizeof(riis_surface_arrays) of the caller, as its init function had it */
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
   const double *x, *y, *z;   /* vertex i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60 */
   int64_t stride;            /* in doubles; 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. Default 1 */
@@ -263,6 +277,7 @@ typedef struct riis_surface_arrays {
   int32_t reserved;          /* 0 */
   const int32_t *leaflet_id; /* one per face, >= 0; NULL: all 0 */
 } riis_surface_arrays;
+/* Fills *arrays with the defaults, all else with 0 and NULL; struct_size is sizeof(riis_surface_arrays) of the caller. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
 /* Makes a surface from arrays. The winding stays the caller's. A triangle's id is the caller's: the face's number for
@@ -274,17 +289,20 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
                                                      riis_surface **surface);
 
 /* Replaces the surface's content, as for a valve that moved: the handle stays, pointers got from it before end.
+ *   valve    read during the call only
  *   options  NULL keeps the options that the surface has, not the defaults
- * On an error > 0 the surface is as it was. */
+ * On an error > 0 the surface is as it was. Errors are those of riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
+/* The same from arrays; errors are those of riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
+/* Destroys the surface; pointers got from it end, results stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
 /* What a surface is. */
 typedef struct riis_surface_info {
-  int64_t n_vertices;
+  int64_t n_vertices;        /* length of what riis_surface_vertices gives */
   int64_t n_triangles;       /* those that are asked for closest points */
   int64_t n_zero_area;       /* triangles left out because they have no area */
   double half_thickness;     /* placed units */
@@ -293,7 +311,7 @@ typedef struct riis_surface_info {
   double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
   double seconds_scene;      /* and the Embree scene */
 } riis_surface_info;
-/* struct_size is sizeof(riis_surface_info) of the caller; no more than that is written. */
+/* Tells what the surface is. struct_size is sizeof(riis_surface_info) of the caller; no more than that is written. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size);
 
 /* The vertices, xyz(3, n_vertices), after placement. Any pointer may be NULL. Owned by the surface, valid until its next
@@ -324,32 +342,35 @@ typedef struct riis_closest {
   double barycentric[3];  /* its weights of the triangle's three vertices, >= 0, sum 1 */
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest of the closest triangles' ids */
-  int32_t leaflet_id;
+  int32_t leaflet_id;     /* the triangle's */
   int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 exactly on the surface or
                              level with its rim. At an edge or a vertex that several triangles share, their angle-weighted
                              normal decides (Baerentzen, Aanaes 2005); vertices are shared when their placed coordinates are
                              equal. Where an edge ends inside another (along the bending curve) it is the one triangle's */
 } riis_closest;
-/* Every number is computed in double precision, equal to that of a loop over all triangles. Distances below 1e-154 underflow
- * to 0. The first side asked of a new surface makes what all sides need.
+/* Finds the closest point of one point, however far it is. Every number is computed in double precision, equal to that of a loop
+ * over all triangles. Distances below 1e-154 underflow to 0. The first side asked of a new surface makes what all sides need.
  *   point        3 finite coordinates, magnitude at most 1e60
- *   struct_size  sizeof(riis_closest) of the caller; no more than that is written */
+ *   struct_size  sizeof(riis_closest) of the caller; no more than that is written
+ * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
 
+/* How closest points of many points are sought. */
 typedef struct riis_closest_options {
-  int64_t struct_size;
+  int64_t struct_size;    /* sizeof(riis_closest_options) of the caller, as its init function had it */
   double distance_limit;  /* points farther than this get far_distance, ids -1, side 0, and zeros. >= 0; default
                              RIIS_AUTO: no limit, which infinity is, too */
   double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
   int32_t n_threads;      /* 1 to 1024, or 0, the default: the processors the calling thread may use */
   int32_t reserved;       /* 0 */
 } riis_closest_options;
+/* Fills *options with the defaults; struct_size is sizeof(riis_closest_options) of the caller. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
 
 /* Where the answers for many points go; NULL for what is not wanted. Fields as in riis_closest. */
 typedef struct riis_closest_arrays {
-  int64_t struct_size;
+  int64_t struct_size;    /* sizeof(riis_closest_arrays) of the caller, as its init function had it */
   double *distance;       /* (n_points) */
   double *point;          /* (3, n_points) */
   double *barycentric;    /* (3, n_points) */
@@ -358,6 +379,7 @@ typedef struct riis_closest_arrays {
   int32_t *leaflet_id;    /* (n_points) */
   int32_t *side;          /* (n_points) */
 } riis_closest_arrays;
+/* Fills *arrays with NULL; struct_size is sizeof(riis_closest_arrays) of the caller. */
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Closest points of many points, in parallel.
@@ -389,11 +411,12 @@ typedef struct riis_mesh riis_mesh;
  * Errors: RIIS_INVALID_MESH naming the node and the value. A process without nodes has nothing to mark: do not call. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
                                       riis_mesh **mesh);
-/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Same arguments. To be called
- * after any change of coordinates: the neighbour search knows where groups of nodes are, and without it seeks them where they
- * were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also groups them anew. */
+/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Arguments and errors as above.
+ * To be called after any change of coordinates: the neighbour search knows where groups of nodes are, and without it seeks them
+ * where they were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also groups them anew. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride);
+/* Destroys the handle; the coordinates are the caller's and stay, and so do results. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does: the order of its nodes in clusters,
  * about 17 bytes a node while the handle lives, about 32 more while they are made. After riis_mesh_update with as many nodes the order
@@ -405,7 +428,7 @@ RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 /* Which nodes are neighbours, as compressed sparse rows: those of node i are columns[offsets[i]] to columns[offsets[i + 1] - 1], less
  * the base. Filled by its init function; then set what there is. */
 typedef struct riis_csr {
-  int64_t struct_size;
+  int64_t struct_size;   /* sizeof(riis_csr) of the caller, as its init function had it */
   int64_t n_rows;        /* the mesh's n_nodes */
   int64_t n_all;         /* columns are nodes below this: those from n_rows on are ghosts, other ranks' nodes, which are legal and
                             ignored. At least n_rows; default 0 stands for n_rows */
@@ -416,6 +439,7 @@ typedef struct riis_csr {
   int32_t index_base;    /* 0 or 1: where both offsets and columns count from. Default 0 */
   int32_t reserved;      /* 0 */
 } riis_csr;
+/* Fills *csr with the defaults, all else with 0 and NULL; struct_size is sizeof(riis_csr) of the caller. */
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size);
 
 /* Gives the mesh the adjacency that the neighbour search walks along. Borrowed: the arrays must stay in place, unchanged, until the
@@ -434,7 +458,7 @@ typedef struct riis_adjacency riis_adjacency;
 /* Cells by their nodes. Filled by its init function. What a cell is, its number of nodes says: 4 tetrahedron, 5 pyramid, 6 prism,
  * 8 hexahedron, in VTK's order of nodes (base first, then apex or the nodes above: also Abaqus', CGNS', Gmsh's). */
 typedef struct riis_cells {
-  int64_t struct_size;
+  int64_t struct_size;     /* sizeof(riis_cells) of the caller, as its init function had it */
   int64_t n_nodes;         /* of the mesh, >= 1 */
   int64_t n_cells;         /* >= 1 */
   const void *node_ids;    /* the nodes of cell after cell */
@@ -445,6 +469,7 @@ typedef struct riis_cells {
   int32_t index_base;      /* 0 or 1: the number of the first node. Default 0 */
   int32_t n_threads;       /* 1 to 1024, or 0, the default: the processors the calling thread may use */
 } riis_cells;
+/* Fills *cells with the defaults, all else with 0 and NULL; struct_size is sizeof(riis_cells) of the caller. */
 RIIS_API riis_status riis_cells_init(riis_cells *cells, int64_t struct_size);
 /* Neighbours are nodes that an edge of a cell joins. The arrays are read during the call only.
  * Errors: RIIS_INVALID_ARGUMENT for a field out of range, RIIS_INVALID_MESH naming the cell and its value. */
@@ -452,29 +477,34 @@ RIIS_API riis_status riis_adjacency_create_from_cells(const riis_cells *cells, r
 
 /* Faces between cells, for codes that mark cell centres. Filled by its init function. */
 typedef struct riis_faces {
-  int64_t struct_size;
+  int64_t struct_size;     /* sizeof(riis_faces) of the caller, as its init function had it */
   int64_t n_cells;         /* >= 1: the nodes of the mesh are cell centres */
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
   const void *neighbor;    /* base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
   int64_t stride;          /* in entries, 1 to 1024: 1 for separate arrays, 2 for face_cells(2, n_faces). Default 1 */
-  int32_t id_bits;         /* as in riis_cells, like the next two */
-  int32_t index_base;
-  int32_t n_threads;
+  int32_t id_bits;         /* 32 or 64: owner and neighbor point to int32_t or int64_t. Default 32 */
+  int32_t index_base;      /* 0 or 1: the number of the first cell. Default 0 */
+  int32_t n_threads;       /* 1 to 1024, or 0, the default: the processors the calling thread may use */
   int32_t reserved;        /* 0 */
 } riis_faces;
+/* Fills *faces with the defaults, all else with 0 and NULL; struct_size is sizeof(riis_faces) of the caller. */
 RIIS_API riis_status riis_faces_init(riis_faces *faces, int64_t struct_size);
-/* Neighbours are cells with a common face. Arrays and errors as above. */
+/* Neighbours are cells with a common face. The arrays are read during the call only.
+ * Errors: RIIS_INVALID_ARGUMENT for a field out of range, RIIS_INVALID_MESH naming the face and its owner, if that is no cell, or
+ * its neighbor, if that is neither a cell nor the base - 1 of a boundary. */
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency);
 
 /* A structured grid of ni * nj * nk nodes, each >= 1; node i + ni (j + nj k). Neighbours differ by 1 in one of i, j, k.
- *   n_threads  as in riis_cells */
+ *   n_threads  1 to 1024, or 0: the processors the calling thread may use
+ * Errors: RIIS_INVALID_ARGUMENT for an extent or n_threads out of range. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
 /* Fills *csr for riis_mesh_set_adjacency. Its arrays are the adjacency's: destroy it after the mesh, not before. Offsets are
  * int64_t; columns int32_t as long as there are fewer than 2^31 nodes: column_bits says.
  *   struct_size  sizeof(riis_csr) of the caller; no more than that is written */
 RIIS_API riis_status riis_adjacency_csr(const riis_adjacency *adjacency, riis_csr *csr, int64_t struct_size);
+/* Destroys the adjacency and its arrays, after the mesh that it was given to. */
 RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
 /* ------------------------------------------------------------------------------------------------------------------ *
@@ -483,7 +513,9 @@ RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
 /* The nodes that were found and where the surface is from them. Made once, reused every step: its memory is kept. */
 typedef struct riis_mark_result riis_mark_result;
+/* Makes a result that has nothing yet; no mesh or surface belongs to it. */
 RIIS_API riis_status riis_mark_result_create(riis_mark_result **result);
+/* Destroys the result; pointers got from it end. */
 RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 
 /* How nodes are sought. */
@@ -514,8 +546,9 @@ enum {
   RIIS_INSTRUCTIONS_AVX512 = 3    /* F, DQ, BW, VL */
 };
 
+/* How nodes are marked. */
 typedef struct riis_mark_options {
-  int64_t struct_size;
+  int64_t struct_size;       /* sizeof(riis_mark_options) of the caller, as its init function had it */
   double distance_limit;     /* distances are wanted up to here, in mesh units: from the surface's half thickness to
                                 1e60; marks stay those of the half thickness. Default RIIS_AUTO: the half thickness */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out; NULL: all nodes. Read during the call only. Nodes left
@@ -526,6 +559,7 @@ typedef struct riis_mark_options {
                                 processor has not are refused with RIIS_UNAVAILABLE */
   int32_t reserved;          /* 0 */
 } riis_mark_options;
+/* Fills *options with the defaults; struct_size is sizeof(riis_mark_options) of the caller. */
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size);
 
 /* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. The
@@ -558,28 +592,30 @@ RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *resul
  *   mark          1 for marked nodes, 0 for others
  *   distance      of every node within the distance limit, else far_distance
  *   triangle_id   of every node within the distance limit, else -1
- *   leaflet_id    of every node within the distance limit, else -1 */
+ *   leaflet_id    of every node within the distance limit, else -1
+ * Errors: RIIS_INVALID_ARGUMENT for another n_nodes (a result never marked with has 0), or a far_distance that can look near. */
 RIIS_API riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance,
                                             uint8_t *mark, double *distance, int64_t *triangle_id, int32_t *leaflet_id);
 
 /* How the last marking went. */
 typedef struct riis_mark_stats {
-  int64_t n_nodes;
-  int64_t n_marked;
-  int64_t n_within_limit;
+  int64_t n_nodes;      /* of the mesh, masked out or not */
+  int64_t n_marked;     /* nodes within the half thickness */
+  int64_t n_within_limit; /* nodes within the distance limit, marked or not */
   int64_t n_queries;    /* closest-point queries that were made, of nodes and, by the neighbour search, of groups of nodes */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
   int32_t n_threads;    /* threads that really ran, the most in any part of the search. A caller's TBB limit binds walks, not loops */
   int32_t complete;     /* 1: every node within the limit was found, which is certain, for the coordinates that the mesh was last
                            told of; 0: it is not certain (RIIS_SEARCH_PAPER) */
-  int32_t reserved;
+  int32_t reserved;     /* 0 */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search did not reach from neighbour to neighbour, and that
                            its proof found */
   int32_t instructions; /* those that were used, never RIIS_INSTRUCTIONS_AUTO */
   int32_t reserved_2;
 } riis_mark_stats;
-/* struct_size is sizeof(riis_mark_stats) of the caller; no more than that is written. */
+/* Tells how the last marking with the result went; all 0 for a result never marked with. struct_size is sizeof(riis_mark_stats) of
+ * the caller; no more than that is written. */
 RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats, int64_t struct_size);
 
 #ifdef __cplusplus

@@ -29,6 +29,7 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
  * file must then say so (CELLS 0 0, CELL_TYPES 0), since without these it may be cut short.
  * Errors: RIIS_FILE_ERROR naming the file: missing, unreadable, another data set, truncated, no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
+/* Destroys the mesh; pointers got from it end. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
 /* The nodes in the file's order, xyz(3, n_nodes), for riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, ...). Any pointer
@@ -68,24 +69,32 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  * of a concave quad move on by one, the winding kept, where that line would run outside it.
  * Errors: RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface);
+/* Destroys the surface; arrays that point into it end, surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 /* Points *arrays, which its init function has filled, at the arrays of the surface, for riis_surface_create_from_arrays.
  * They are owned by the surface, valid until its destruction. */
 RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays);
 
 /* Writes exactly the triangles that are queried, after placement, to a .vtp file: points Float64; cell arrays riis_leaflet,
- * riis_patch (Int32), riis_triangle (Int64); point array riis_uv (2 x Float64) for generated valves. Complete or not there. */
+ * riis_patch (Int32), riis_triangle (Int64); point array riis_uv (2 x Float64) for generated valves. Complete or not there.
+ * Errors: RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
 /* ------------------------------------------------------------------------------------------------------------------ *
  * Pictures
  * ------------------------------------------------------------------------------------------------------------------ */
 
-enum { RIIS_VTK_VIEW_SIDE = 0, RIIS_VTK_VIEW_TOP = 1, RIIS_VTK_VIEW_OBLIQUE = 2 };
+/* Where a picture is looked at from. */
+enum {
+  RIIS_VTK_VIEW_SIDE = 0,   /* along +y, z up */
+  RIIS_VTK_VIEW_TOP = 1,    /* along -z, y up */
+  RIIS_VTK_VIEW_OBLIQUE = 2 /* from above one side, z up */
+};
 
+/* What a picture shows and how. */
 typedef struct riis_vtk_picture_options {
-  int64_t struct_size;
-  int32_t view;           /* RIIS_VTK_VIEW_*; side looks along +y with z up, top along -z with y up. Default oblique */
+  int64_t struct_size;    /* sizeof(riis_vtk_picture_options) of the caller, as its init function had it */
+  int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
   const char *title;      /* says what the surface is, before the number of its triangles; NULL, the default: "Surface" */
@@ -93,6 +102,7 @@ typedef struct riis_vtk_picture_options {
                              leaflets beyond: "leaflet 0", ... */
   int64_t n_leaflet_names;/* >= 0, default 0. Texts are ASCII; what is not is drawn as ? */
 } riis_vtk_picture_options;
+/* Fills *options with the defaults; struct_size is sizeof(riis_vtk_picture_options) of the caller. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws two panels into a .png file: the surface with its leaflets in different colours, and the cells all of whose nodes

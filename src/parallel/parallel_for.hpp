@@ -23,10 +23,15 @@ inline int default_thread_count() noexcept {
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads and returns how many
 // threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. The first
 // exception is thrown again here after all threads have stopped. No setting of the caller's OpenMP changes; inside a
-// caller's parallel region the loop runs on as many threads as nesting allows.
+// caller's parallel region the loop runs on as many threads as nesting allows. One thread is the calling one, without OpenMP: its
+// run-time ends the process when it has no memory.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_threads > n_blocks) n_threads = n_blocks < 1 ? 1 : static_cast<int>(n_blocks);
+  if (n_threads == 1) {
+    for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
+    return 1;
+  }
   std::atomic<std::int64_t> next_block{0};
   std::exception_ptr first_exception;
   int n_ran = 1;

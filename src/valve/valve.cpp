@@ -92,7 +92,7 @@ void Valve::set_open_state(const Valve &open) {
          "the open state is of the kind %s, the valve of the kind %s: a valve opens to one of its own",
          open.kind_->name, kind_->name);
   if (kind_->check_states) kind_->check_states(state_, open.state_);
-  open_ = open.state_;
+  open_ = ValveState(open.state_);  // copied aside: assigned member by member it could stop half way
 }
 
 PatchSet Valve::make_patches() const {

@@ -38,7 +38,7 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
   for (;;) {
     const std::string name = ".riis-" + std::to_string(getpid()) + "-" + std::to_string(n_created++) + ".tmp";
-    const std::string path = (folder / name).string();
+    std::string path = (folder / name).string();  // moved out: a copy might fail and leave the file
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
       // The writer has to open it again. A file system without permissions may refuse, and then loses none.

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
-# Every function and every enum constant of the headers is pinned by the test, so that what is appended is pinned too.
+# Every function, enum constant, struct and field of the headers is pinned by the test, so that what is appended is pinned too.
 set -euo pipefail
 test_source=$1
 shift
@@ -26,6 +26,22 @@ for header in "$@"; do
       missing=1
     }
   done
+  # "struct" or "struct, field"; comments may stand in several lines.
+  layouts=$(sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' "$header" | awk '
+    /^typedef struct riis_[a-z_]* \{/ { struct = $3; print struct; next }
+    /^\}/ { struct = "" }
+    struct != "" && /;/ {
+      gsub(/const |\[[0-9]*\]|;/, ""); gsub(/[*,]/, " ")
+      for (i = 2; i <= NF; ++i) print struct ", " $i
+    }')
+  [ -n "$layouts" ]
+  while read -r name; do
+    n=$((n + 1))
+    grep -q -E "(SIZE|FIELD)\($name, [0-9]" "$test_source" || {
+      echo "$name of $header is not in $test_source" >&2
+      missing=1
+    }
+  done <<<"$layouts"
 done
 [ $missing -eq 0 ]
 echo "$n names"

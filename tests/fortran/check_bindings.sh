@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_bindings.sh HEADER MODULE_SOURCE OBJECT_FILES...
-# The header and the Fortran module have the same functions, structs and constants with the same values, and every
-# function is called by the objects of the Fortran tests.
+# The header and the Fortran module have the same functions, structs and constants with the same values, riisf.h beside the
+# module has the constants, and every function is called by the objects of the Fortran tests.
 set -euo pipefail
 header=$1 module=$2
 shift 2
@@ -69,9 +69,18 @@ fortran_fields=$(sed 's/!.*//' "$module" | awk '
   }')
 compare fields "$c_fields" "$fortran_fields"
 
+# What test_layout.f90 compares: the fields that the twin lists; it compares their number and their places.
+listed=$(tr '\n' ' ' <"$(dirname "$0")/c_twin.c" | grep -o -E 'LAYOUT\(riis_[a-z_]*,( *AT\([a-z_]*\),?)*' |
+  awk '{ gsub(/LAYOUT\(|AT\(|[),]/, " "); for (i = 2; i <= NF; ++i) print $1, $i }')
+compare "fields of which the place is tested" "$(cut -d ' ' -f 1,2 <<<"$c_fields")" "$listed"
+
 constants=$(grep -o -E '\bRIIS_[A-Z0-9_]+ = -?[0-9]+' "$header")
 parameters=$(grep -o -E 'integer\([a-z0-9_]*\), parameter :: RIIS_[A-Z0-9_]+ = -?[0-9]+' "$module" | sed 's/.*:: //')
 compare constants "$constants" "$parameters"
+
+# The include file for codes without modules has no log and no surfaces from arrays.
+included=$(sed -n -E 's/^ *PARAMETER \((RIIS_[A-Z0-9_]+ = -?[0-9]+)\)$/\1/p' "$(dirname "$module")/riisf.h")
+compare "constants of riisf.h" "$(grep -v -E '^RIIS_(LOG|ZERO_AREA)_' <<<"$constants")" "$included"
 
 # What the compiler left undefined is what is really called.
 called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)

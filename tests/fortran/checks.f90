@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! What the Fortran tests are written with: checks that count, and a comparison of memory.
 module checks
-  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int8_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int8_t, c_int64_t, c_ptr
   use, intrinsic :: iso_fortran_env, only: error_unit
   use riis_c
   implicit none
   private
-  public :: check, check_ok, check_refused, check_same_bytes, finish
+  public :: check, check_ok, check_refused, check_same_bytes, finish, same
 
   integer :: n_checks = 0, n_failed = 0
 
@@ -54,6 +54,13 @@ contains
     call c_f_pointer(b, bytes_b, [n_bytes])
     call check(all(bytes_a == bytes_b), what // ': the same bits from Fortran and from C')
   end subroutine check_same_bytes
+
+  ! Whether two numbers have the same bits.
+  elemental function same(a, b)
+    real(c_double), intent(in) :: a, b
+    logical :: same
+    same = transfer(a, 0_c_int64_t) == transfer(b, 0_c_int64_t)
+  end function same
 
   subroutine finish()
     print '(i0, a, i0, a)', n_checks, ' checks, ', n_failed, ' failed'

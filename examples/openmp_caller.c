@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The two ways to mark from a code that is parallel by OpenMP itself: one call between the code's own parallel regions,
+ * which starts threads of its own; or a call from each of the code's threads, for its block of the mesh, which starts
+ * none. Lengths are in cm. */
+#include <omp.h>
+#include <riis/riis.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { n = 27, n_nodes = n * n * n, n_blocks = 4 };
+static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
+
+/* Called by the thread whose call failed: the text of the last error is that thread's own. */
+static void check(riis_status status) {
+  if (status == RIIS_OK) return;
+#pragma omp critical
+  {
+    fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
+    exit(EXIT_FAILURE);
+  }
+}
+
+static int first_node(int block) { return n_nodes * block / n_blocks; }
+
+int main(void) {
+  omp_set_num_threads(3); /* the code's settings: riis neither follows nor changes them */
+  omp_set_dynamic(0);
+#pragma omp parallel for
+  for (int i = 0; i < n_nodes; ++i) {
+    xyz[3 * i] = -1.625 + 0.125 * (i % n);
+    xyz[3 * i + 1] = -1.625 + 0.125 * (i / n % n);
+    xyz[3 * i + 2] = -1.625 + 0.125 * (i / (n * n));
+  }
+
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  int64_t n_marked = 0;
+  const int64_t *node_id = NULL;
+  const double *distance = NULL;
+  check(riis_valve_create("aortic", &valve));
+  check(riis_surface_create(valve, NULL, &surface));
+
+  /* One call between parallel regions. Whatever was set of OpenMP, it uses the processors that this thread may run on; for
+   * another number there is n_threads in riis_mark_options. */
+  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  check(riis_mark_result_create(&result));
+  check(riis_mark_nodes(surface, mesh, NULL, result));
+  check(riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL));
+  int kept = omp_get_max_threads() == 3 && !omp_get_dynamic();
+  double farthest = 0;
+#pragma omp parallel for reduction(max : farthest)
+  for (int64_t i = 0; i < n_marked; ++i) {
+    if (distance[i] > farthest) farthest = distance[i];
+  }
+  printf("one call, marked: %lld, the farthest at %8.6f cm\n", (long long)n_marked, farthest);
+  printf("settings of OpenMP: %s\n", kept ? "as they were" : "changed");
+
+  /* A call from each thread: all read one surface, each has a mesh and a result of its own. While any thread marks, none may
+   * update the surface: do that before the region, or in a single construct, at whose end all threads wait. */
+  riis_mark_options options;
+  riis_mesh *block_mesh[n_blocks] = {NULL};
+  riis_mark_result *block_result[n_blocks] = {NULL};
+  check(riis_mark_options_init(&options, sizeof options));
+  options.n_threads = 1;
+#pragma omp parallel for num_threads(n_blocks) schedule(static, 1)
+  for (int i = 0; i < n_blocks; ++i) {
+    double *block = xyz + 3 * first_node(i);
+    check(riis_mesh_create(first_node(i + 1) - first_node(i), block, block + 1, block + 2, 3, &block_mesh[i]));
+    check(riis_mark_result_create(&block_result[i]));
+    check(riis_mark_nodes(surface, block_mesh[i], &options, block_result[i]));
+  }
+
+  /* The blocks' lists, one after another, are the list of the whole mesh. */
+  int64_t n_found = 0;
+  int same = 1;
+  for (int i = 0; i < n_blocks; ++i) {
+    int64_t n_in_block = 0;
+    const int64_t *id_in_block = NULL;
+    const double *block_distance = NULL;
+    check(riis_mark_result_marked(block_result[i], &n_in_block, &id_in_block, &block_distance, NULL, NULL));
+    printf("block %d, marked: %lld\n", i, (long long)n_in_block);
+    same = same && n_found + n_in_block <= n_marked;
+    for (int64_t j = 0; same && j < n_in_block; ++j, ++n_found) {
+      same = node_id[n_found] == first_node(i) + id_in_block[j] && distance[n_found] == block_distance[j];
+    }
+    riis_mark_result_destroy(&block_result[i]);
+    riis_mesh_destroy(&block_mesh[i]);
+  }
+  same = same && n_found == n_marked;
+  printf("blocks together: %s\n", same ? "the same nodes and distances" : "other nodes or distances");
+
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return kept && same ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,161 @@
+! SPDX-License-Identifier: Apache-2.0
+!> riis for Fortran: heart valves as resistive immersed implicit surfaces. All of riis.h in types with procedures; nothing of
+!! iso_c_binding is needed, and no TARGET.
+!!
+!!     use riis
+!!     type(riis_valve) :: valve
+!!     type(riis_surface) :: surface
+!!     type(riis_mesh) :: mesh
+!!     type(riis_mark_result) :: result
+!!     integer, allocatable :: node_num(:)
+!!     real(8), allocatable :: distance(:)
+!!
+!!     call valve%create('aortic')
+!!     call surface%create(valve)                        ! half thickness 0.1 cm, tolerance 5 % of it
+!!     call mesh%create(xyz)                             ! real(8) :: xyz(3, n_nodes), borrowed
+!!     call riis_mark_nodes(surface, mesh, result)       ! once a time step
+!!     call result%marked_nodes(node_num, distance)      ! xyz(:, node_num(i)) is distance(i) away
+!!     call result%destroy(); call mesh%destroy(); call surface%destroy(); call valve%destroy()
+!!
+!! Conventions, true for every procedure:
+!!
+!! - Errors. The last argument is `integer(riis_status), intent(out), optional :: status`: RIIS_OK or an error, whose text
+!!   riis_error_message() gives. Without it an error stops the program, with its name and text on the error unit. An error
+!!   > 0 means that the call was refused and no object changed; one < 0 that an object passed for writing is only fit to be
+!!   destroyed. Each thread has its own text. Texts name the C arguments, and count from 0.
+!! - Objects. Each is empty until it is created, and has to be destroyed: nothing happens by itself at the end of a scope,
+!!   nor when it is passed to an intent(out) argument, which loses it. Creating what was created, and using what was not, is
+!!   an error; destroying twice is none. Objects cannot be copied: a = b stops the program, unless both are empty. Pass them
+!!   as arguments, or point to them; functions cannot return them. (Array constructors and allocate(..., source=...) copy
+!!   without asking: do not use them.)
+!! - Integers. Ids, counts, numbers of threads and bases may be integer(int32), the default kind, or integer(int64). Optional
+!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. What the library
+!!   writes has the kind that it has in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
+!! - Counting. What is called *_id counts from 0, as in C, also triangle_id and leaflet_id (RIIS_LEAFLET_*); what is called
+!!   node_num counts from 1. What goes in counts from index_base, 1 unless it is given.
+!! - Reals are real(c_double), real(8) with most compilers. Lengths are in one unit of the caller's choice, angles in
+!!   degrees.
+!! - Arrays are whole ones or sections. Coordinates are read where they are, whatever their positive stride. Those of a
+!!   mesh, and the rows of an adjacency, are borrowed beyond the call: see riis_mesh, also for what must not be passed there.
+!!   Other arrays are used during the call only, and are copied for it where their argument is CONTIGUOUS and a section is
+!!   not, or where it says so.
+!! - Threads. An object may be read (intent(in)) by any number of threads at once; it is written by one with no reader beside
+!!   it. Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region,
+!!   declare a thread's own objects in a procedure that it calls or in a BLOCK: copies by PRIVATE gfortran leaves undefined.
+!! - With compiler options that change the default kinds (-fdefault-integer-8), logical arguments need the kind that this
+!!   module was compiled with.
+module riis
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_null_funptr, c_null_ptr, c_ptr, &
+    c_f_procpointer
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, riis_last_error, &
+    RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
+    RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
+    RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
+    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
+    RIIS_SEARCH_PAPER, RIIS_AUTO, RIIS_FAR_DISTANCE, &
+    c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_version, &
+    c_version_string => riis_version_string
+  use riis_valves, only: riis_valve, riis_parameter_info
+  use riis_surfaces, only: riis_surface
+  use riis_adjacencies, only: riis_adjacency
+  use riis_meshes, only: riis_mesh
+  use riis_marking, only: riis_mark_result, riis_mark_nodes
+  implicit none
+  private
+  public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
+    riis_mark_result, riis_mark_nodes, riis_mark_stats
+  public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
+  public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
+    RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
+    RIIS_INTERNAL_ERROR
+  public :: RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
+    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
+    RIIS_SEARCH_PAPER, RIIS_AUTO, RIIS_FAR_DISTANCE
+
+  !> The name of a status.
+  interface riis_status_name
+    module procedure status_name
+  end interface riis_status_name
+
+  !> The version of the library that was linked, as numbers.
+  interface riis_version
+    module procedure version
+  end interface riis_version
+
+  !> The version of the library that was linked, as text.
+  interface riis_version_string
+    module procedure version_string
+  end interface riis_version_string
+
+  !> Sets the procedure that receives what the library would like to say.
+  interface riis_set_log
+    module procedure set_log
+  end interface riis_set_log
+
+  abstract interface
+    !> What riis_set_log takes. May be called from any thread that calls the library; must not call the library.
+    subroutine riis_log_procedure(message, level)
+      import :: int32
+      implicit none
+      character(len=*), intent(in) :: message               !< One line.
+      integer(int32), intent(in) :: level                   !< RIIS_LOG_INFO or RIIS_LOG_WARNING.
+    end subroutine riis_log_procedure
+  end interface
+
+contains
+
+  !> The text of the calling thread's last error: what was wrong, naming the argument and its value. '' if there was none. A
+  !! call that succeeds leaves it alone.
+  function riis_error_message() result(text)
+    character(len=:), allocatable :: text                   !< A copy.
+    text = riis_c_text(riis_last_error())
+  end function riis_error_message
+
+  !> The status's own name, such as 'RIIS_INVALID_ARGUMENT'; 'unknown status' for a value that is none.
+  function status_name(status) result(name)
+    integer(riis_status), intent(in) :: status              !< Any.
+    character(len=:), allocatable :: name                   !< A copy.
+    name = riis_c_text(c_status_name(status))
+  end function status_name
+
+  !> The version of the library that was linked, as numbers.
+  subroutine version(major, minor, patch)
+    integer(int32), intent(out) :: major                    !< The first.
+    integer(int32), intent(out) :: minor                    !< The second.
+    integer(int32), intent(out) :: patch                    !< The third.
+    call c_version(major, minor, patch)
+  end subroutine version
+
+  !> The version of the library that was linked, '0.1.0'.
+  function version_string() result(text)
+    character(len=:), allocatable :: text                   !< A copy.
+    text = riis_c_text(c_version_string())
+  end function version_string
+
+  !> Sets the procedure that receives what the library would like to say, for the whole process; without an argument there is
+  !! silence, the default. Safe from any thread; a message under way in another thread may still reach the procedure that was
+  !! set before.
+  subroutine set_log(procedure)
+    procedure(riis_log_procedure), optional :: procedure    !< Called until another is set: of a module or external, not
+                                                            !! internal to a procedure that returns.
+    type(c_funptr) :: location
+    if (present(procedure)) then
+      location = c_funloc(procedure)
+      ! The library keeps function and user data together under a lock, so the procedure travels as the latter.
+      call c_set_log(c_funloc(pass_message), transfer(location, c_null_ptr))
+    else
+      call c_set_log(c_null_funptr, c_null_ptr)
+    end if
+  end subroutine set_log
+
+  ! The log function that the library calls: turns the text into Fortran's.
+  subroutine pass_message(user_data, level, message) bind(c)
+    type(c_ptr), value :: user_data
+    integer(c_int32_t), value :: level
+    type(c_ptr), value :: message
+    procedure(riis_log_procedure), pointer :: log
+    call c_f_procpointer(transfer(user_data, c_null_funptr), log)
+    call log(riis_c_text(message), level)
+  end subroutine pass_message
+end module riis

@@ -1,0 +1,311 @@
+! SPDX-License-Identifier: Apache-2.0
+!> riis for codes that cannot use modules: external subroutines, to be called with implicit interfaces from Fortran 77, fixed
+!! or free form. `include 'riisf.h'` gives the constants.
+!!
+!!           INCLUDE 'riisf.h'
+!!           INTEGER*8 VALVE, SURFACE, MESH, RESULT
+!!           DOUBLE PRECISION XYZ(3, 100000), AXIS(3), SHIFT(3), DIST(5000)
+!!           INTEGER STATUS, N, NODE(5000)
+!!           DATA VALVE, SURFACE, MESH, RESULT /4*0/, AXIS /0D0, 0D0, 1D0/, SHIFT /3*0D0/
+!!           CALL RIISF_VALVE_CREATE('aortic', VALVE, STATUS)
+!!           CALL RIISF_SURFACE_CREATE(VALVE, RIIS_AUTO, 0.05D0, 1D0, AXIS, 0D0, SHIFT, SURFACE, STATUS)
+!!           CALL RIISF_MESH_CREATE(100000, XYZ(1,1), XYZ(2,1), XYZ(3,1), 3, MESH, STATUS)
+!!           CALL RIISF_MARK_NODES(SURFACE, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 0, RESULT, STATUS)
+!!           CALL RIISF_MARKED(RESULT, 5000, N, NODE, DIST, STATUS)
+!!
+!! Conventions, true for every subroutine:
+!!
+!! - Every argument has to be given, of exactly the kind that is said here, since no compiler checks it. `integer(int32)` is
+!!   INTEGER*4, INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION.
+!! - Handles are INTEGER*8, 0 before they are created and after they were destroyed. Creating sets them only on success.
+!! - The last argument is the status: RIIS_OK (0), or an error, whose text riisf_last_error gives; nothing has changed then.
+!!   Each thread has its own text. Texts count from 0.
+!! - Names may have trailing blanks.
+!! - Coordinates, and the rows that riisf_mesh_set_adjacency is given, are borrowed: they have to stay in place (in COMMON,
+!!   or with SAVE, or in the main program) until the mesh is destroyed or given others. All other arrays are used during the
+!!   call only. No array is copied, but the marks of riisf_dense_mark.
+!! - Nodes that come out count from 1; what is called *_id counts from 0, as in C. What goes in counts from index_base.
+!! - Subroutines whose names end in _64 are those without for counts and ids of INTEGER*8.
+!! - Threads: an object may be read by any number of threads at once; it is written by one with no reader beside it.
+
+!> Makes a valve of a kind with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
+subroutine riisf_valve_create(kind, valve, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, RIIS_OK, riis_c_string, riis_valve_create
+  use riis_support, only: handle_of
+  implicit none
+  character(len=*), intent(in) :: kind                    !< 'aortic' or 'mitral'.
+  integer(int64), intent(inout) :: valve                  !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_valve_create(riis_c_string(kind), c_handle)
+  if (status == RIIS_OK) valve = handle_of(c_handle)
+end subroutine riisf_valve_create
+
+!> Sets a parameter, which has 1 or 3 values. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER
+!! naming the parameter and the value; the valve is then unchanged.
+subroutine riisf_valve_set(valve, name, n_values, values, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_c_string, riis_valve_set
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Created.
+  character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
+  integer(int32), intent(in) :: n_values                  !< 1 or 3: as many as the parameter has.
+  real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_valve_set(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
+end subroutine riisf_valve_set
+
+!> Gets a parameter's values.
+subroutine riisf_valve_get(valve, name, n_values, values, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_c_string, riis_valve_get
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Created.
+  character(len=*), intent(in) :: name                    !< As in riisf_valve_set, with its cusp.
+  integer(int32), intent(in) :: n_values                  !< 1 or 3: as many as the parameter has.
+  real(c_double), intent(inout) :: values(*)              !< Left alone on an error.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_valve_get(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
+end subroutine riisf_valve_get
+
+!> Gives the valve a second state to open to, at 'opening' 1; its own is the closed one. Errors: RIIS_INVALID_PARAMETER
+!! for a valve of another kind.
+subroutine riisf_valve_set_open_state(valve, open, status)
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_valve_set_open_state
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Created.
+  integer(int64), intent(in) :: open                      !< Created; copied, so it may be destroyed.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_valve_set_open_state(c_handle_of(valve), c_handle_of(open))
+end subroutine riisf_valve_set_open_state
+
+!> Frees what the valve holds and sets its handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_valve_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_valve_destroy
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< Any.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_valve_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_valve_destroy
+
+!> Makes the surface of a valve, placed by x -> scale * rotation * x + translation. Errors: RIIS_INVALID_ARGUMENT for an
+!! option out of range, RIIS_INVALID_PARAMETER for parameters that do not go together.
+subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+    translation, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_create, riis_surface_options_init
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
+                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  c_handle = c_null_ptr
+  status = riis_surface_create(c_handle_of(valve), options, c_handle)
+  if (status == RIIS_OK) surface = handle_of(c_handle)
+end subroutine riisf_surface_create
+
+!> Replaces the surface by that of a valve that moved, with the options that it has. Errors as of riisf_surface_create.
+subroutine riisf_surface_update(surface, valve, status)
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_update
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
+end subroutine riisf_surface_update
+
+!> The same with other options. They are those of riisf_surface_create.
+subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+    translation, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update, riis_surface_options_init
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
+                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
+end subroutine riisf_surface_place
+
+!> Frees what the surface holds and sets its handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_surface_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_surface_destroy
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< Any.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_surface_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_surface_destroy
+
+!> Borrows node coordinates and checks them once. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the
+!! value.
+subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, RIIS_OK, riis_mesh_create
+  use riis_support, only: handle_of, location_of
+  implicit none
+  integer(int32), intent(in) :: n_nodes                   !< >= 1.
+  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int64), intent(inout) :: mesh                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_mesh_create(int(n_nodes, int64), location_of(x), location_of(y), location_of(z), int(stride, int64), &
+    c_handle)
+  if (status == RIIS_OK) mesh = handle_of(c_handle)
+end subroutine riisf_mesh_create
+
+!> The same.
+subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, RIIS_OK, riis_mesh_create
+  use riis_support, only: handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: n_nodes                   !< >= 1.
+  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int64), intent(inout) :: mesh                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_mesh_create(n_nodes, location_of(x), location_of(y), location_of(z), stride, c_handle)
+  if (status == RIIS_OK) mesh = handle_of(c_handle)
+end subroutine riisf_mesh_create_64
+
+!> Tells the mesh that the coordinates moved, in place or to other arrays. To be called after any change of coordinates.
+!! The adjacency stays if n_nodes does.
+subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_mesh_update
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int32), intent(in) :: n_nodes                   !< >= 1.
+  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_mesh_update(c_handle_of(mesh), int(n_nodes, int64), location_of(x), location_of(y), location_of(z), &
+    int(stride, int64))
+end subroutine riisf_mesh_update
+
+!> The same.
+subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_mesh_update
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: n_nodes                   !< >= 1.
+  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), &
+    stride)
+end subroutine riisf_mesh_update_64
+
+!> Frees what the mesh holds and sets its handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_mesh_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_mesh_destroy
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< Any.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_mesh_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_mesh_destroy
+
+!> The text of the calling thread's last error, cut or padded with blanks.
+subroutine riisf_last_error(text)
+  use riis_c, only: riis_c_text, riis_last_error
+  implicit none
+  character(len=*), intent(out) :: text                   !< 512 letters hold every text.
+  text = riis_c_text(riis_last_error())
+end subroutine riisf_last_error
+
+!> A status's own name, such as 'RIIS_INVALID_ARGUMENT'.
+subroutine riisf_status_name(status, text)
+  use riis_c, only: riis_c_text, riis_status, riis_status_name
+  implicit none
+  integer(riis_status), intent(in) :: status              !< Any.
+  character(len=*), intent(out) :: text                   !< 24 letters hold every name.
+  text = riis_c_text(riis_status_name(status))
+end subroutine riisf_status_name
+
+!> The version of the library that was linked, '0.1.0'.
+subroutine riisf_version(text)
+  use riis_c, only: riis_c_text, riis_version_string
+  implicit none
+  character(len=*), intent(out) :: text                   !< 16 letters hold every version.
+  text = riis_c_text(riis_version_string())
+end subroutine riisf_version

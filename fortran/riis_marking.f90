@@ -1,0 +1,536 @@
+! SPDX-License-Identifier: Apache-2.0
+!> Marking: the part of module riis that is riis_mark_* in riis.h.
+module riis_marking
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_c, c_mark_nodes => riis_mark_nodes
+  use riis_support
+  use riis_surfaces, only: riis_surface
+  use riis_meshes, only: riis_mesh
+  implicit none
+  private
+  public :: riis_mark_result, riis_mark_nodes
+
+  !> The nodes that were found and where the surface is from them. Empty until riis_mark_nodes, which is to be called with
+  !! the same variable every time step, since its memory is kept; empty again after %destroy, which has to be called. May be
+  !! read by any number of threads at once; is written by one with no reader beside it.
+  type :: riis_mark_result
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure, non_overridable :: n_marked => result_n_marked           !< How many nodes are marked.
+    procedure, non_overridable :: n_within_limit => result_n_within_limit !< How many nodes are within the distance limit.
+    procedure, non_overridable :: marked => result_marked               !< Pointers to the marked nodes' arrays.
+    procedure, non_overridable :: within_limit => result_within_limit   !< The same of those within the distance limit.
+    generic :: marked_nodes => marked_int32, marked_int64               !< Copies of the marked nodes, counted from 1.
+    generic :: nodes_within_limit => within_int32, within_int64         !< Copies of those within the limit, counted from 1.
+    generic :: dense => dense_int8, dense_int32, dense_logical          !< One entry a node, into the caller's arrays.
+    procedure, non_overridable :: get_stats => result_get_stats         !< How the last marking went.
+    procedure, non_overridable :: is_created => result_is_created       !< Whether there is anything in it.
+    procedure, non_overridable :: c_handle => result_c_handle           !< For calls of riis_c.
+    procedure, non_overridable :: destroy => result_destroy             !< Frees what it holds.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => result_assign
+    procedure, private, non_overridable :: marked_int32 => result_marked_int32
+    procedure, private, non_overridable :: marked_int64 => result_marked_int64
+    procedure, private, non_overridable :: within_int32 => result_within_int32
+    procedure, private, non_overridable :: within_int64 => result_within_int64
+    procedure, private, non_overridable :: dense_int8 => result_dense_int8
+    procedure, private, non_overridable :: dense_int32 => result_dense_int32
+    procedure, private, non_overridable :: dense_logical => result_dense_logical
+  end type riis_mark_result
+
+  !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit.
+  interface riis_mark_nodes
+    module procedure mark_nodes_logical
+    module procedure mark_nodes_int8
+    module procedure mark_nodes_int32
+  end interface riis_mark_nodes
+
+  ! A list of nodes as the library has it.
+  type :: node_list
+    integer(int64) :: n = 0
+    type(c_ptr) :: node_id = c_null_ptr, distance = c_null_ptr, triangle_id = c_null_ptr, leaflet_id = c_null_ptr
+  end type node_list
+
+  ! What a pointer points to where there is nothing: its size can be asked for.
+  real(c_double), target, save :: no_reals(0)
+  integer(int32), target, save :: no_int32(0)
+  integer(int64), target, save :: no_int64(0)
+
+contains
+
+  !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit, and puts
+  !! them into the result, whose former content is replaced; pointers got from it before end. Errors: RIIS_INVALID_MESH for
+  !! a coordinate that was made non-finite without %update; RIIS_INVALID_ARGUMENT for an option out of range. The content of
+  !! the result is then as it was, though its arrays may have moved.
+  subroutine mark_nodes_logical(surface, mesh, result, distance_limit, node_mask, search, n_threads, status)
+    class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
+    class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
+    class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
+    real(c_double), intent(in), optional :: distance_limit  !< Distances are wanted up to here, from the half thickness to
+                                                            !! 1e60. Default RIIS_AUTO: the half thickness.
+    logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out; copied. Default:
+                                                            !! all nodes.
+    class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
+                                                            !! calling thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
+    integer(riis_status) :: code
+    integer :: stat
+    code = RIIS_OK
+    if (present(node_mask)) then
+      allocate (bytes(size(node_mask, kind=int64)), stat=stat)
+      code = out_of_memory(stat)
+      if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask)
+    end if
+    call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, code)
+    call finish(code, status)
+  end subroutine mark_nodes_logical
+
+  !> The same with a mask of bytes, which is not copied, unless it is a section that is not contiguous.
+  subroutine mark_nodes_int8(surface, mesh, result, distance_limit, node_mask, search, n_threads, status)
+    class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
+    class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
+    class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
+    real(c_double), intent(in), optional :: distance_limit  !< Distances are wanted up to here, from the half thickness to
+                                                            !! 1e60. Default RIIS_AUTO: the half thickness.
+    integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
+    class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
+                                                            !! calling thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call mark(surface, mesh, result, distance_limit, node_mask, search, n_threads, code)
+    call finish(code, status)
+  end subroutine mark_nodes_int8
+
+  !> The same with a mask of integers, which is copied.
+  subroutine mark_nodes_int32(surface, mesh, result, distance_limit, node_mask, search, n_threads, status)
+    class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
+    class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
+    class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
+    real(c_double), intent(in), optional :: distance_limit  !< Distances are wanted up to here, from the half thickness to
+                                                            !! 1e60. Default RIIS_AUTO: the half thickness.
+    integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
+    class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
+                                                            !! calling thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int8), allocatable :: bytes(:)
+    integer(riis_status) :: code
+    integer :: stat
+    allocate (bytes(size(node_mask, kind=int64)), stat=stat)
+    code = out_of_memory(stat)
+    if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask /= 0)
+    call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, code)
+    call finish(code, status)
+  end subroutine mark_nodes_int32
+
+  ! What all specifics of riis_mark_nodes have in common; does nothing after an error.
+  subroutine mark(surface, mesh, result, distance_limit, mask, search, n_threads, code)
+    class(riis_surface), intent(in) :: surface
+    class(riis_mesh), intent(in) :: mesh
+    class(riis_mark_result), intent(inout) :: result
+    real(c_double), intent(in), optional :: distance_limit
+    integer(int8), intent(in), contiguous, optional, target :: mask(:)
+    class(*), intent(in), optional :: search, n_threads
+    integer(riis_status), intent(inout) :: code
+    type(riis_mark_options) :: options
+    if (code == RIIS_OK) code = check_created(surface%c_handle(), 'surface')
+    if (code == RIIS_OK) code = check_created(mesh%c_handle(), 'mesh')
+    if (code == RIIS_OK) code = riis_mark_options_init(options, c_sizeof(options))
+    if (present(distance_limit)) options%distance_limit = distance_limit
+    call get_integer(search, 'search', options%search, code)
+    call get_integer(n_threads, 'n_threads', options%n_threads, code)
+    if (code == RIIS_OK .and. present(mask)) then
+      code = check_size(size(mask, kind=int64), mesh%n_nodes(), 'node_mask', 'nodes')
+      if (size(mask) > 0) options%node_mask = c_loc(mask)
+    end if
+    if (code == RIIS_OK .and. .not. c_associated(result%handle)) code = riis_mark_result_create(result%handle)
+    if (code == RIIS_OK) code = c_mark_nodes(surface%c_handle(), mesh%c_handle(), options, result%handle)
+  end subroutine mark
+
+  !> How many nodes are marked.
+  function result_n_marked(this, status) result(n)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int64) :: n                                     !< 0 on an error.
+    integer(riis_status) :: code
+    n = 0
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = riis_mark_result_marked(this%handle, n)
+    call finish(code, status)
+  end function result_n_marked
+
+  !> How many nodes are within the distance limit, marked or not.
+  function result_n_within_limit(this, status) result(n)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int64) :: n                                     !< 0 on an error.
+    integer(riis_status) :: code
+    n = 0
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = riis_mark_result_within_limit(this%handle, n)
+    call finish(code, status)
+  end function result_n_within_limit
+
+  ! The library's list of the marked nodes, or of those within the limit.
+  function get_list(this, within_limit, list) result(code)
+    class(riis_mark_result), intent(in) :: this
+    logical, intent(in) :: within_limit
+    type(node_list), intent(out) :: list
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the result')
+    if (code /= RIIS_OK) return
+    if (within_limit) then
+      code = riis_mark_result_within_limit(this%handle, list%n, list%node_id, list%distance, list%triangle_id, &
+        list%leaflet_id)
+    else
+      code = riis_mark_result_marked(this%handle, list%n, list%node_id, list%distance, list%triangle_id, list%leaflet_id)
+    end if
+  end function get_list
+
+  ! Points to a list; there is no address in one of no nodes.
+  subroutine point_to(list, node_id, distance, triangle_id, leaflet_id)
+    type(node_list), intent(in) :: list
+    integer(int64), pointer, intent(out), optional :: node_id(:), triangle_id(:)
+    real(c_double), pointer, intent(out), optional :: distance(:)
+    integer(int32), pointer, intent(out), optional :: leaflet_id(:)
+    if (present(node_id)) then
+      node_id => no_int64
+      if (list%n > 0) call c_f_pointer(list%node_id, node_id, [list%n])
+    end if
+    if (present(distance)) then
+      distance => no_reals
+      if (list%n > 0) call c_f_pointer(list%distance, distance, [list%n])
+    end if
+    if (present(triangle_id)) then
+      triangle_id => no_int64
+      if (list%n > 0) call c_f_pointer(list%triangle_id, triangle_id, [list%n])
+    end if
+    if (present(leaflet_id)) then
+      leaflet_id => no_int32
+      if (list%n > 0) call c_f_pointer(list%leaflet_id, leaflet_id, [list%n])
+    end if
+  end subroutine point_to
+
+  !> Points to the result's own arrays of the marked nodes, ascending by node: no copy. Valid until the next riis_mark_nodes
+  !! with the result or its destruction; not to be written to. With no marked node, and on an error, their sizes are 0.
+  subroutine result_marked(this, node_id, distance, triangle_id, leaflet_id, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
+    real(c_double), pointer, intent(out), optional :: distance(:) !< (n), mesh units.
+    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(node_list) :: list
+    integer(riis_status) :: code
+    code = get_list(this, .false., list)
+    call point_to(list, node_id, distance, triangle_id, leaflet_id)
+    call finish(code, status)
+  end subroutine result_marked
+
+  !> The same for all nodes within the distance limit, marked or not.
+  subroutine result_within_limit(this, node_id, distance, triangle_id, leaflet_id, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
+    real(c_double), pointer, intent(out), optional :: distance(:) !< (n), mesh units.
+    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(node_list) :: list
+    integer(riis_status) :: code
+    code = get_list(this, .true., list)
+    call point_to(list, node_id, distance, triangle_id, leaflet_id)
+    call finish(code, status)
+  end subroutine result_within_limit
+
+  !> Copies of the marked nodes' arrays, ascending by node, which stay when the result goes. Each is allocated with exactly
+  !! the size that is needed, (0) for none, unless it already has it. Errors: RIIS_LIMIT_EXCEEDED for a node that
+  !! integer(int32) cannot count; the arrays are left alone on an error.
+  subroutine result_marked_int32(this, node_num, distance, triangle_id, leaflet_id, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
+    real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(node_list) :: list
+    integer(int64), pointer :: ids(:)
+    integer(riis_status) :: code
+    integer :: stat
+    code = get_list(this, .false., list)
+    call point_to(list, ids)
+    if (code == RIIS_OK .and. list%n > 0) then
+      if (ids(list%n) >= huge(node_num)) code = fail(RIIS_LIMIT_EXCEEDED, 'node ' // text_of(ids(list%n)) // &
+        ' is more than an integer(int32) can count: use integer(int64)')
+    end if
+    if (code == RIIS_OK) then
+      if (allocated(node_num)) then
+        if (size(node_num, kind=int64) /= list%n) deallocate (node_num)
+      end if
+      stat = 0
+      if (.not. allocated(node_num)) allocate (node_num(list%n), stat=stat)
+      code = out_of_memory(stat)
+    end if
+    if (code == RIIS_OK) then
+      node_num = int(ids + 1, int32)
+      code = copy_list(list, distance, triangle_id, leaflet_id)
+    end if
+    call finish(code, status)
+  end subroutine result_marked_int32
+
+  !> The same for integer(int64).
+  subroutine result_marked_int64(this, node_num, distance, triangle_id, leaflet_id, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int64), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
+    real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(node_list) :: list
+    integer(int64), pointer :: ids(:)
+    integer(riis_status) :: code
+    integer :: stat
+    code = get_list(this, .false., list)
+    call point_to(list, ids)
+    if (code == RIIS_OK) then
+      if (allocated(node_num)) then
+        if (size(node_num, kind=int64) /= list%n) deallocate (node_num)
+      end if
+      stat = 0
+      if (.not. allocated(node_num)) allocate (node_num(list%n), stat=stat)
+      code = out_of_memory(stat)
+    end if
+    if (code == RIIS_OK) then
+      node_num = ids + 1
+      code = copy_list(list, distance, triangle_id, leaflet_id)
+    end if
+    call finish(code, status)
+  end subroutine result_marked_int64
+
+  !> The same for all nodes within the distance limit, marked or not.
+  subroutine result_within_int32(this, node_num, distance, triangle_id, leaflet_id, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
+    real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(node_list) :: list
+    integer(int64), pointer :: ids(:)
+    integer(riis_status) :: code
+    integer :: stat
+    code = get_list(this, .true., list)
+    call point_to(list, ids)
+    if (code == RIIS_OK .and. list%n > 0) then
+      if (ids(list%n) >= huge(node_num)) code = fail(RIIS_LIMIT_EXCEEDED, 'node ' // text_of(ids(list%n)) // &
+        ' is more than an integer(int32) can count: use integer(int64)')
+    end if
+    if (code == RIIS_OK) then
+      if (allocated(node_num)) then
+        if (size(node_num, kind=int64) /= list%n) deallocate (node_num)
+      end if
+      stat = 0
+      if (.not. allocated(node_num)) allocate (node_num(list%n), stat=stat)
+      code = out_of_memory(stat)
+    end if
+    if (code == RIIS_OK) then
+      node_num = int(ids + 1, int32)
+      code = copy_list(list, distance, triangle_id, leaflet_id)
+    end if
+    call finish(code, status)
+  end subroutine result_within_int32
+
+  !> The same for integer(int64).
+  subroutine result_within_int64(this, node_num, distance, triangle_id, leaflet_id, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int64), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
+    real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(node_list) :: list
+    integer(int64), pointer :: ids(:)
+    integer(riis_status) :: code
+    integer :: stat
+    code = get_list(this, .true., list)
+    call point_to(list, ids)
+    if (code == RIIS_OK) then
+      if (allocated(node_num)) then
+        if (size(node_num, kind=int64) /= list%n) deallocate (node_num)
+      end if
+      stat = 0
+      if (.not. allocated(node_num)) allocate (node_num(list%n), stat=stat)
+      code = out_of_memory(stat)
+    end if
+    if (code == RIIS_OK) then
+      node_num = ids + 1
+      code = copy_list(list, distance, triangle_id, leaflet_id)
+    end if
+    call finish(code, status)
+  end subroutine result_within_int64
+
+  ! Copies what there is besides the nodes.
+  function copy_list(list, distance, triangle_id, leaflet_id) result(code)
+    type(node_list), intent(in) :: list
+    real(c_double), allocatable, intent(inout), optional :: distance(:)
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:)
+    integer(int32), allocatable, intent(inout), optional :: leaflet_id(:)
+    real(c_double), pointer :: distances(:)
+    integer(int64), pointer :: triangles(:)
+    integer(int32), pointer :: leaflets(:)
+    integer(riis_status) :: code
+    integer :: stat
+    call point_to(list, distance=distances, triangle_id=triangles, leaflet_id=leaflets)
+    stat = 0
+    if (present(distance)) then
+      if (allocated(distance)) then
+        if (size(distance, kind=int64) /= list%n) deallocate (distance)
+      end if
+      if (.not. allocated(distance)) allocate (distance(list%n), stat=stat)
+      if (stat == 0) distance = distances
+    end if
+    if (present(triangle_id) .and. stat == 0) then
+      if (allocated(triangle_id)) then
+        if (size(triangle_id, kind=int64) /= list%n) deallocate (triangle_id)
+      end if
+      if (.not. allocated(triangle_id)) allocate (triangle_id(list%n), stat=stat)
+      if (stat == 0) triangle_id = triangles
+    end if
+    if (present(leaflet_id) .and. stat == 0) then
+      if (allocated(leaflet_id)) then
+        if (size(leaflet_id, kind=int64) /= list%n) deallocate (leaflet_id)
+      end if
+      if (.not. allocated(leaflet_id)) allocate (leaflet_id(list%n), stat=stat)
+      if (stat == 0) leaflet_id = leaflets
+    end if
+    code = out_of_memory(stat)
+  end function copy_list
+
+  !> Writes one entry a node into the caller's arrays; only those that are given, of the same size, the mesh's number of
+  !! nodes. Sections that are not contiguous are copied to and fro by the compiler. Errors: RIIS_INVALID_ARGUMENT for
+  !! another size, or a far_distance that looks near; nothing is then written.
+  subroutine result_dense_int8(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int8), intent(inout), contiguous, optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others. No copy.
+    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): of nodes within the distance limit, else
+                                                            !! far_distance.
+    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): the same, from 0, else -1.
+    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): the same, else -1.
+    real(c_double), intent(in), optional :: far_distance    !< Any value, NaN too, outside [0, distance_limit]. Default
+                                                            !! RIIS_FAR_DISTANCE.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = -1
+    code = check_created(this%handle, 'the result')
+    if (present(mark)) n = size(mark, kind=int64)
+    if (present(distance)) call check('distance', size(distance, kind=int64))
+    if (present(triangle_id)) call check('triangle_id', size(triangle_id, kind=int64))
+    if (present(leaflet_id)) call check('leaflet_id', size(leaflet_id, kind=int64))
+    if (code == RIIS_OK .and. n < 0) code = refuse('none of mark, distance, triangle_id and leaflet_id is given')
+    if (code == RIIS_OK) then
+      if (present(far_distance)) then
+        code = riis_mark_result_dense(this%handle, n, far_distance, mark, distance, triangle_id, leaflet_id)
+      else
+        code = riis_mark_result_dense(this%handle, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id)
+      end if
+    end if
+    call finish(code, status)
+
+  contains
+
+    ! The first array sets the size, which the library compares with the mesh.
+    subroutine check(name, n_entries)
+      character(len=*), intent(in) :: name
+      integer(int64), intent(in) :: n_entries
+      if (code /= RIIS_OK) return
+      if (n < 0) n = n_entries
+      code = check_size(n_entries, n, name, 'entries in the array before it')
+    end subroutine check
+  end subroutine result_dense_int8
+
+  !> The same with marks in another kind of integer, which are converted.
+  subroutine result_dense_int32(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    integer(int32), intent(inout) :: mark(:)                !< (n_nodes): 1 for marked nodes, 0 for others.
+    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): of nodes within the distance limit, else
+                                                            !! far_distance.
+    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): the same, from 0, else -1.
+    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): the same, else -1.
+    real(c_double), intent(in), optional :: far_distance    !< Any value, NaN too, outside [0, distance_limit]. Default
+                                                            !! RIIS_FAR_DISTANCE.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int8), allocatable :: bytes(:)
+    integer(riis_status) :: code
+    integer :: stat
+    allocate (bytes(size(mark, kind=int64)), stat=stat)
+    code = out_of_memory(stat)
+    if (code == RIIS_OK) call this%dense_int8(bytes, distance, triangle_id, leaflet_id, far_distance, code)
+    if (code == RIIS_OK) mark = bytes
+    call finish(code, status)
+  end subroutine result_dense_int32
+
+  !> The same with logical marks, which are converted.
+  subroutine result_dense_logical(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    logical, intent(inout) :: mark(:)                       !< (n_nodes): .true. for marked nodes.
+    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): of nodes within the distance limit, else
+                                                            !! far_distance.
+    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): the same, from 0, else -1.
+    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): the same, else -1.
+    real(c_double), intent(in), optional :: far_distance    !< Any value, NaN too, outside [0, distance_limit]. Default
+                                                            !! RIIS_FAR_DISTANCE.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int8), allocatable :: bytes(:)
+    integer(riis_status) :: code
+    integer :: stat
+    allocate (bytes(size(mark, kind=int64)), stat=stat)
+    code = out_of_memory(stat)
+    if (code == RIIS_OK) call this%dense_int8(bytes, distance, triangle_id, leaflet_id, far_distance, code)
+    if (code == RIIS_OK) mark = bytes /= 0
+    call finish(code, status)
+  end subroutine result_dense_logical
+
+  !> How the last marking went.
+  subroutine result_get_stats(this, stats, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    type(riis_mark_stats), intent(inout) :: stats           !< Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = riis_mark_result_stats(this%handle, stats, c_sizeof(stats))
+    call finish(code, status)
+  end subroutine result_get_stats
+
+  !> Whether there is anything in the result.
+  pure function result_is_created(this) result(is_created)
+    class(riis_mark_result), intent(in) :: this             !< Any.
+    logical :: is_created                                   !< .false. for an empty one.
+    is_created = c_associated(this%handle)
+  end function result_is_created
+
+  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  function result_c_handle(this) result(handle)
+    class(riis_mark_result), intent(in) :: this             !< Any.
+    type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
+    handle = this%handle
+  end function result_c_handle
+
+  !> Frees what the result holds; it is empty then, and can be used again. Nothing happens to an empty one.
+  subroutine result_destroy(this)
+    class(riis_mark_result), intent(inout) :: this          !< Any.
+    call riis_mark_result_destroy(this%handle)
+  end subroutine result_destroy
+
+  !> Stops the program, unless both are empty.
+  impure elemental subroutine result_assign(left, right)
+    class(riis_mark_result), intent(inout) :: left          !< Empty.
+    class(riis_mark_result), intent(in) :: right            !< Empty.
+    call refuse_copy(left%handle, right%handle, 'riis_mark_result')
+  end subroutine result_assign
+end module riis_marking

@@ -1,0 +1,280 @@
+! SPDX-License-Identifier: Apache-2.0
+!> What the modules behind `riis` share: reporting errors, the addresses of the caller's arrays, integers of either kind.
+!! Not for users: `use riis` does not give these names.
+module riis_support
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_ptr, c_associated, c_loc, c_null_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, &
+    riis_c_string, riis_c_text, riis_last_error, riis_status_name
+  implicit none
+  private
+  public :: strided_points, points_of, address_of, text_of
+  public :: c_handle_of, handle_of, location_of
+  public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
+
+  !> Where points lie, as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
+  type :: strided_points
+    integer(int64) :: n = 0               !< How many points.
+    integer(int64) :: stride = 1          !< From one point to the next, in reals.
+    type(c_ptr) :: x = c_null_ptr         !< Of the first point; null if there is none. So are y and z.
+    type(c_ptr) :: y = c_null_ptr         !< Of the first point.
+    type(c_ptr) :: z = c_null_ptr         !< Of the first point.
+  end type strided_points
+
+  !> The points of the caller's arrays, without a copy: xyz(3, n), or x(n), y(n), z(n).
+  interface points_of
+    module procedure points_of_matrix
+    module procedure points_of_vectors
+  end interface points_of
+
+  !> The value of an option that may be left out and may be of either integer kind; nothing changes if it is left out.
+  interface get_integer
+    module procedure get_int32
+    module procedure get_int64
+  end interface get_integer
+
+  !> An integer of either kind as text without blanks.
+  interface text_of
+    module procedure text_of_int32
+    module procedure text_of_int64
+  end interface text_of
+
+  interface
+    !> Makes the text the calling thread's last error, as the library's own errors are: so riis_last_error has those of
+    !! this layer, too, each thread its own. From the library's src/api/component.h.
+    function riis_component_error(status, text) result(same) bind(c, name='riis_component_error')
+      import :: c_char, riis_status
+      implicit none
+      integer(riis_status), value :: status                 !< What happened.
+      character(kind=c_char), intent(in) :: text(*)         !< Ended by a null character.
+      integer(riis_status) :: same                          !< The status that was given.
+    end function riis_component_error
+  end interface
+
+contains
+
+  !> The end of every public procedure: the status where it is wanted, else an error stops the program.
+  subroutine finish(code, status)
+    integer(riis_status), intent(in) :: code                !< How it went.
+    integer(riis_status), intent(out), optional :: status   !< The caller's.
+    if (present(status)) then
+      status = code
+    else if (code /= RIIS_OK) then
+      error stop 'riis: ' // riis_c_text(riis_status_name(code)) // ': ' // riis_c_text(riis_last_error())
+    end if
+  end subroutine finish
+
+  !> Sets the calling thread's error text.
+  function fail(code, text) result(same)
+    integer(riis_status), intent(in) :: code                !< Which error.
+    character(len=*), intent(in) :: text                    !< What was wrong, naming the argument and its value.
+    integer(riis_status) :: same                            !< The code.
+    same = riis_component_error(code, riis_c_string(text))
+  end function fail
+
+  !> The same for the most frequent error.
+  function refuse(text) result(code)
+    character(len=*), intent(in) :: text                    !< What was wrong, naming the argument and its value.
+    integer(riis_status) :: code                            !< RIIS_INVALID_ARGUMENT.
+    code = fail(RIIS_INVALID_ARGUMENT, text)
+  end function refuse
+
+  !> After an ALLOCATE: its STAT as a status.
+  function out_of_memory(stat) result(code)
+    integer, intent(in) :: stat                             !< 0: it succeeded.
+    integer(riis_status) :: code                            !< RIIS_OK or RIIS_OUT_OF_MEMORY.
+    code = RIIS_OK
+    if (stat /= 0) code = fail(RIIS_OUT_OF_MEMORY, 'out of memory')
+  end function out_of_memory
+
+  !> Only a handle that was created can be used.
+  function check_created(handle, name) result(code)
+    type(c_ptr), intent(in) :: handle                       !< The handle.
+    character(len=*), intent(in) :: name                    !< What the caller knows it as.
+    integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    code = RIIS_OK
+    if (.not. c_associated(handle)) code = refuse(name // ' was not created, or was destroyed')
+  end function check_created
+
+  !> Only an empty handle can be created: what it held would be lost.
+  function check_not_created(handle, name) result(code)
+    type(c_ptr), intent(in) :: handle                       !< The handle.
+    character(len=*), intent(in) :: name                    !< What the caller knows it as.
+    integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    code = RIIS_OK
+    if (c_associated(handle)) code = refuse(name // ' was already created: destroy it first')
+  end function check_not_created
+
+  !> The body of the assignments: two variables with one handle would destroy it twice.
+  subroutine refuse_copy(left, right, name)
+    type(c_ptr), intent(in) :: left                         !< The handle to be written over.
+    type(c_ptr), intent(in) :: right                        !< The handle to be copied.
+    character(len=*), intent(in) :: name                    !< The type.
+    if (c_associated(right)) then
+      error stop 'riis: a ' // name // ' cannot be copied: pass it as an argument, or point to it'
+    else if (c_associated(left)) then
+      error stop 'riis: a ' // name // ' cannot be overwritten: destroy it first'
+    end if
+  end subroutine refuse_copy
+
+  !> Checks the length of an array of the caller's.
+  function check_size(n, expected, name, of) result(code)
+    integer(int64), intent(in) :: n                         !< The length.
+    integer(int64), intent(in) :: expected                  !< What it must be.
+    character(len=*), intent(in) :: name                    !< The argument.
+    character(len=*), intent(in) :: of                      !< Of what there are so many, such as 'points'.
+    integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    code = RIIS_OK
+    if (n /= expected) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; there are ' // &
+      text_of(expected) // ' ' // of)
+  end function check_size
+
+  !> A handle as Fortran 77 has it, as C has it.
+  function c_handle_of(handle) result(c_handle)
+    integer(int64), intent(in) :: handle                    !< 0 for none.
+    type(c_ptr) :: c_handle                                 !< c_null_ptr for none.
+    c_handle = transfer(int(handle, c_intptr_t), c_handle)
+  end function c_handle_of
+
+  !> A handle as C has it, as Fortran 77 has it.
+  function handle_of(c_handle) result(handle)
+    type(c_ptr), intent(in) :: c_handle                     !< c_null_ptr for none.
+    integer(int64) :: handle                                !< 0 for none.
+    handle = int(transfer(c_handle, 0_c_intptr_t), int64)
+  end function handle_of
+
+  !> Where an array of a Fortran 77 caller's begins: there TARGET would ask for an explicit interface.
+  function location_of(array) result(location)
+    type(*), intent(in), target :: array(*)                 !< Any kind.
+    type(c_ptr) :: location                                 !< Its first entry.
+    location = c_loc(array)
+  end function location_of
+
+  !> The address as a number, for differences.
+  function address_of(location) result(address)
+    type(c_ptr), intent(in) :: location                     !< From c_loc.
+    integer(c_intptr_t) :: address                          !< In bytes.
+    address = transfer(location, address)
+  end function address_of
+
+  !> A stride in bytes as one in reals, if it is one that the library can go along.
+  subroutine get_stride(n_bytes, name, stride, code)
+    integer(c_intptr_t), intent(in) :: n_bytes              !< From one entry to the next.
+    character(len=*), intent(in) :: name                    !< The argument.
+    integer(int64), intent(inout) :: stride                 !< In reals.
+    integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    integer(c_intptr_t), parameter :: real_bytes = storage_size(0._c_double) / 8
+    code = RIIS_OK
+    if (n_bytes <= 0) then
+      code = refuse(name // ' is a section with a stride of ' // text_of(int(n_bytes, int64)) // &
+        ' bytes; it must not go backwards')
+    else if (mod(n_bytes, real_bytes) /= 0) then
+      code = refuse(name // ' is a section with a stride of ' // text_of(int(n_bytes, int64)) // &
+        ' bytes; it must be a multiple of ' // text_of(int(real_bytes, int64)))
+    else
+      stride = n_bytes / real_bytes
+    end if
+  end subroutine get_stride
+
+  !> xyz(3, n): whole arrays and sections with a positive stride.
+  subroutine points_of_matrix(xyz, name, points, code)
+    real(c_double), intent(in), target :: xyz(:, :)         !< The coordinates, (3, n).
+    character(len=*), intent(in) :: name                    !< The argument.
+    type(strided_points), intent(out) :: points             !< Where they are.
+    integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    if (size(xyz, 1) /= 3) then
+      code = refuse('the shape of ' // name // ' is (' // text_of(size(xyz, 1, int64)) // ', ' // &
+        text_of(size(xyz, 2, int64)) // '); it must be (3, n)')
+      return
+    end if
+    code = RIIS_OK
+    points%n = size(xyz, 2, int64)
+    if (points%n == 0) return
+    points%x = c_loc(xyz(1, 1))
+    points%y = c_loc(xyz(2, 1))
+    points%z = c_loc(xyz(3, 1))
+    if (points%n > 1) call get_stride(address_of(c_loc(xyz(1, 2))) - address_of(points%x), name, points%stride, code)
+  end subroutine points_of_matrix
+
+  !> x(n), y(n), z(n): whole arrays and sections with the same positive stride.
+  subroutine points_of_vectors(x, y, z, points, code)
+    real(c_double), intent(in), target :: x(:)              !< (n).
+    real(c_double), intent(in), target :: y(:)              !< (n).
+    real(c_double), intent(in), target :: z(:)              !< (n).
+    type(strided_points), intent(out) :: points             !< Where they are.
+    integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    integer(int64) :: y_stride, z_stride
+    if (size(y, kind=int64) /= size(x, kind=int64) .or. size(z, kind=int64) /= size(x, kind=int64)) then
+      code = refuse('the sizes of x, y and z are ' // text_of(size(x, kind=int64)) // ', ' // &
+        text_of(size(y, kind=int64)) // ' and ' // text_of(size(z, kind=int64)) // '; they must be equal')
+      return
+    end if
+    code = RIIS_OK
+    points%n = size(x, kind=int64)
+    if (points%n == 0) return
+    points%x = c_loc(x(1))
+    points%y = c_loc(y(1))
+    points%z = c_loc(z(1))
+    if (points%n == 1) return
+    call get_stride(address_of(c_loc(x(2))) - address_of(points%x), 'x', points%stride, code)
+    y_stride = points%stride
+    z_stride = points%stride
+    if (code == RIIS_OK) call get_stride(address_of(c_loc(y(2))) - address_of(points%y), 'y', y_stride, code)
+    if (code == RIIS_OK) call get_stride(address_of(c_loc(z(2))) - address_of(points%z), 'z', z_stride, code)
+    if (code /= RIIS_OK) return
+    if (y_stride /= points%stride .or. z_stride /= points%stride) then
+      code = refuse('the strides of x, y and z are ' // text_of(points%stride) // ', ' // text_of(y_stride) // ' and ' // &
+        text_of(z_stride) // '; they must be equal')
+    end if
+  end subroutine points_of_vectors
+
+  !> For options that are int32_t in riis.h.
+  subroutine get_int32(option, name, value, code)
+    class(*), intent(in), optional :: option                !< integer(int32) or integer(int64).
+    character(len=*), intent(in) :: name                    !< The argument.
+    integer(int32), intent(inout) :: value                  !< The option's, if it is present.
+    integer(riis_status), intent(inout) :: code             !< Left alone on success; an error before is kept.
+    integer(int64) :: wide
+    wide = value
+    call get_int64(option, name, wide, code)
+    if (code /= RIIS_OK) return
+    if (wide > huge(value) .or. wide < -huge(value)) then
+      code = refuse(name // ' is ' // text_of(wide) // '; it must fit in 32 bits')
+    else
+      value = int(wide, int32)
+    end if
+  end subroutine get_int32
+
+  !> For options that are int64_t in riis.h.
+  subroutine get_int64(option, name, value, code)
+    class(*), intent(in), optional :: option                !< integer(int32) or integer(int64).
+    character(len=*), intent(in) :: name                    !< The argument.
+    integer(int64), intent(inout) :: value                  !< The option's, if it is present.
+    integer(riis_status), intent(inout) :: code             !< Left alone on success; an error before is kept.
+    if (code /= RIIS_OK .or. .not. present(option)) return
+    select type (option)
+    type is (integer(int32))
+      value = option
+    type is (integer(int64))
+      value = option
+    class default
+      code = refuse(name // ' is neither an integer(int32) nor an integer(int64)')
+    end select
+  end subroutine get_int64
+
+  !> As text_of.
+  function text_of_int64(number) result(text)
+    integer(int64), intent(in) :: number                    !< Any.
+    character(len=:), allocatable :: text                   !< Its digits.
+    character(len=24) :: digits
+    write (digits, '(i0)') number
+    text = trim(digits)
+  end function text_of_int64
+
+  !> As text_of.
+  function text_of_int32(number) result(text)
+    integer(int32), intent(in) :: number                    !< Any.
+    character(len=:), allocatable :: text                   !< Its digits.
+    text = text_of_int64(int(number, int64))
+  end function text_of_int32
+end module riis_support

@@ -1,0 +1,724 @@
+! SPDX-License-Identifier: Apache-2.0
+!> Surfaces and closest points: the part of module riis that is riis_surface_* and riis_closest_* in riis.h.
+module riis_surfaces
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c
+  use riis_support
+  use riis_valves, only: riis_valve
+  implicit none
+  private
+  public :: riis_surface
+
+  !> Triangles in space with a half thickness, ready to be asked for closest points; nothing of the caller's is borrowed.
+  !! Empty until %create or %create_from_arrays, and again after %destroy, which has to be called. May be read by any number
+  !! of threads at once; is written by one with no reader beside it.
+  !!
+  !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays alike. What an update
+  !! is given of the options replaces what the surface had, and the others stay as they were.
+  type :: riis_surface
+    private
+    type(c_ptr) :: handle = c_null_ptr
+    type(riis_surface_options) :: options ! those in use; defined while there is a handle
+  contains
+    procedure, non_overridable :: create => surface_create              !< From a valve.
+    generic :: create_from_arrays => create_xyz_int32, create_xyz_int64, create_x_y_z_int32, create_x_y_z_int64
+                                                               !< From the caller's triangles or quads.
+    procedure, non_overridable :: update => surface_update              !< For a valve that moved.
+    generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
+                                                               !< For the caller's triangles or quads that moved.
+    procedure, non_overridable :: get_info => surface_get_info          !< Counts, bounds, area, times.
+    procedure, non_overridable :: vertices => surface_vertices          !< The vertices.
+    procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Where they lie on their patches.
+    procedure, non_overridable :: triangles => surface_triangles        !< The triangles.
+    procedure, non_overridable :: closest_point => surface_closest_point !< Of one point.
+    generic :: closest_points => closest_points_xyz, closest_points_x_y_z !< Of many points, in parallel.
+    procedure, non_overridable :: is_created => surface_is_created      !< Whether there is anything in it.
+    procedure, non_overridable :: c_handle => surface_c_handle          !< For calls of riis_c.
+    procedure, non_overridable :: destroy => surface_destroy            !< Frees what it holds.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => surface_assign
+    procedure, private, non_overridable :: create_xyz_int32 => surface_create_from_arrays_xyz_int32
+    procedure, private, non_overridable :: create_xyz_int64 => surface_create_from_arrays_xyz_int64
+    procedure, private, non_overridable :: create_x_y_z_int32 => surface_create_from_arrays_x_y_z_int32
+    procedure, private, non_overridable :: create_x_y_z_int64 => surface_create_from_arrays_x_y_z_int64
+    procedure, private, non_overridable :: update_xyz_int32 => surface_update_from_arrays_xyz_int32
+    procedure, private, non_overridable :: update_xyz_int64 => surface_update_from_arrays_xyz_int64
+    procedure, private, non_overridable :: update_x_y_z_int32 => surface_update_from_arrays_x_y_z_int32
+    procedure, private, non_overridable :: update_x_y_z_int64 => surface_update_from_arrays_x_y_z_int64
+    procedure, private, non_overridable :: closest_points_xyz => surface_closest_points_xyz
+    procedure, private, non_overridable :: closest_points_x_y_z => surface_closest_points_x_y_z
+  end type riis_surface
+
+  ! What a pointer points to where there is nothing: its size can be asked for.
+  real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
+  integer(int32), target, save :: no_int32(0)
+  integer(int64), target, save :: no_int64(0), no_corners(3, 0)
+
+contains
+
+  !> Makes the surface of a valve: curves, Coons patches, triangles, Embree scene. Normals point downstream. Errors:
+  !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
+  !! RIIS_LIMIT_EXCEEDED where the tolerance asks for more than 16,777,216 triangles.
+  subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Empty before.
+    class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
+                                                            !! Default RIIS_AUTO: 0.1 * scale.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1: times half_thickness bounds the error of distances.
+                                                            !! Default 0.05. Not used for surfaces from arrays.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length from 1e-50 on. Default (0, 0, 1).
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees, counter-clockwise seen against the axis. Default 0.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over. Default .false.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_options) :: options
+    integer(riis_status) :: code
+    code = check_not_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
+    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
+    if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
+    if (code == RIIS_OK) this%options = options
+    call finish(code, status)
+  end subroutine surface_create
+
+  !> Replaces the surface by that of a valve that moved. Options that are left out stay as they were, those that are given
+  !! replace them: a half_thickness of RIIS_AUTO, the default, goes with the scale. Pointers got from the surface before
+  !! end. Errors as of %create; the surface is then as it was.
+  subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_options) :: options
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
+    if (code == RIIS_OK) then
+      options = this%options
+      call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+        flip_normals, code)
+      if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
+      if (code == RIIS_OK) this%options = options
+    end if
+    call finish(code, status)
+  end subroutine surface_update
+
+  !> Makes a surface from the caller's triangles or quads, which are read during the call only; vertex_ids and leaflet_id
+  !! are copied for it if they are sections that are not contiguous. The winding stays the caller's and makes the normal by
+  !! the right-hand rule. A quad 1 2 3 4 becomes the triangles 1 2 3 and 1 3 4. The options are those of %create.
+  !! Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range,
+  !! RIIS_LIMIT_EXCEEDED for more than 16,777,216 triangles.
+  subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Empty before.
+    real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
+    integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default .false..
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(xyz, 'xyz', points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_create_from_arrays_xyz_int32
+
+  !> The same for integer(int64).
+  subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Empty before.
+    real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
+    integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default .false..
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(xyz, 'xyz', points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_create_from_arrays_xyz_int64
+
+  !> The same for separate coordinates.
+  subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Empty before.
+    real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
+    integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default .false..
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(x, y, z, points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_create_from_arrays_x_y_z_int32
+
+  !> The same for both.
+  subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Empty before.
+    real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
+    integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default .false..
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(x, y, z, points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_create_from_arrays_x_y_z_int64
+
+  !> As %update, by arrays as in %create_from_arrays.
+  subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
+    integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default as before.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(xyz, 'xyz', points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_update_from_arrays_xyz_int32
+
+  !> The same for integer(int64).
+  subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
+    integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default as before.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(xyz, 'xyz', points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_update_from_arrays_xyz_int64
+
+  !> The same for separate coordinates.
+  subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
+    integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default as before.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(x, y, z, points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_update_from_arrays_x_y_z_int32
+
+  !> The same for both.
+  subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
+    real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
+    integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
+                                                            !! Default as before.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_arrays) :: arrays
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(x, y, z, points, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+      translation, flip_normals, code)
+    call finish(code, status)
+  end subroutine surface_update_from_arrays_x_y_z_int64
+
+  ! Sets the options that are present; does nothing after an error.
+  subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
+    type(riis_surface_options), intent(inout) :: options
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
+    logical, intent(in), optional :: flip_normals
+    integer(riis_status), intent(inout) :: code
+    if (code /= RIIS_OK) return
+    if (present(half_thickness)) options%half_thickness = half_thickness
+    if (present(tolerance)) options%tolerance = tolerance
+    if (present(scale)) options%scale = scale
+    if (present(rotation_angle)) options%rotation_angle = rotation_angle
+    if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
+    call set_vector(rotation_axis, 'rotation_axis', options%rotation_axis, code)
+    call set_vector(translation, 'translation', options%translation, code)
+  end subroutine set_options
+
+  ! Sets an option of three reals.
+  subroutine set_vector(values, name, option, code)
+    real(c_double), intent(in), optional :: values(:)
+    character(len=*), intent(in) :: name
+    real(c_double), intent(inout) :: option(3)
+    integer(riis_status), intent(inout) :: code
+    if (code /= RIIS_OK .or. .not. present(values)) return
+    if (size(values) == 3) then
+      option = values
+    else
+      code = refuse('the size of ' // name // ' is ' // text_of(size(values)) // '; it must be 3')
+    end if
+  end subroutine set_vector
+
+  ! Fills the struct, but for vertex_ids; does nothing after an error.
+  subroutine get_arrays(points, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
+    type(strided_points), intent(in) :: points
+    integer, intent(in) :: n_corners, vertex_id_bits
+    integer(int64), intent(in) :: n_faces
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:)
+    class(*), intent(in), optional :: index_base
+    type(riis_surface_arrays), intent(out) :: arrays
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+    arrays%n_vertices = points%n
+    arrays%x = points%x
+    arrays%y = points%y
+    arrays%z = points%z
+    arrays%stride = points%stride
+    arrays%n_faces = n_faces
+    arrays%vertex_id_bits = vertex_id_bits
+    arrays%corners_per_face = n_corners
+    arrays%index_base = 1
+    if (code == RIIS_OK .and. n_corners /= 3 .and. n_corners /= 4) &
+      code = refuse('the first extent of vertex_ids is ' // text_of(n_corners) // '; it must be 3 or 4')
+    if (code == RIIS_OK .and. points%n == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no vertices')
+    if (code == RIIS_OK .and. n_faces == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no faces')
+    call get_integer(index_base, 'index_base', arrays%index_base, code)
+    if (code /= RIIS_OK .or. .not. present(leaflet_id)) return
+    code = check_size(size(leaflet_id, kind=int64), n_faces, 'leaflet_id', 'faces')
+    if (size(leaflet_id) > 0) arrays%leaflet_id = c_loc(leaflet_id)
+  end subroutine get_arrays
+
+  ! What all specifics of create_from_arrays have in common; does nothing after an error.
+  subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, flip_normals, code)
+    class(riis_surface), intent(inout) :: this
+    type(riis_surface_arrays), intent(in) :: arrays
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
+    logical, intent(in), optional :: skip_zero_area, flip_normals
+    integer(riis_status), intent(inout) :: code
+    type(riis_surface_options) :: options
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
+    if (code /= RIIS_OK) return
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
+    if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
+    if (code == RIIS_OK) code = riis_surface_create_from_arrays(arrays, options, this%handle)
+    if (code == RIIS_OK) this%options = options
+  end subroutine create_from_arrays
+
+  ! The same of update_from_arrays.
+  subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, flip_normals, code)
+    class(riis_surface), intent(inout) :: this
+    type(riis_surface_arrays), intent(in) :: arrays
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
+    logical, intent(in), optional :: skip_zero_area, flip_normals
+    integer(riis_status), intent(inout) :: code
+    type(riis_surface_options) :: options
+    if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
+    if (code /= RIIS_OK) return
+    options = this%options
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code)
+    if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
+    if (code == RIIS_OK) code = riis_surface_update_from_arrays(this%handle, arrays, options)
+    if (code == RIIS_OK) this%options = options
+  end subroutine update_from_arrays
+
+  !> What the surface is: counts, half thickness, area, bounds, and the wall times of the last create or update.
+  subroutine surface_get_info(this, info, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    type(riis_surface_info), intent(inout) :: info          !< Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_get_info(this%handle, info, c_sizeof(info))
+    call finish(code, status)
+  end subroutine surface_get_info
+
+  !> Points to the surface's own vertices, after placement: no copy. Valid until its next update or its destruction; not to
+  !! be written to.
+  subroutine surface_vertices(this, xyz, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), pointer, intent(out) :: xyz(:, :)       !< (3, n_vertices); (3, 0) on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_ptr) :: location
+    integer(int64) :: n
+    integer(riis_status) :: code
+    xyz => no_points
+    location = c_null_ptr
+    n = 0
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_vertices(this%handle, n, location)
+    if (c_associated(location)) call c_f_pointer(location, xyz, [3_int64, n])
+    call finish(code, status)
+  end subroutine surface_vertices
+
+  !> Points to where each vertex lies on its patch, in [0, 1]: no copy. Valid as above; not to be written to.
+  subroutine surface_vertex_parameters(this, uv, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), pointer, intent(out) :: uv(:, :)        !< (2, n_vertices); (2, 0) of a surface from arrays.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_ptr) :: location
+    integer(int64) :: n
+    integer(riis_status) :: code
+    uv => no_uv
+    location = c_null_ptr
+    n = 0
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_vertex_parameters(this%handle, n, location)
+    if (c_associated(location)) call c_f_pointer(location, uv, [2_int64, n])
+    call finish(code, status)
+  end subroutine surface_vertex_parameters
+
+  !> Points to the surface's own triangles, those that closest points are sought on: no copy. Valid until its next update or
+  !! its destruction; not to be written to. Sizes are 0 on an error.
+  subroutine surface_triangles(this, vertex_id, triangle_id, leaflet_id, patch_id, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    integer(int64), pointer, intent(out), optional :: vertex_id(:, :) !< (3, n_triangles), from 0: vertex_id + 1 is the
+                                                            !! column of %vertices.
+    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n_triangles), ascending, from 0: as queries report.
+    integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
+    integer(int32), pointer, intent(out), optional :: patch_id(:) !< (n_triangles), from 0 (riis.h says which is which).
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_ptr) :: vertices, triangles, leaflets, patches
+    integer(int64) :: n
+    integer(riis_status) :: code
+    vertices = c_null_ptr
+    triangles = c_null_ptr
+    leaflets = c_null_ptr
+    patches = c_null_ptr
+    n = 0
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_triangles(this%handle, n, vertices, triangles, leaflets, patches)
+    if (present(vertex_id)) then
+      vertex_id => no_corners
+      if (c_associated(vertices)) call c_f_pointer(vertices, vertex_id, [3_int64, n])
+    end if
+    if (present(triangle_id)) then
+      triangle_id => no_int64
+      if (c_associated(triangles)) call c_f_pointer(triangles, triangle_id, [n])
+    end if
+    if (present(leaflet_id)) then
+      leaflet_id => no_int32
+      if (c_associated(leaflets)) call c_f_pointer(leaflets, leaflet_id, [n])
+    end if
+    if (present(patch_id)) then
+      patch_id => no_int32
+      if (c_associated(patches)) call c_f_pointer(patches, patch_id, [n])
+    end if
+    call finish(code, status)
+  end subroutine surface_triangles
+
+  !> The surface's closest point to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
+  subroutine surface_closest_point(this, point, closest, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), intent(in) :: point(:)                  !< (3), magnitude at most 1e60.
+    type(riis_closest), intent(inout) :: closest            !< Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    real(c_double) :: the_point(3)
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK .and. size(point) /= 3) &
+      code = refuse('the size of point is ' // text_of(size(point)) // '; it must be 3')
+    if (code == RIIS_OK) then
+      the_point = point
+      code = riis_closest_point(this%handle, the_point, closest, c_sizeof(closest))
+    end if
+    call finish(code, status)
+  end subroutine surface_closest_point
+
+  !> The surface's closest points to many points, in parallel. Only the arrays that are given are written; sections of them
+  !! that are not contiguous are copied to and fro by the compiler. None may overlap another or the coordinates, which are
+  !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written.
+  subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
+      barycentric, normal, triangle_id, leaflet_id, side, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+                                                            !! Default RIIS_AUTO: no limit.
+    real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
+                                                            !! calling thread may use.
+    real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
+    real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
+                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
+    integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
+    integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
+    integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
+                                                            !! surface or level with its rim.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(xyz, 'xyz', points, code)
+    call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
+      triangle_id, leaflet_id, side, code)
+    call finish(code, status)
+  end subroutine surface_closest_points_xyz
+
+  !> The same for separate coordinates.
+  subroutine surface_closest_points_x_y_z(this, x, y, z, distance_limit, far_distance, n_threads, distance, point, &
+      barycentric, normal, triangle_id, leaflet_id, side, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
+    real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
+    real(c_double), intent(in), target :: z(:)              !< (n_points), finite, any positive stride.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+                                                            !! Default RIIS_AUTO: no limit.
+    real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
+                                                            !! calling thread may use.
+    real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
+    real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
+                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
+    integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
+    integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
+    integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
+                                                            !! surface or level with its rim.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(x, y, z, points, code)
+    call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
+      triangle_id, leaflet_id, side, code)
+    call finish(code, status)
+  end subroutine surface_closest_points_x_y_z
+
+  ! What both specifics of closest_points have in common.
+  subroutine closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
+      triangle_id, leaflet_id, side, code)
+    class(riis_surface), intent(in) :: this
+    type(strided_points), intent(in) :: points
+    real(c_double), intent(in), optional :: distance_limit, far_distance
+    class(*), intent(in), optional :: n_threads
+    real(c_double), intent(inout), contiguous, optional, target :: distance(:), point(:, :), barycentric(:, :), normal(:, :)
+    integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:)
+    integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:), side(:)
+    integer(riis_status), intent(inout) :: code
+    type(riis_closest_options) :: options
+    type(riis_closest_arrays) :: arrays
+    real(c_double) :: nothing(1)
+
+    if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_closest_options_init(options, c_sizeof(options))
+    if (code == RIIS_OK) code = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+    if (present(distance_limit)) options%distance_limit = distance_limit
+    if (present(far_distance)) options%far_distance = far_distance
+    call get_integer(n_threads, 'n_threads', options%n_threads, code)
+    call get_vectors(point, 'point', arrays%point)
+    call get_vectors(barycentric, 'barycentric', arrays%barycentric)
+    call get_vectors(normal, 'normal', arrays%normal)
+    if (code == RIIS_OK .and. present(distance)) then
+      code = check_size(size(distance, kind=int64), points%n, 'distance', 'points')
+      if (size(distance) > 0) arrays%distance = c_loc(distance)
+    end if
+    if (code == RIIS_OK .and. present(triangle_id)) then
+      code = check_size(size(triangle_id, kind=int64), points%n, 'triangle_id', 'points')
+      if (size(triangle_id) > 0) arrays%triangle_id = c_loc(triangle_id)
+    end if
+    if (code == RIIS_OK .and. present(leaflet_id)) then
+      code = check_size(size(leaflet_id, kind=int64), points%n, 'leaflet_id', 'points')
+      if (size(leaflet_id) > 0) arrays%leaflet_id = c_loc(leaflet_id)
+    end if
+    if (code == RIIS_OK .and. present(side)) then
+      code = check_size(size(side, kind=int64), points%n, 'side', 'points')
+      if (size(side) > 0) arrays%side = c_loc(side)
+    end if
+    if (code == RIIS_OK) call ask(points%n)
+
+  contains
+
+    subroutine get_vectors(vectors, name, location)
+      real(c_double), intent(in), contiguous, optional, target :: vectors(:, :)
+      character(len=*), intent(in) :: name
+      type(c_ptr), intent(inout) :: location
+      if (code /= RIIS_OK .or. .not. present(vectors)) return
+      if (size(vectors, 1) /= 3 .or. size(vectors, 2, int64) /= points%n) then
+        code = refuse('the shape of ' // name // ' is (' // text_of(size(vectors, 1)) // ', ' // &
+          text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(points%n) // ')')
+      else if (size(vectors) > 0) then
+        location = c_loc(vectors)
+      end if
+    end subroutine get_vectors
+
+    ! The binding takes arrays, and there is one behind every address.
+    subroutine ask(n)
+      integer(int64), intent(in) :: n
+      real(c_double), pointer :: x(:), y(:), z(:)
+      if (n == 0) then
+        code = riis_closest_points(this%handle, n, nothing, nothing, nothing, 1_int64, options, arrays)
+      else
+        call c_f_pointer(points%x, x, [1])
+        call c_f_pointer(points%y, y, [1])
+        call c_f_pointer(points%z, z, [1])
+        code = riis_closest_points(this%handle, n, x, y, z, points%stride, options, arrays)
+      end if
+    end subroutine ask
+  end subroutine closest_points
+
+  !> Whether the surface was created and not destroyed.
+  pure function surface_is_created(this) result(is_created)
+    class(riis_surface), intent(in) :: this                 !< Any.
+    logical :: is_created                                   !< .false. for an empty one.
+    is_created = c_associated(this%handle)
+  end function surface_is_created
+
+  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  function surface_c_handle(this) result(handle)
+    class(riis_surface), intent(in) :: this                 !< Any.
+    type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
+    handle = this%handle
+  end function surface_c_handle
+
+  !> Frees what the surface holds; it is empty then, and can be created again. Nothing happens to an empty one.
+  subroutine surface_destroy(this)
+    class(riis_surface), intent(inout) :: this              !< Any.
+    call riis_surface_destroy(this%handle)
+  end subroutine surface_destroy
+
+  !> Stops the program, unless both are empty.
+  impure elemental subroutine surface_assign(left, right)
+    class(riis_surface), intent(inout) :: left              !< Empty.
+    class(riis_surface), intent(in) :: right                !< Empty.
+    call refuse_copy(left%handle, right%handle, 'riis_surface')
+  end subroutine surface_assign
+end module riis_surfaces

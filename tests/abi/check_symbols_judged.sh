@@ -1,0 +1,34 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_symbols_judged.sh LIBRARY SCRATCH
+# check_symbols.sh refuses what it is for: a function or a constant that is gone or has another name or value, in library and header
+# alike, and one that the list does not have.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$here/../.. library=$1 scratch=$2
+rm -rf "$scratch"
+mkdir -p "$scratch"
+
+# refused TEXT LIST HEADER: with an error that has the text.
+refused() {
+  local errors
+  if errors=$("$here/check_symbols.sh" "$2" "$3" "$library" 2>&1); then
+    echo "accepted, though: $1" >&2
+    exit 1
+  fi
+  if ! grep -q -F -- "$1" <<<"$errors"; then
+    printf 'refused without "%s": %s\n' "$1" "$errors" >&2
+    exit 1
+  fi
+}
+list=$root/abi/riis.symbols header=$root/include/riis/riis.h
+"$here/check_symbols.sh" "$list" "$header" "$library"
+# What was in a release and is in the library no more is, seen from here, what the list has and the library has not.
+(cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
+refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
+grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"
+refused '(0.1.0): riis_mesh_create' "$scratch/new.symbols" "$header"
+sed 's/^riis_mesh_create .*/riis_mesh_create 9.0.0/' "$list" >"$scratch/later.symbols"
+refused 'has something since 9.0.0' "$scratch/later.symbols" "$header"
+sed 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$header" >"$scratch/riis.h"
+refused 'gone or changed: RIIS_SEARCH_PAPER = 3' "$list" "$scratch/riis.h"

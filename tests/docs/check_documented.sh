@@ -1,0 +1,107 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_documented.sh DOXYGEN SOURCE_DIR SCRATCH
+# Every public function, struct, field, value, macro and typedef of the C headers has a text in what Doxygen makes of them. The names
+# are read from the headers, not from Doxygen, so that one which Doxygen overlooks is missed, too. Then the same of headers that
+# lost a comment each: what is checked by a check that cannot fail is not checked.
+set -euo pipefail
+doxygen=$1 source=$2 scratch=$3
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$source"
+
+# names HEADER...: "name", or "struct.field", a line each.
+names() {
+  cat "$@" | sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' | awk '
+    /^#define RIIS_RIIS/ { next } # include guards
+    /^#define RIIS_/ { print $2 }
+    /^RIIS_API / { match($0, /riis_[a-z_0-9]*\(/); print substr($0, RSTART, RLENGTH - 1) }
+    /^typedef struct riis_[a-z_]* \{/ { struct = $3; print struct }
+    /^typedef struct riis_[a-z_]* riis_[a-z_]*;/ { print $3 }
+    /^typedef [a-z0-9_]* riis_[a-z_]*;/ { sub(/;/, ""); print $3 }
+    /^typedef .*\(\*riis_/ { match($0, /\(\*riis_[a-z_]*/); print substr($0, RSTART + 2, RLENGTH - 2) }
+    /^\}/ { struct = "" }
+    struct != "" && /^  .*;/ {
+      gsub(/const |\[[0-9]*\]|;/, ""); gsub(/[*,]/, " ")
+      for (i = 2; i <= NF; ++i) print struct "." $i
+    }
+    { line = $0; while (match(line, /RIIS_[A-Z_0-9]+ = /)) { print substr(line, RSTART, RLENGTH - 3); line = substr(line, RSTART + RLENGTH) } }
+  ' | sort -u
+}
+
+# documented DIRECTORY: the same of what has a text in the XML files there.
+documented() {
+  cat "$1"/*.xml | awk '
+    function begin(what) { kind[++depth] = what; name[depth] = ""; text[depth] = 0 }
+    function end() {
+      if (text[depth]) {
+        if (kind[depth] == "variable") print name[depth - 1] "." name[depth]
+        else print name[depth]
+      } else if (kind[depth] == "enum") print "the enum of " first_value
+      --depth
+    }
+    /<compounddef / { begin("compound") }
+    /<memberdef / { match($0, /kind="[a-z]*"/); begin(substr($0, RSTART + 6, RLENGTH - 7)); first_value = "" }
+    /<enumvalue / { begin("value") }
+    depth && name[depth] == "" && /<(compound)?name>/ {
+      name[depth] = $0
+      gsub(/^.*<(compound)?name>|<\/(compound)?name>.*$/, "", name[depth])
+      if (kind[depth] == "value" && first_value == "") first_value = name[depth]
+    }
+    /<(brief|detailed)description>/ { describes = 1 }
+    describes && depth && /<para>/ { text[depth] = 1 }
+    /<\/(brief|detailed)description>/ { describes = 0 }
+    /<\/(enumvalue|memberdef|compounddef)>/ { end() }
+  ' | sort -u
+}
+
+# undocumented DIRECTORY HEADER...: what has no text; Doxygen leaves its files in the directory.
+undocumented() {
+  local to=$1
+  shift
+  mkdir -p "$to"
+  (
+    cat docs/reference/Doxyfile
+    printf '%s\n' "INPUT = $*" "OUTPUT_DIRECTORY = $to" 'GENERATE_HTML = NO' 'GENERATE_XML = YES' 'WARNINGS = NO'
+  ) | "$doxygen" - >"$to/log" 2>&1 || { cat "$to/log" >&2; return 1; }
+  documented "$to/xml" >"$to/documented"
+  comm -23 <(names "$@") "$to/documented"
+  grep '^the enum of' "$to/documented" || true
+}
+
+headers=(include/riis/riis.h include/riis/riis_vtk.h)
+n=$(names "${headers[@]}" | wc -l)
+missing=$(undocumented "$scratch/all" "${headers[@]}")
+if [ -n "$missing" ]; then
+  echo "not documented: ${missing//$'\n'/, }" >&2
+  exit 1
+fi
+
+# without BEFORE AFTER NAME: the header without the comment between these two is refused for that name.
+without() {
+  local before=$1 after=$2 expected=$3 to=$scratch/mutated found
+  rm -rf "$to"
+  mkdir -p "$to"
+  sed -z -E "s~($before)/\*([^*]|\*+[^*/])*\*+/($after)~\1\3~" include/riis/riis.h >"$to/riis.h"
+  if cmp -s include/riis/riis.h "$to/riis.h"; then
+    echo "there is no comment between '$before' and '$after' any more: this script is out of date" >&2
+    exit 1
+  fi
+  found=$(undocumented "$to" "$to/riis.h")
+  if [ "$found" != "$expected" ]; then
+    printf 'without its comment only %s should have been found, but this was:\n%s\n' "$expected" "$found" >&2
+    exit 1
+  fi
+}
+without '\n' '\nRIIS_API riis_status riis_mesh_create\(' riis_mesh_create
+without '\n' '\ntypedef struct riis_csr \{' riis_csr
+without 'double \*control; *' '\n' riis_patches.control
+without 'double \*x, \*y, \*z; *' '\n' 'riis_surface_arrays.x
+riis_surface_arrays.y
+riis_surface_arrays.z'
+without 'RIIS_INVALID_MESH = 5, *' '\n' RIIS_INVALID_MESH
+without '\n' '\nenum \{\n  RIIS_SEARCH_AUTO' 'the enum of RIIS_SEARCH_AUTO'
+without '\n' '\n#define RIIS_FAR_DISTANCE' RIIS_FAR_DISTANCE
+without '\n' '\ntypedef void \(\*riis_log_function' riis_log_function
+without '\n' '\ntypedef struct riis_mesh riis_mesh' riis_mesh
+echo "$n names"

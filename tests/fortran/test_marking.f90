@@ -1,0 +1,287 @@
+! SPDX-License-Identifier: Apache-2.0
+! Module riis: marking, its results in every form, several threads.
+program test_marking
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
+  use box
+  use checks
+  use riis
+  use riis_c, only: c_dense => riis_mark_result_dense, c_within_limit => riis_mark_result_within_limit
+  implicit none
+  type(riis_mesh) :: mesh
+  integer(riis_status) :: status
+
+  call make_box()
+  call mesh%create(xyz)
+  call test_results()
+  call test_nothing_marked()
+  call test_masks()
+  call test_dense()
+  call test_errors()
+  call test_assignment()
+  call test_threads()
+  call mesh%destroy()
+  call free_box()
+  call finish()
+
+contains
+
+  subroutine test_results()
+    type(riis_mark_result) :: result
+    type(riis_mark_stats) :: stats
+    integer(int32), allocatable :: node_num(:), leaflets(:)
+    integer(int64), allocatable :: wide_num(:), triangles(:)
+    real(c_double), allocatable :: distances(:)
+    integer(int64), pointer :: node_id(:), triangle_id(:)
+    real(c_double), pointer :: distance(:)
+    integer(int32), pointer :: leaflet_id(:)
+    integer(int64) :: n
+
+    call riis_mark_nodes(surface, mesh, result, status=status)
+    call check_ok(status, 'marking without options')
+    call check(result%is_created() .and. c_associated(result%c_handle()), 'which creates the result')
+    call check(result%n_marked() == size(expected), 'how many it marked')
+    call check(result%n_within_limit() == size(expected), 'as many are within the limit')
+    call result%marked(node_id, distance, triangle_id, leaflet_id)
+    call check(all(node_id == expected) .and. all(same(distance, expected_distance)), 'its pointers')
+    call check(minval(triangle_id) >= 0 .and. any(leaflet_id == RIIS_LEAFLET_NON_CORONARY), 'its triangles and leaflets')
+
+    ! Copies, into arrays that are not there, too short, too long, and right.
+    call result%marked_nodes(node_num, distances, triangles, leaflets)
+    call check(all(node_num == expected + 1) .and. all(same(distances, distance)) .and. all(triangles == triangle_id) &
+      .and. all(leaflets == leaflet_id), 'its copies, counted from 1')
+    allocate (wide_num(3))
+    node_num = [node_num, node_num]
+    distances = distances(:5)
+    triangles = [triangles, triangles]
+    leaflets = leaflets(:0)
+    call result%marked_nodes(node_num, distances, triangles, leaflets)
+    call result%marked_nodes(wide_num)
+    call check(size(node_num) == size(expected) .and. all(wide_num == expected + 1) .and. all(same(distances, distance)) &
+      .and. all(triangles == triangle_id) .and. all(leaflets == leaflet_id), 'copies are as long as they have to be')
+    call result%marked_nodes(node_num, distances, triangles, leaflets)
+    call check(all(node_num == expected + 1) .and. all(same(distances, distance)), 'copies over copies')
+
+    ! A wider limit, by options of either kind.
+    call riis_mark_nodes(surface, mesh, result, distance_limit=0.3d0, search=int(RIIS_SEARCH_EXHAUSTIVE, int64), &
+      n_threads=1_int64)
+    n = result%n_within_limit()
+    call check(result%n_marked() == size(expected) .and. n > size(expected), 'more nodes within the limit')
+    call result%within_limit(node_id, distance, triangle_id, leaflet_id)
+    call result%nodes_within_limit(node_num, distances, triangles, leaflets)
+    call result%nodes_within_limit(wide_num)
+    call check(size(node_id) == n .and. maxval(distance) <= 0.3d0 .and. maxval(distance) > 0.12d0, 'they are in there')
+    call check(all(node_num == node_id + 1) .and. all(wide_num == node_num) .and. all(same(distances, distance)) &
+      .and. all(triangles == triangle_id) .and. all(leaflets == leaflet_id), 'and in the copies')
+    call result%get_stats(stats)
+    call check(stats%n_nodes == n_nodes .and. stats%n_marked == size(expected) .and. stats%n_within_limit == n .and. &
+      stats%search == RIIS_SEARCH_EXHAUSTIVE .and. stats%n_threads == 1 .and. stats%complete == 1, 'how it went')
+    call result%destroy()
+    call result%destroy()
+    call check(.not. result%is_created(), 'a result that was destroyed twice is empty')
+  end subroutine test_results
+
+  subroutine test_nothing_marked()
+    type(riis_surface) :: far
+    type(riis_mark_result) :: result
+    integer(int32), allocatable :: node_num(:), leaflets(:)
+    integer(int64), allocatable :: triangles(:)
+    real(c_double), allocatable :: distances(:)
+    integer(int64), pointer :: node_id(:), triangle_id(:)
+    real(c_double), pointer :: distance(:)
+    integer(int32), pointer :: leaflet_id(:)
+    call far%create(valve, translation=[100d0, 0d0, 0d0])
+    call riis_mark_nodes(far, mesh, result)
+    call result%marked(node_id, distance, triangle_id, leaflet_id)
+    call check(result%n_marked() == 0 .and. size(node_id) == 0 .and. size(distance) == 0 .and. size(triangle_id) == 0 &
+      .and. size(leaflet_id) == 0, 'nothing is marked: pointers to nothing')
+    call result%marked_nodes(node_num, distances, triangles, leaflets)
+    call check(size(node_num) == 0 .and. size(distances) == 0 .and. size(triangles) == 0 .and. size(leaflets) == 0, &
+      'nothing is marked: copies of nothing')
+    call result%destroy()
+    call far%destroy()
+  end subroutine test_nothing_marked
+
+  subroutine test_masks()
+    type(riis_mark_result) :: result
+    logical :: mask(n_nodes)
+    integer(int8) :: bytes(n_nodes), wide(2 * n_nodes)
+    integer(int32) :: numbers(n_nodes)
+    integer :: i
+    mask = [(mod(i, 3) /= 0, i = 1, n_nodes)]
+    bytes = merge(1_int8, 0_int8, mask)
+    numbers = merge(-7, 0, mask)
+    wide = 1
+    wide(::2) = bytes
+    call riis_mark_nodes(surface, mesh, result, node_mask=mask)
+    call check_half(result, mask, 'a logical mask')
+    call riis_mark_nodes(surface, mesh, result, node_mask=bytes)
+    call check_half(result, mask, 'a mask of bytes')
+    call riis_mark_nodes(surface, mesh, result, 0.12d0, wide(::2), RIIS_SEARCH_AUTO, 2)
+    call check_half(result, mask, 'a section as a mask')
+    call riis_mark_nodes(surface, mesh, result, node_mask=numbers)
+    call check_half(result, mask, 'a mask of integers')
+    call riis_mark_nodes(surface, mesh, result, node_mask=mask(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of node_mask is 9260; there are 9261 nodes')
+    call riis_mark_nodes(surface, mesh, result, node_mask=bytes(:0), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of node_mask is 0')
+    call riis_mark_nodes(surface, mesh, result, node_mask=numbers(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of node_mask is 9260')
+    call check_half(result, mask, 'a refused call leaves the result')
+    call result%destroy()
+  end subroutine test_masks
+
+  subroutine check_half(result, mask, what)
+    type(riis_mark_result), intent(in) :: result
+    logical, intent(in) :: mask(:)
+    character(len=*), intent(in) :: what
+    integer(int64), pointer :: node_id(:)
+    logical :: is_same
+    call result%marked(node_id)
+    is_same = size(node_id) == count(mask(expected + 1))
+    if (is_same) is_same = all(node_id == pack(expected, mask(expected + 1)))
+    call check(is_same, what)
+  end subroutine check_half
+
+  subroutine test_dense()
+    type(riis_mark_result) :: result
+    integer(int8) :: mark(n_nodes), c_mark(n_nodes)
+    integer(int32) :: number(n_nodes), leaflet_id(n_nodes), c_leaflet_id(n_nodes)
+    logical :: is_marked(n_nodes)
+    real(c_double) :: distance(n_nodes), c_distance(n_nodes), wide(2, n_nodes)
+    integer(int64) :: triangle_id(n_nodes), c_triangle_id(n_nodes)
+    call riis_mark_nodes(surface, mesh, result, distance_limit=0.3d0)
+    call check_ok(c_dense(result%c_handle(), int(n_nodes, int64), RIIS_FAR_DISTANCE, c_mark, c_distance, c_triangle_id, &
+      c_leaflet_id), 'dense arrays from riis_c')
+    call result%dense(mark, distance, triangle_id, leaflet_id)
+    call check(all(mark == c_mark) .and. all(same(distance, c_distance)) .and. all(triangle_id == c_triangle_id) .and. &
+      all(leaflet_id == c_leaflet_id), 'dense arrays')
+    call result%dense(number, distance, far_distance=-1d0)
+    call check(all(number == c_mark) .and. all(same(distance, merge(c_distance, -1d0, c_distance < 1))), 'integer marks')
+    call result%dense(is_marked, leaflet_id=leaflet_id)
+    call check(all(is_marked .eqv. c_mark == 1), 'logical marks')
+    wide = 3
+    call result%dense(distance=wide(2, :), far_distance=ieee_value(0d0, ieee_quiet_nan))
+    call check(all(ieee_is_nan(wide(2, :)) .eqv. c_distance >= 1) .and. all(same(wide(1, :), 3d0)), 'into a section')
+
+    mark = 5
+    number = 5
+    call result%dense(mark, distance(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of distance is 9260; there are 9261')
+    call result%dense(mark, triangle_id=triangle_id(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of triangle_id is 9260')
+    call result%dense(mark(2:), leaflet_id=leaflet_id(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_nodes is 9260')
+    call result%dense(mark(:0), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_nodes is 0')
+    call result%dense(number, far_distance=0.1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'far_distance is 0.1')
+    call result%dense(is_marked(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_nodes is 9260')
+    call result%dense(status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'none of mark, distance, triangle_id and leaflet_id is given')
+    call check(all(mark == 5) .and. all(number == 5), 'refused calls write nothing')
+    call result%destroy()
+  end subroutine test_dense
+
+  ! Options out of range, and handles that there are not.
+  subroutine test_errors()
+    type(riis_surface) :: no_surface
+    type(riis_mesh) :: no_mesh
+    type(riis_mark_result) :: result
+    type(riis_mark_stats) :: stats
+    integer(int8) :: mark(1)
+    integer(int32), allocatable :: node_num(:)
+    integer(int64), allocatable :: wide_num(:)
+    integer(int64), pointer :: node_id(:)
+    integer(int64) :: n
+    call riis_mark_nodes(no_surface, mesh, result, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'surface was not created, or was destroyed')
+    call riis_mark_nodes(surface, no_mesh, result, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'mesh was not created, or was destroyed')
+    call riis_mark_nodes(surface, mesh, result, search=17, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'search is 17')
+    call riis_mark_nodes(surface, mesh, result, search='auto', status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'search is neither')
+    call riis_mark_nodes(surface, mesh, result, n_threads=5000, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is 5000')
+    call riis_mark_nodes(surface, mesh, result, distance_limit=0.01d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'distance_limit is 0.01')
+    call result%destroy()
+
+    n = result%n_marked(status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created, or was destroyed')
+    n = n + result%n_within_limit(status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check(n == 0, 'no nodes')
+    call result%marked(node_id, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check(size(node_id) == 0, 'no nodes to point to')
+    call result%within_limit(node_id, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    node_num = [7]
+    wide_num = [7]
+    call result%marked_nodes(node_num, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%marked_nodes(wide_num, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%nodes_within_limit(node_num, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%nodes_within_limit(wide_num, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check(all(node_num == [7]) .and. all(wide_num == [7_int64]), 'the copies before are left alone')
+    call result%dense(mark, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%get_stats(stats, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+  end subroutine test_errors
+
+  subroutine test_assignment()
+    type(riis_mesh) :: a, b
+    type(riis_adjacency) :: c, d
+    type(riis_mark_result) :: e, f
+    a = b
+    c = d
+    e = f
+    call check(.not. (a%is_created() .or. c%is_created() .or. e%is_created()), 'an empty copy is empty')
+  end subroutine test_assignment
+
+  ! One surface and one mesh, read by all threads; a result and an error text for each.
+  subroutine test_threads()
+    integer, parameter :: n_parts = 8
+    logical :: is_right(n_parts)
+    integer :: part
+    is_right = .false.
+    !$omp parallel do num_threads(4) schedule(static, 1)
+    do part = 1, n_parts
+      call work(part, is_right(part))
+    end do
+    !$omp end parallel do
+    call check(all(is_right), 'threads do not disturb each other')
+  end subroutine test_threads
+
+  subroutine work(part, is_right)
+    integer, intent(in) :: part
+    logical, intent(out) :: is_right
+    type(riis_mark_result) :: result
+    integer, allocatable :: node_num(:)
+    character(len=80) :: text
+    integer(riis_status) :: own_status
+    integer :: step, none(0)
+    is_right = .true.
+    do step = 1, 5
+      call riis_mark_nodes(surface, mesh, result, n_threads=1)
+      call result%marked_nodes(node_num)
+      is_right = is_right .and. size(node_num) == size(expected)
+      if (is_right) is_right = all(node_num == expected + 1)
+      call riis_mark_nodes(surface, mesh, result, search=100 + part, status=own_status)
+      write (text, '(a, i0, a)') 'search is ', 100 + part, ';'
+      is_right = index(riis_error_message(), trim(text)) > 0 .and. is_right
+      call surface%closest_points(xyz(:, :part), side=none, status=own_status) ! refused by this layer
+      write (text, '(a, i0, a)') 'there are ', part, ' points'
+      is_right = index(riis_error_message(), trim(text)) > 0 .and. is_right
+    end do
+    call result%destroy()
+  end subroutine work
+end program test_marking

@@ -1,0 +1,516 @@
+! SPDX-License-Identifier: Apache-2.0
+! Module riis: valves, surfaces, closest points, errors, log. What they give is what riis_c gives, bit for bit.
+module log_lines
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis, only: RIIS_LOG_WARNING
+  implicit none
+  private
+  public :: keep_line, n_lines, last_warning
+  integer :: n_lines = 0
+  character(len=200) :: last_warning = ''
+
+contains
+
+  subroutine keep_line(message, level)
+    character(len=*), intent(in) :: message
+    integer(int32), intent(in) :: level
+    n_lines = n_lines + 1
+    if (level == RIIS_LOG_WARNING) last_warning = message
+  end subroutine keep_line
+end module log_lines
+
+program test_objects
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_null_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use checks
+  use log_lines
+  use riis
+  use riis_c, only: c_surface_vertices => riis_surface_vertices, c_surface_triangles => riis_surface_triangles, &
+    c_closest_point => riis_closest_point
+  implicit none
+  real(c_double), parameter :: square(3, 4) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 1d0, 1d0, 0d0, 0d0, 1d0, 0d0], [3, 4])
+  integer(riis_status) :: status
+
+  call test_texts()
+  call test_valve()
+  call test_patches()
+  call test_options()
+  call test_surface()
+  call test_surface_from_arrays()
+  call test_closest_points()
+  call test_log()
+  call test_empty()
+  call test_assignment()
+  call finish()
+
+contains
+
+  subroutine test_texts()
+    integer(int32) :: major, minor, patch
+    character(len=20) :: text
+    call check(riis_error_message() == '', 'no error text before the first error')
+    call riis_version(major, minor, patch)
+    write (text, '(i0, 2(".", i0))') major, minor, patch
+    call check(riis_version_string() == trim(text), 'the version is ' // trim(text))
+    call check(riis_status_name(RIIS_INVALID_MESH) == 'RIIS_INVALID_MESH', 'the name of a status')
+    call check(riis_status_name(99) == 'unknown status', 'the name of none')
+  end subroutine test_texts
+
+  subroutine test_valve()
+    type(riis_valve) :: valve, other
+    type(riis_parameter_info) :: info
+    real(c_double) :: angle, line(6), rotation(3)
+    integer(int64) :: i, n
+    logical :: found
+
+    call valve%create('tricuspid', status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'tricuspid')
+    call check(.not. valve%is_created(), 'a refused valve is empty')
+    call valve%create('aortic    ', status)
+    call check_ok(status, 'a name with trailing blanks')
+    call check(valve%is_created() .and. c_associated(valve%c_handle()), 'the valve is created')
+    call valve%create('mitral', status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was already created')
+
+    call valve%set('leaflet_angle  ', 21.5d0)
+    call valve%get('left.leaflet_angle', angle)
+    call check(same(angle, 21.5d0), 'a name without a cusp sets all three')
+    line = [1, 0, 2, 0, 3, 0]
+    call valve%set('right.rotation', line(1::2), status)
+    call check_ok(status, 'values that do not lie side by side')
+    call valve%get('right.rotation', rotation)
+    call check(all(same(rotation, [1d0, 2d0, 3d0])), 'are the parameter''s')
+    line = -1
+    call valve%get('right.rotation', line(6:1:-2))
+    call check(all(same(line, [-1d0, 3d0, -1d0, 2d0, -1d0, 1d0])), 'are got to where they belong')
+    call valve%set('leaflet_angle', 1d3, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'leaflet_angle')
+    call check(riis_error_message() /= '', 'the error has a text')
+    call valve%set('right.rotation', [1d0, 2d0], status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'right.rotation')
+    angle = 7
+    call valve%get('leaflet_angle', angle, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'leaflet_angle')
+    call check(same(angle, 7d0), 'a refused call writes nothing')
+    call valve%get('rotation', rotation, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'rotation')
+
+    n = valve%n_parameters(status)
+    call check_ok(status, 'the number of parameters')
+    found = .false.
+    do i = 1, n
+      call valve%parameter(i, info)
+      if (info%name /= 'right.rotation') cycle
+      found = info%unit == 'degree' .and. len(info%description) > 0 .and. size(info%default_values) == 3 .and. &
+        info%minimum < info%maximum
+    end do
+    call check(found, 'the parameters are described')
+    call valve%parameter(1, info, status)
+    call check_ok(status, 'the first parameter by an integer(int32)')
+    call valve%parameter(0, info, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'number is 0')
+    call valve%parameter(n + 1, info, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the parameters 1 to')
+
+    call other%create('mitral')
+    call valve%set_open_state(other, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'kind')
+    call other%destroy()
+    call valve%set_open_state(other, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'open was not created, or was destroyed')
+    call other%create('aortic')
+    call valve%set_open_state(other, status)
+    call check_ok(status, 'an open state')
+    call other%destroy()
+    call valve%set('opening', 0.5d0, status)
+    call check_ok(status, 'a valve with an open state opens')
+    call valve%destroy()
+    call valve%destroy()
+    call check(.not. valve%is_created(), 'a valve that was destroyed twice is empty')
+    call valve%create('mitral', status)
+    call check_ok(status, 'a valve that was destroyed can be created again')
+    call valve%destroy()
+  end subroutine test_valve
+
+  ! A unit square of one patch.
+  subroutine test_patches()
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface, twin
+    type(riis_surface_info) :: info
+    integer(int32) :: degree(4), curve_id(4, 1), leaflet_id(1)
+    real(c_double) :: control(3, 8)
+    logical :: reversed(4, 1)
+    integer(int32), pointer :: leaflets(:), patches(:)
+
+    degree = 1
+    control = square(:, [1, 2, 4, 3, 1, 4, 2, 3]) ! v = 0, v = 1, u = 0, u = 1
+    curve_id(:, 1) = [1, 2, 3, 4]
+    leaflet_id = 5
+    call valve%create_from_patches(degree, control, curve_id, leaflet_id=leaflet_id)
+    call surface%create(valve, half_thickness=0.1d0)
+    call surface%get_info(info)
+    call check(abs(info%area - 1) < 1d-12, 'the area of the square')
+    call surface%triangles(leaflet_id=leaflets, patch_id=patches)
+    call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
+    call valve%destroy()
+
+    ! The same with a side turned round, from 0, in the other kind.
+    control(:, 3:4) = square(:, [3, 4])
+    reversed = .false.
+    reversed(2, 1) = .true.
+    call valve%create_from_patches(int(degree, int64), control, int(curve_id - 1, int64), reversed, &
+      int(leaflet_id, int64), index_base=0)
+    call twin%create(valve, half_thickness=0.1d0)
+    call check_same_surface(surface, twin, 'a side turned round')
+    call twin%destroy()
+    call valve%destroy()
+    call valve%create_from_patches(int(degree, int64), control, int(curve_id, int64), reversed, status=status)
+    call check_ok(status, 'without leaflets')
+    call valve%destroy()
+
+    call valve%create_from_patches(degree, control, curve_id, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'patch')
+    call valve%create_from_patches(degree, control(:, :7), curve_id, reversed, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, '7; there are 8')
+    call valve%create_from_patches(degree, control(:2, :), curve_id, reversed, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'control is 2')
+    call valve%create_from_patches(degree, control, curve_id(:3, :), reversed, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'curve_id is 3')
+    call valve%create_from_patches(degree, control, curve_id, reversed(:3, :), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reversed is (3, 1)')
+    call valve%create_from_patches(degree, control, curve_id, reversed, [1, 2], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet_id')
+    call valve%create_from_patches(degree(:0), control(:, :0), curve_id(:, :0), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_curves')
+    call valve%create_from_patches([2_int64**40], control, int(curve_id, int64), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'degree has the entry 1099511627776')
+    call valve%create_from_patches(degree, control, curve_id, index_base=3, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'index_base is 3')
+    call surface%destroy()
+  end subroutine test_patches
+
+  ! Options that may be of either kind, and only that.
+  subroutine test_options()
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface
+    real(c_double) :: distance(1)
+    call valve%create('aortic')
+    call surface%create(valve)
+    call surface%closest_points(square(:, :1), n_threads=1_int32, distance=distance)
+    call surface%closest_points(square(:, :1), n_threads=1_int64, distance=distance)
+    call surface%closest_points(square(:, :1), n_threads=2_int64**40, distance=distance, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is 1099511627776; it must fit in 32 bits')
+    call surface%closest_points(square(:, :1), n_threads=-huge(0_int64) - 1, distance=distance, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -9223372036854775808; it must fit in 32 bits')
+    call surface%closest_points(square(:, :1), n_threads=-1, distance=distance, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -1')
+    call surface%closest_points(square(:, :1), n_threads=1.0, distance=distance, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is neither an integer(int32) nor an integer(int64)')
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_options
+
+  subroutine test_surface()
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface, twin
+    type(riis_surface_info) :: info, again
+    real(c_double), pointer :: xyz(:, :), uv(:, :)
+    integer(int64), pointer :: vertex_id(:, :), triangle_id(:)
+    type(c_ptr) :: c_xyz, c_vertex_id
+    integer(int64) :: i, n
+
+    call valve%create('aortic')
+    call surface%create(valve, half_thickness=0.2d0, tolerance=0.1d0, scale=2d0, rotation_axis=[1d0, 0d0, 0d0], &
+      rotation_angle=90d0, translation=[1d0, 2d0, 3d0], flip_normals=.true., status=status)
+    call check_ok(status, 'a surface with all options')
+    call surface%create(valve, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was already created')
+    call surface%get_info(info)
+    call check(same(info%half_thickness, 0.2d0) .and. info%n_triangles > 0, 'its half thickness')
+
+    call surface%vertices(xyz)
+    call surface%vertex_parameters(uv)
+    call surface%triangles(vertex_id, triangle_id)
+    call check(size(xyz, 2) == info%n_vertices .and. size(uv, 2) == info%n_vertices, 'its vertices')
+    call check(all(triangle_id == [(i, i = 0, info%n_triangles - 1)]), 'its triangles')
+    c_xyz = c_null_ptr
+    c_vertex_id = c_null_ptr
+    n = 0
+    status = c_surface_vertices(surface%c_handle(), n, c_xyz)
+    status = c_surface_triangles(surface%c_handle(), n, c_vertex_id)
+    call check_address(xyz, c_xyz, 'the vertices are the library''s own')
+    call check(size(vertex_id, 2) == n .and. minval(vertex_id) == 0, 'the corners count from 0')
+
+    ! Options that are not given stay; those that are given replace the surface's.
+    call surface%update(valve)
+    call surface%get_info(again)
+    call check(same(again%half_thickness, info%half_thickness) .and. all(same(again%lower, info%lower)), 'all options stay')
+    call surface%update(valve, scale=1d0, flip_normals=.false.)
+    call twin%create(valve, 0.2d0, 0.1d0, 1d0, [1d0, 0d0, 0d0], 90d0, [1d0, 2d0, 3d0])
+    call check_same_surface(surface, twin, 'some options stay')
+    call surface%update(valve, tolerance=7d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'tolerance is 7')
+    call surface%update(valve, rotation_axis=[1d0, 0d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of rotation_axis is 2; it must be 3')
+    call surface%update(valve, translation=[1d0, 2d0, 3d0, 4d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of translation is 4; it must be 3')
+    call surface%update(valve)
+    call check_same_surface(surface, twin, 'a refused option is forgotten')
+    call twin%destroy()
+    ! The default half thickness goes with the scale.
+    call twin%create(valve)
+    call twin%update(valve, scale=10d0)
+    call twin%get_info(info)
+    call check(same(info%half_thickness, 1d0), 'the default half thickness is 0.1 * scale')
+    call twin%destroy()
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_surface
+
+  subroutine test_surface_from_arrays()
+    type(riis_surface) :: surface, twin
+    type(riis_surface_info) :: info
+    integer(int32) :: faces(3, 2), leaflets(2), wide(6, 2)
+    real(c_double) :: sheet(6, 8)
+    real(c_double), pointer :: uv(:, :)
+
+    faces = reshape([1, 2, 3, 1, 3, 4], [3, 2])
+    leaflets = [7, 8]
+    call surface%create_from_arrays(square, faces, leaflets, half_thickness=0.1d0)
+    call surface%get_info(info)
+    call check(same(info%area, 1d0) .and. info%n_triangles == 2, 'two triangles')
+    call surface%vertex_parameters(uv)
+    call check(size(uv) == 0, 'which have no parameters')
+
+    sheet = -9
+    sheet(2:6:2, 1::2) = square
+    wide = 99
+    wide(1::2, :) = faces
+    call twin%create_from_arrays(sheet(2:6:2, 1::2), int(faces - 1, int64), leaflets, index_base=0_int64, &
+      half_thickness=0.1d0)
+    call check_same_surface(surface, twin, 'a section of coordinates, faces of the other kind from 0')
+    call twin%destroy()
+    call twin%create_from_arrays(square(1, :), square(2, :), square(3, :), wide(1::2, :), leaflets, half_thickness=0.1d0)
+    call check_same_surface(surface, twin, 'separate coordinates, a section of faces')
+    call twin%destroy()
+    call twin%create_from_arrays(square(1, :), square(2, :), square(3, :), int(faces, int64), leaflets, &
+      half_thickness=0.1d0)
+    call check_same_surface(surface, twin, 'separate coordinates, faces of the other kind')
+    call twin%destroy()
+    call twin%create_from_arrays(square, reshape([1, 2, 3, 4], [4, 1]), half_thickness=0.1d0)
+    call check_same_surface(surface, twin, 'a quad')
+
+    ! Updates: moved up by 1.
+    sheet(6, :) = 1
+    call surface%update_from_arrays(sheet(2:6:2, 1::2), faces, leaflets)
+    call surface%get_info(info)
+    call check(same(info%lower(3), 1d0) .and. same(info%half_thickness, 0.1d0), 'an update by a section')
+    call twin%update_from_arrays(sheet(2:6:2, 1::2), int(faces, int64), leaflets)
+    call check_same_surface(surface, twin, 'an update by faces of the other kind')
+    call twin%update_from_arrays(square(1, :), square(2, :), square(3, :), faces)
+    call twin%update_from_arrays(sheet(2, 1::2), sheet(4, 1::2), sheet(6, 1::2), int(faces, int64), leaflets)
+    call check_same_surface(surface, twin, 'an update by separate coordinates')
+    call twin%destroy()
+
+    ! A triangle without area.
+    faces(:, 2) = 1
+    call surface%update_from_arrays(square, faces, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'area')
+    call surface%update_from_arrays(square, faces, skip_zero_area=.true.)
+    call surface%get_info(info)
+    call check(info%n_zero_area == 1, 'it can be skipped')
+    call surface%update_from_arrays(square, faces, status=status)
+    call check_ok(status, 'and stays so')
+    call twin%create_from_arrays(square, faces, skip_zero_area=.true., status=status)
+    call check_ok(status, 'also at first')
+    call twin%destroy()
+
+    call surface%update_from_arrays(square(:2, :), faces, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of xyz is (2, 4); it must be (3, n)')
+    call surface%update_from_arrays(square, faces(:2, :), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'vertex_ids is 2')
+    call surface%update_from_arrays(square, faces, leaflets(:1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of leaflet_id is 1; there are 2 faces')
+    call surface%update_from_arrays(square(:, :0), faces, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'no vertices')
+    call surface%update_from_arrays(square, reshape([1, 2, 3], [3, 1]), translation=[1d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of translation is 1')
+    call twin%create_from_arrays(square, reshape([1, 2, 3], [3, 1]), translation=[1d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of translation is 1')
+    call surface%update_from_arrays(square, faces(:, :0), status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'no faces')
+    call surface%destroy()
+  end subroutine test_surface_from_arrays
+
+  subroutine test_closest_points()
+    integer, parameter :: n = 50
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface
+    type(riis_closest) :: closest, from_c
+    real(c_double) :: xyz(3, n), distance(n), point(3, n), barycentric(3, n), normal(3, n), sections(2, n), random(4, 3)
+    integer(int64) :: triangle_id(n)
+    integer(int32) :: leaflet_id(n), side(n)
+    logical :: all_same
+    integer :: i
+
+    call random_init(.true., .true.)
+    call random_number(xyz)
+    xyz = 2 * xyz - 1
+    call valve%create('aortic')
+    call surface%create(valve)
+    call surface%closest_points(xyz, distance=distance, point=point, barycentric=barycentric, normal=normal, &
+      triangle_id=triangle_id, leaflet_id=leaflet_id, side=side)
+    all_same = .true.
+    do i = 1, n
+      call surface%closest_point(xyz(:, i), closest)
+      status = c_closest_point(surface%c_handle(), xyz(:, i), from_c, storage_size(from_c, int64) / 8)
+      all_same = all_same .and. status == RIIS_OK .and. same(closest%distance, from_c%distance) .and. &
+        same(distance(i), from_c%distance) .and. all(same(point(:, i), from_c%point)) .and. &
+        all(same(barycentric(:, i), from_c%barycentric)) .and. all(same(normal(:, i), from_c%normal)) .and. &
+        triangle_id(i) == from_c%triangle_id .and. leaflet_id(i) == from_c%leaflet_id .and. side(i) == from_c%side .and. &
+        closest%side == from_c%side
+    end do
+    call check(all_same, 'closest points are those of riis_c')
+
+    ! Sections as answers, separate coordinates, a limit.
+    sections = -1
+    call surface%closest_points(xyz(1, :), xyz(2, :), xyz(3, :), distance_limit=0.2d0, far_distance=-5d0, &
+      distance=sections(2, :), n_threads=2)
+    call check(all(same(sections(2, :), merge(distance, -5d0, distance <= 0.2d0))) .and. all(same(sections(1, :), -1d0)), &
+      'answers into a section, with a limit')
+    call surface%closest_points(xyz(:, :0), distance=distance(:0), point=point(:, :0), triangle_id=triangle_id(:0), &
+      leaflet_id=leaflet_id(:0), side=side(:0), status=status)
+    call check_ok(status, 'no points')
+
+    distance = -1
+    call surface%closest_points(xyz, distance=distance(:n - 1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of distance is 49; there are 50 points')
+    call surface%closest_points(xyz, distance=distance, point=point(:2, :), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of point is (2, 50); it must be (3, 50)')
+    call surface%closest_points(xyz, triangle_id=triangle_id(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of triangle_id is 49')
+    call surface%closest_points(xyz, leaflet_id=leaflet_id(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of leaflet_id is 49')
+    call surface%closest_points(xyz, side=side(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of side is 49')
+    call surface%closest_points(xyz(:, n:1:-1), distance=distance, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'a stride of -24 bytes')
+    xyz(2, 7) = ieee_value(0d0, ieee_quiet_nan)
+    call surface%closest_points(xyz, distance=distance(::1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'point 6')
+    call check(all(same(distance, -1d0)), 'refused calls write nothing')
+    call surface%closest_point([1d0, 2d0], closest, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of point is 2; it must be 3')
+    random = 0.5d0
+    call surface%closest_point(random(2, :), closest, status)
+    call check_ok(status, 'a point that does not lie side by side')
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_closest_points
+
+  subroutine test_log()
+    type(riis_surface) :: surface
+    integer :: n
+    call riis_set_log(keep_line)
+    call surface%create_from_arrays(square, reshape([1, 2, 3, 1, 1, 1], [3, 2]), skip_zero_area=.true.)
+    call check(n_lines > 0 .and. index(last_warning, 'area') > 0, 'the log has a warning: ' // trim(last_warning))
+    call riis_set_log()
+    n = n_lines
+    call surface%update_from_arrays(square, reshape([1, 2, 3, 1, 1, 1], [3, 2]))
+    call check(n_lines == n, 'silence')
+    call surface%destroy()
+  end subroutine test_log
+
+  ! Handles that there are not.
+  subroutine test_empty()
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface
+    type(riis_surface_info) :: info
+    type(riis_closest) :: closest
+    type(riis_parameter_info) :: parameter
+    real(c_double), pointer :: xyz(:, :), uv(:, :)
+    integer(int64), pointer :: vertex_id(:, :), triangle_id(:)
+    real(c_double) :: value, values(3)
+    integer(int64) :: n
+
+    call valve%set('leaflet_angle', 1d0, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created, or was destroyed')
+    call valve%set('leaflet_angle', [1d0], status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call valve%get('leaflet_angle', value, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call valve%get('leaflet_angle', values, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    n = valve%n_parameters(status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call check(n == 0, 'no parameters')
+    call valve%parameter(1, parameter, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call valve%set_open_state(valve, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call surface%create(valve, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'valve was not created')
+    call check(.not. surface%is_created() .and. .not. c_associated(surface%c_handle()), 'a refused surface is empty')
+    call surface%update(valve, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%update_from_arrays(square, reshape([1, 2, 3], [3, 1]), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%get_info(info, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%vertices(xyz, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%vertex_parameters(uv, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%triangles(vertex_id, triangle_id, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call check(size(xyz) == 0 .and. size(uv) == 0 .and. size(vertex_id) == 0 .and. size(triangle_id) == 0, 'no arrays')
+    call surface%closest_point([0d0, 0d0, 0d0], closest, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%closest_points(square, distance=values(:0), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_empty
+
+  ! Empty ones may be assigned (error_stop.f90 has the others), also inside other types.
+  subroutine test_assignment()
+    type :: holder
+      type(riis_valve) :: valve
+      type(riis_surface) :: surface
+    end type holder
+    type(holder) :: a, b
+    type(riis_valve) :: valves(2), others(2)
+    a = b
+    valves = others
+    a%surface = b%surface
+    call check(.not. (a%valve%is_created() .or. valves(2)%is_created() .or. a%surface%is_created()), &
+      'an empty copy is empty')
+  end subroutine test_assignment
+
+  subroutine check_same_surface(a, b, what)
+    type(riis_surface), intent(in) :: a, b
+    character(len=*), intent(in) :: what
+    real(c_double), pointer :: xyz_a(:, :), xyz_b(:, :)
+    integer(int64), pointer :: corners_a(:, :), corners_b(:, :)
+    type(riis_surface_info) :: info_a, info_b
+    call a%vertices(xyz_a)
+    call b%vertices(xyz_b)
+    call a%triangles(corners_a)
+    call b%triangles(corners_b)
+    call a%get_info(info_a)
+    call b%get_info(info_b)
+    call check(size(xyz_a) > 0 .and. size(xyz_a) == size(xyz_b) .and. size(corners_a) == size(corners_b), what // ': sizes')
+    call check(all(same(xyz_a, xyz_b)) .and. all(corners_a == corners_b) .and. &
+      same(info_a%half_thickness, info_b%half_thickness), what // ': the same surface')
+  end subroutine check_same_surface
+
+  subroutine check_address(array, location, what)
+    real(c_double), pointer, intent(in) :: array(:, :)
+    type(c_ptr), intent(in) :: location
+    character(len=*), intent(in) :: what
+    real(c_double), pointer :: other(:, :)
+    call c_f_pointer(location, other, shape(array))
+    call check(associated(array, other), what)
+  end subroutine check_address
+end program test_objects

@@ -1,0 +1,26 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_mpi_example.sh EXAMPLES_BUILD_DIR N_RANKS [Fortran]
+# Runs the example of MPI where check_install.sh built it. The program itself compares what the ranks marked with the whole.
+# Environment: MPIEXEC
+set -euo pipefail
+build=$1 n_ranks=$2
+shift 2
+
+# For Open MPI; to others these say nothing. The test must run on one machine, however small or shut in: more ranks than
+# processors, waiting politely; as root; without ssh, though nothing is started elsewhere; without a network beside the
+# loopback; in a container that may not copy from one process's memory to another's.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
+# The same of Open MPI 5, which starts its ranks by PRRTE.
+export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
+
+programs=("$build/mpi_partition")
+[[ " $* " != *" Fortran "* ]] || programs+=("$build/mpi_partition_fortran")
+for program in "${programs[@]}"; do
+  printed=$("$MPIEXEC" -n "$n_ranks" "$program" </dev/null) ||
+    { echo "problem: $program failed; it printed: $printed" >&2; exit 1; }
+  diff <(printf '%s\n' "19683 nodes, marked: 823" "$n_ranks ranks, marked: 823, the same nodes and distances") \
+    <(printf '%s\n' "$printed") || { echo "problem: $program does not print what it should" >&2; exit 1; }
+done

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Memory that runs out at every single allocation of the library's own code, and at everything that Embree asks its memory monitor
+ * for: the call says RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "failing_memory.h"
+#include "handles.h"
+#include "searches.h"
+
+#include "digests.h"
+#include "memory_scenarios.h"
+
+/* --- One failure ----------------------------------------------------------------------------------------------------- */
+
+static int64_t n_injected[4], n_calls_failed[4]; /* by whose memory it was */
+
+/* What the world is before and after the call. */
+typedef struct reference {
+  uint64_t before, after;
+} reference;
+
+typedef struct live {
+  int64_t library, embree, embree_bytes;
+} live;
+static live live_now(void) {
+  const live now = {memory_live_of_library(), memory_live_of_embree(), memory_live_bytes_of_embree()};
+  return now;
+}
+
+static void check_status(const scenario *s, riis_status status, int64_t n) {
+  if (status != RIIS_OUT_OF_MEMORY || strcmp(riis_last_error(), "out of memory") != 0)
+    fail_msg("%s, allocation %lld: %s (%s)", s->name, (long long)n, riis_status_name(status), riis_last_error());
+}
+
+static void check_digest(const scenario *s, const world *w, uint64_t expected, const char *when, int64_t n) {
+  if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
+}
+
+static int n_grown; /* how often more was left than before, in a scenario that is the first of its kind */
+
+/* Allocation n fails in a fresh world. Returns how many allocations failed: 0 if there are fewer. */
+static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after) {
+  const live before = live_now();
+  world w = {.scenario = s};
+  s->make(&w);
+  assert_int_equal(riis_mark_result_create(NULL), RIIS_INVALID_ARGUMENT); /* leaves a text of its own */
+  memory_fail(whose, n, and_all_after);
+  riis_status status = s->call(&w);
+  const int64_t n_failed = memory_stop_failing();
+  if (n_failed > 0) {
+    n_injected[whose] += n_failed;
+    ++n_calls_failed[whose];
+    check_status(s, status, n);
+    /* Of the two ways to fail at n, the one looks at everything before it calls again, the other does not. */
+    if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
+      check_digest(s, &w, expected->before, "after the failure", n);
+    if (!(s->flags & IS_FIRST)) status = s->call(&w);
+  }
+  if (n_failed == 0 || !(s->flags & IS_FIRST)) {
+    if (status) fail_msg("%s: %s", s->name, riis_last_error());
+    if (expected->after) check_digest(s, &w, expected->after, "after the call", n);
+  }
+  destroy(&w);
+  const live after = live_now();
+  const int grew = memcmp(&before, &after, sizeof before) != 0;
+  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0)) /* what is made once stays, but only once */
+    fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
+             (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),
+             (long long)(after.embree_bytes - before.embree_bytes));
+  return n_failed;
+}
+
+static reference reference_of(const scenario *s) {
+  reference made;
+  world w = {.scenario = s};
+  s->make(&w);
+  made.before = digest_of(&w);
+  destroy(&w);
+  made.after = 0;
+  if (s->flags & IS_FIRST) return made; /* the call would no longer be the first */
+  s->make(&w);
+  CHECK_OK(s->call(&w));
+  made.after = digest_of(&w);
+  destroy(&w);
+  return made;
+}
+
+/* Fails at 1, 2, ... until the call has no more allocations. Returns how many it had. */
+static int64_t try_all(const scenario *s, int whose) {
+  const reference expected = reference_of(s);
+  n_grown = 0;
+  for (int64_t n = 1;; ++n)
+    if (try_one(s, &expected, whose, n, 1) == 0 || try_one(s, &expected, whose, n, 0) == 0) return n - 1;
+}
+
+/* --- The tests ------------------------------------------------------------------------------------------------------- */
+
+static void the_librarys_memory_runs_out(void **state) {
+  (void)state;
+  for (int i = 0; i < n_scenarios; ++i) {
+    const int64_t n = try_all(scenarios + i, MEMORY_OF_LIBRARY);
+    printf("%s: %lld allocations\n", scenarios[i].name, (long long)n);
+    if ((n == 0) != ((scenarios[i].flags & ALLOCATES_NONE) != 0)) fail_msg("%s: %lld", scenarios[i].name, (long long)n);
+  }
+}
+
+static void embrees_memory_runs_out(void **state) {
+  (void)state;
+  for (int i = 0; i < n_scenarios; ++i) {
+    if (!(scenarios[i].flags & MAKES_A_SCENE)) continue;
+    const int64_t n = try_all(scenarios + i, MEMORY_OF_EMBREE);
+    printf("%s: %lld times asked\n", scenarios[i].name, (long long)n);
+    assert_true(n > 0);
+  }
+  assert_int_equal(memory_live_bytes_of_embree(), 0);
+}
+
+/* Which thread does what is chance: again until some did. A larger mesh, so that there is something for all to do. */
+static void memory_of_other_threads_runs_out(void **state) {
+  (void)state;
+  set_nodes(45);
+  for (int i = 0; i < n_scenarios; ++i) {
+    const scenario *s = scenarios + i;
+    if (!(s->flags & ON_WORKERS)) continue;
+    const reference expected = reference_of(s);
+    int64_t n_failed = 0, n_tries = 0;
+    for (; n_failed < 3 && n_tries < 5000; ++n_tries)
+      n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0);
+    printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
+    if (n_failed < 1) fail_msg("%s: no other thread allocated", s->name);
+  }
+}
+
+/* No memory at all, also not for what the C++ library needs to throw, and to say so. */
+static void all_memory_runs_out(void **state) {
+  (void)state;
+  if (!memory_of_all_can_fail()) skip();
+  for (int i = 0; i < n_scenarios; ++i) {
+    const scenario *s = scenarios + i;
+    if (s->n_threads > 1 || (s->flags & (ALLOCATES_NONE | IS_FIRST))) continue;
+    const reference expected = reference_of(s);
+    if (try_one(s, &expected, MEMORY_OF_ALL, 1, 1) == 0) fail_msg("%s: nothing failed", s->name);
+  }
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  memory_fail(MEMORY_OF_ALL, 1, 1);
+  const riis_status status = riis_valve_set_scalar(valve, "leaflet_angle", 1e9);
+  assert_true(memory_stop_failing() > 0);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_angle' is 1e+09", status);
+  riis_valve_destroy(&valve);
+}
+
+/* Sound, and of sizes that no machine has. */
+static void requests_beyond_any_memory_are_refused(void **state) {
+  (void)state;
+  const int64_t n = INT64_C(1) << 56;
+  const int32_t ids[4] = {0, 1, 2, 3};
+  riis_adjacency *adjacency = NULL;
+  riis_cells cells;
+  riis_faces between;
+  CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", riis_adjacency_create_from_grid(n, 1, 1, 2, &adjacency));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold",
+                riis_adjacency_create_from_grid(INT64_C(1) << 30, INT64_C(1) << 30, 4, 2, &adjacency));
+  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  cells.n_nodes = n;
+  cells.n_cells = 1;
+  cells.node_ids = ids;
+  CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", riis_adjacency_create_from_cells(&cells, &adjacency));
+  CHECK_OK(riis_faces_init(&between, sizeof between));
+  between.n_cells = n;
+  between.n_faces = 1;
+  between.owner = ids;
+  between.neighbor = ids + 1;
+  CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", riis_adjacency_create_from_faces(&between, &adjacency));
+  assert_null(adjacency);
+}
+
+static int set_up(void **state) {
+  (void)state;
+  coarse = surface_options();
+  coarse.tolerance = 1;
+  set_nodes(18);
+  fewer_nodes = lattice_of(9);
+  strip = malloc(4 * n_cells * sizeof *strip);
+  for (int32_t i = 0; i < 4 * n_cells; ++i) strip[i] = i / 4 + i % 4;
+  return 0;
+}
+
+static int tear_down(void **state) {
+  (void)state;
+  free_test_mesh(&nodes);
+  free_test_mesh(&fewer_nodes);
+  free(mask), free(marks), free(side);
+  free(strip);
+  printf(
+      "%d scenarios; failures injected: %lld of the library's own allocations, %lld of those on other threads, %lld of "
+      "Embree's; calls that failed of it: %lld, %lld, %lld, all with RIIS_OUT_OF_MEMORY\n",
+      n_scenarios, (long long)n_injected[0], (long long)n_injected[1], (long long)n_injected[2],
+      (long long)n_calls_failed[0], (long long)n_calls_failed[1], (long long)n_calls_failed[2]);
+  return 0;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_librarys_memory_runs_out),           cmocka_unit_test(embrees_memory_runs_out),
+      cmocka_unit_test(memory_of_other_threads_runs_out),       cmocka_unit_test(all_memory_runs_out),
+      cmocka_unit_test(requests_beyond_any_memory_are_refused),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}

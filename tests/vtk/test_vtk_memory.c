@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Memory that runs out at every allocation of the component's own code: the status says so, no file is left half written, nothing of
+ * its own leaks, and the same call succeeds afterwards. What VTK does when its own memory runs out is not asked. */
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "failing_memory.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+/* One object at a time, made by a call or before it. */
+static riis_vtk_mesh *mesh;
+static riis_vtk_surface *read_surface;
+static riis_adjacency *adjacency;
+/* There for all. */
+static riis_surface *surface;
+static riis_mark_result *result;
+
+static void nothing(void) {}
+static void mesh_read(void) { expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &mesh)); }
+static void marks_set(void) {
+  mesh_read();
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE));
+}
+
+static riis_status read_vtu(void) { return riis_vtk_mesh_read(scratch_path("box.vtu"), &mesh); }
+static riis_status read_vtk(void) { return riis_vtk_mesh_read(scratch_path("box.vtk"), &mesh); }
+static riis_status make_adjacency(void) { return riis_vtk_mesh_adjacency(mesh, 1, &adjacency); }
+static riis_status set_marks(void) { return riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE); }
+static riis_status write_mesh(void) { return riis_vtk_mesh_write(mesh, scratch_path("written.vtu")); }
+static riis_status write_surface(void) { return riis_vtk_surface_write(surface, scratch_path("written.vtp")); }
+static riis_status read_vtp(void) { return riis_vtk_surface_read(scratch_path("surface.vtp"), &read_surface); }
+static riis_status read_stl(void) { return riis_vtk_surface_read(scratch_path("surface.stl"), &read_surface); }
+
+static const struct {
+  const char *name;
+  void (*make)(void);
+  riis_status (*call)(void);
+} scenarios[] = {
+    {"read .vtu", nothing, read_vtu}, {"read .vtk", nothing, read_vtk},      {"adjacency", mesh_read, make_adjacency},
+    {"marks", mesh_read, set_marks},  {"write .vtu", marks_set, write_mesh}, {"write .vtp", nothing, write_surface},
+    {"read .vtp", nothing, read_vtp}, {"read .stl", nothing, read_stl},
+};
+
+static void destroy(void) {
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&mesh);
+  riis_vtk_surface_destroy(&read_surface);
+  remove(scratch_path("written.vtu"));
+  remove(scratch_path("written.vtp"));
+}
+
+static void the_components_memory_runs_out(void **state) {
+  (void)state;
+  int64_t n_injected = 0;
+  for (size_t i = 0; i < sizeof scenarios / sizeof scenarios[0]; ++i) {
+    const char *name = scenarios[i].name;
+    int64_t n_failed = 1, n = 0;
+    scenarios[i].make(); /* makes what VTK makes once, and shows that the call is fine */
+    expect_fine(scenarios[i].call());
+    destroy();
+    const int n_files = scratch_n_files();
+    while (n_failed > 0) {
+      ++n;
+      for (int and_all_after = 0; and_all_after < 2; ++and_all_after) {
+        const int64_t live = memory_live_of_library();
+        scenarios[i].make();
+        const riis_adjacency *const no_adjacency = adjacency;
+        const riis_vtk_surface *const no_surface = read_surface;
+        const riis_vtk_mesh *const mesh_before = mesh;
+        memory_fail(MEMORY_OF_LIBRARY, n, and_all_after);
+        const riis_status status = scenarios[i].call();
+        n_failed = memory_stop_failing();
+        n_injected += n_failed;
+        if (n_failed > 0) {
+          if (status != RIIS_OUT_OF_MEMORY || strcmp(riis_last_error(), "out of memory") != 0)
+            fail_msg("%s, allocation %d: %s (%s)", name, (int)n, riis_status_name(status), riis_last_error());
+          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before)
+            fail_msg("%s, allocation %d: a handle was written", name, (int)n);
+          if (scratch_n_files() != n_files) fail_msg("%s, allocation %d: leaves a file", name, (int)n);
+          expect_fine(scenarios[i].call());
+        } else {
+          expect_fine(status);
+        }
+        destroy();
+        if (memory_live_of_library() != live)
+          fail_msg("%s, allocation %d: leaks %d", name, (int)n, (int)(memory_live_of_library() - live));
+      }
+    }
+    printf("%s: %d allocations\n", name, (int)n - 1);
+    assert_true(n > 1);
+  }
+  printf("%d failures injected\n", (int)n_injected);
+}
+
+static int set_up(void **state) {
+  const double lower[3] = {-1.5, -1.5, -1.2}, upper[3] = {1.5, 1.5, 1.6};
+  static const char triangle[] =
+      "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\nendsolid one\n";
+  riis_surface_options options;
+  riis_valve *valve = NULL;
+  riis_mesh *nodes = NULL;
+  const double *xyz = NULL;
+  int64_t n_nodes = 0;
+  if (scratch_setup(state)) return 1;
+  memory_library_is_that_of("riis_vtk_mesh_read");
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.tolerance = 1;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_create(valve, &options, &surface));
+  riis_valve_destroy(&valve);
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 6, lower, upper, 1), 1);
+  assert_int_equal(shim_write_box(scratch_path("box.vtk"), SHIM_LEGACY_BINARY, 6, lower, upper, 0), 1);
+  scratch_write_text("surface.stl", triangle);
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("surface.vtp")));
+  mesh_read();
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n_nodes, NULL, &xyz));
+  expect_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &nodes));
+  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
+  riis_mesh_destroy(&nodes);
+  riis_vtk_mesh_destroy(&mesh);
+  return 0;
+}
+
+static int tear_down(void **state) {
+  riis_mark_result_destroy(&result);
+  riis_surface_destroy(&surface);
+  return scratch_teardown(state);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_components_memory_runs_out)};
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}
