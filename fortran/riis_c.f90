@@ -70,6 +70,12 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_SEARCH_EXHAUSTIVE = 1
   integer(c_int32_t), parameter :: RIIS_SEARCH_NEIGHBOR = 2
   integer(c_int32_t), parameter :: RIIS_SEARCH_PAPER = 3
+  integer(c_int32_t), parameter :: RIIS_SEARCH_CLUSTERS = 4
+
+  integer(c_int32_t), parameter :: RIIS_INSTRUCTIONS_AUTO = 0
+  integer(c_int32_t), parameter :: RIIS_INSTRUCTIONS_BASELINE = 1
+  integer(c_int32_t), parameter :: RIIS_INSTRUCTIONS_AVX2 = 2
+  integer(c_int32_t), parameter :: RIIS_INSTRUCTIONS_AVX512 = 3
 
   real(c_double), parameter :: RIIS_AUTO = -1.0_c_double
   real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.0e30_c_double
@@ -214,6 +220,8 @@ module riis_c
     type(c_ptr) :: node_mask           !< integer(c_int8_t), (n_nodes), or c_null_ptr
     integer(c_int32_t) :: search
     integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: instructions
+    integer(c_int32_t) :: reserved
   end type riis_mark_options
 
   !> How a marking went.
@@ -226,7 +234,7 @@ module riis_c
     integer(c_int32_t) :: search         !< The search that ran, never RIIS_SEARCH_AUTO.
     integer(c_int32_t) :: n_threads      !< Threads that really ran, the most in any part of the search.
     integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain; 0: it is not.
-    integer(c_int32_t) :: reserved       !< 0.
+    integer(c_int32_t) :: instructions   !< Those that were used, never RIIS_INSTRUCTIONS_AUTO.
     integer(c_int64_t) :: n_unreached    !< Nodes within the limit that the neighbour search did not reach from neighbour to
                                          !! neighbour, and that its proof found.
   end type riis_mark_stats
@@ -581,6 +589,14 @@ module riis_c
       implicit none
       type(c_ptr), intent(inout) :: mesh
     end subroutine riis_mesh_destroy
+
+    function riis_mesh_prepare(mesh, n_threads) result(status) bind(c, name='riis_mesh_prepare')
+      import :: c_int32_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: n_threads
+      integer(riis_status) :: status
+    end function riis_mesh_prepare
 
     !>   struct_size  c_sizeof(csr)
     function riis_csr_init(csr, struct_size) result(status) bind(c, name='riis_csr_init')

@@ -271,6 +271,18 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
     stride)
 end subroutine riisf_mesh_update_64
 
+!> Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does.
+subroutine riisf_mesh_prepare(mesh, n_threads, status)
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_mesh_prepare
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024, or 0: the processors there are.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_mesh_prepare(c_handle_of(mesh), n_threads)
+end subroutine riisf_mesh_prepare
+
 !> Frees what the mesh holds and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_mesh_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr

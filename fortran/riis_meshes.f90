@@ -37,6 +37,7 @@ module riis_meshes
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, &
       adjacency_int64_int64, adjacency_handle                  !< Gives what the neighbour search walks along.
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes it away.
+    procedure, non_overridable :: prepare => mesh_prepare               !< Makes what RIIS_SEARCH_CLUSTERS wants, now.
     procedure, non_overridable :: n_nodes => mesh_n_nodes               !< How many nodes.
     procedure, non_overridable :: is_created => mesh_is_created         !< Whether there is anything in it.
     procedure, non_overridable :: c_handle => mesh_c_handle             !< For calls of riis_c.
@@ -372,6 +373,21 @@ contains
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle)
     call finish(code, status)
   end subroutine mesh_clear_adjacency
+
+  !> Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does: the order of its nodes in
+  !! clusters, about 17 bytes a node. After an update with as many nodes the order stays, and only places are made again.
+  subroutine mesh_prepare(this, n_threads, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024, or 0, the default: the processors there are.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int32) :: threads
+    integer(riis_status) :: code
+    threads = 0
+    code = check_created(this%handle, 'the mesh')
+    call get_integer(n_threads, 'n_threads', threads, code)
+    if (code == RIIS_OK) code = riis_mesh_prepare(this%handle, threads)
+    call finish(code, status)
+  end subroutine mesh_prepare
 
   !> How many nodes the mesh has.
   pure function mesh_n_nodes(this) result(n)

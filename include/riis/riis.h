@@ -608,11 +608,9 @@ typedef struct riis_mark_stats {
   int32_t n_threads;    /* threads that really ran, the most in any part of the search. A caller's TBB limit binds walks, not loops */
   int32_t complete;     /* 1: every node within the limit was found, which is certain, for the coordinates that the mesh was last
                            told of; 0: it is not certain (RIIS_SEARCH_PAPER) */
-  int32_t reserved;     /* 0 */
+  int32_t instructions; /* those that were used, never RIIS_INSTRUCTIONS_AUTO */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search did not reach from neighbour to neighbour, and that
                            its proof found */
-  int32_t instructions; /* those that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int32_t reserved_2;
 } riis_mark_stats;
 /* Tells how the last marking with the result went; all 0 for a result never marked with. struct_size is sizeof(riis_mark_stats) of
  * the caller; no more than that is written. */

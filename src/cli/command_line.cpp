@@ -49,8 +49,9 @@ v0 and v1 run from u0 to u1, u0 and u1 from v0 to v1. "leaflet" may be left out 
 "patches" has all curves as they are at --opening 1; without it the valve stays at 0. Its only parameter is opening.
 
 --search exhaustive asks every node near the valve for its distance; neighbor walks from marked nodes to their neighbours and
-then proves that the rest is far: the same marks. It needs to know the neighbours, the mesh's adjacency, which costs more
-than it saves where a mesh is marked once, as here: auto is exhaustive. paper is the published search, for comparison: from one
+then proves that the rest is far; clusters takes nodes that are near each other together: the same marks. They want to know
+the neighbours, the mesh's adjacency, or to sort the nodes, which costs more than it saves where a mesh is marked once, as here:
+auto is exhaustive. paper is the published search, for comparison: from one
 start, through marked nodes only. What is not connected to that is missed, so it is never complete, and a line on stderr
 says so. Neighbours are nodes joined by an edge of a tetrahedron, pyramid, wedge, hexahedron or voxel.
 
@@ -65,7 +66,7 @@ Exit status; one line on stderr says what was wrong:
 
 const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at the position of their RIIS_VTK_VIEW_*
 // At the position of their RIIS_SEARCH_*.
-const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper"};
+const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 
 // What CLI11 collects, as text: numbers are parsed here, whatever the locale.
 struct Texts {
@@ -143,7 +144,7 @@ void declare_marking(CLI::App &app, Texts &texts) {
   app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (1e30)")
       ->type_name("X")
       ->group(group);
-  app.add_option("--search", texts.search, "auto (the default), exhaustive, neighbor or paper")
+  app.add_option("--search", texts.search, "auto (the default), exhaustive, neighbor, clusters or paper")
       ->type_name("HOW")
       ->check(CLI::IsMember(search_names))
       ->group(group);

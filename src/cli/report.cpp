@@ -19,6 +19,8 @@ const char *search_name(int32_t search) {
       return "neighbor";
     case RIIS_SEARCH_PAPER:
       return "paper";
+    case RIIS_SEARCH_CLUSTERS:
+      return "clusters";
     default:
       return "unknown";
   }

@@ -62,10 +62,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult
                   search,
                   report.n_threads,
                   report.complete ? 1 : 0,
-                  0,
-                  report.n_unreached,
                   static_cast<std::int32_t>(request.instructions) + RIIS_INSTRUCTIONS_BASELINE,
-                  0};
+                  report.n_unreached};
 }
 
 void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,

@@ -142,12 +142,14 @@ static void test_structs(void **state) {
   FIELD(riis_faces, n_threads, 56, 4);
   FIELD(riis_faces, reserved, 60, 4);
 
-  SIZE(riis_mark_options, 32);
+  SIZE(riis_mark_options, 40);
   FIELD(riis_mark_options, struct_size, 0, 8);
   FIELD(riis_mark_options, distance_limit, 8, 8);
   FIELD(riis_mark_options, node_mask, 16, 8);
   FIELD(riis_mark_options, search, 24, 4);
   FIELD(riis_mark_options, n_threads, 28, 4);
+  FIELD(riis_mark_options, instructions, 32, 4);
+  FIELD(riis_mark_options, reserved, 36, 4);
 
   SIZE(riis_mark_stats, 64);
   FIELD(riis_mark_stats, n_nodes, 0, 8);
@@ -158,7 +160,7 @@ static void test_structs(void **state) {
   FIELD(riis_mark_stats, search, 40, 4);
   FIELD(riis_mark_stats, n_threads, 44, 4);
   FIELD(riis_mark_stats, complete, 48, 4);
-  FIELD(riis_mark_stats, reserved, 52, 4);
+  FIELD(riis_mark_stats, instructions, 52, 4);
   FIELD(riis_mark_stats, n_unreached, 56, 8);
 
   SIZE(riis_vtk_picture_options, 48);
@@ -198,6 +200,11 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_SEARCH_EXHAUSTIVE, 1);
   assert_int_equal(RIIS_SEARCH_NEIGHBOR, 2);
   assert_int_equal(RIIS_SEARCH_PAPER, 3);
+  assert_int_equal(RIIS_SEARCH_CLUSTERS, 4);
+  assert_int_equal(RIIS_INSTRUCTIONS_AUTO, 0);
+  assert_int_equal(RIIS_INSTRUCTIONS_BASELINE, 1);
+  assert_int_equal(RIIS_INSTRUCTIONS_AVX2, 2);
+  assert_int_equal(RIIS_INSTRUCTIONS_AVX512, 3);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
   assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
   assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
@@ -248,6 +255,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_mesh_create, int32_t,
             (int64_t, const double *, const double *, const double *, int64_t, riis_mesh **));
   SIGNATURE(riis_mesh_update, int32_t, (riis_mesh *, int64_t, const double *, const double *, const double *, int64_t));
+  SIGNATURE(riis_mesh_prepare, int32_t, (riis_mesh *, int32_t));
   SIGNATURE(riis_mesh_destroy, void, (riis_mesh **));
   SIGNATURE(riis_csr_init, int32_t, (riis_csr *, int64_t));
   SIGNATURE(riis_mesh_set_adjacency, int32_t, (riis_mesh *, const riis_csr *));

@@ -38,7 +38,7 @@ static void test_help(void **state) {
                          "--distance-limit",
                          "--far-distance",
                          "--search",
-                         "neighbor or paper",
+                         "clusters or paper",
                          "auto is exhaustive",
                          "--threads",
                          "--output",

@@ -173,6 +173,7 @@ static const uint8_t *mask_every_seventh(int64_t n_nodes) {
 static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *numbers) {
   TRY(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &mesh));
   TRY(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
+  TRY(riis_mesh_prepare(mesh, 2));
   TRY(riis_mark_result_create(&result));
   TRY(riis_mark_nodes(surface, mesh, NULL, result));
 
@@ -335,9 +336,10 @@ int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers)
          AT(id_bits), AT(index_base), AT(n_threads))
   LAYOUT(riis_faces, AT(struct_size), AT(n_cells), AT(n_faces), AT(owner), AT(neighbor), AT(stride), AT(id_bits),
          AT(index_base), AT(n_threads), AT(reserved))
-  LAYOUT(riis_mark_options, AT(struct_size), AT(distance_limit), AT(node_mask), AT(search), AT(n_threads))
+  LAYOUT(riis_mark_options, AT(struct_size), AT(distance_limit), AT(node_mask), AT(search), AT(n_threads),
+         AT(instructions), AT(reserved))
   LAYOUT(riis_mark_stats, AT(n_nodes), AT(n_marked), AT(n_within_limit), AT(n_queries), AT(seconds), AT(search),
-         AT(n_threads), AT(complete), AT(reserved), AT(n_unreached))
+         AT(n_threads), AT(complete), AT(instructions), AT(n_unreached))
   return 0;
 }
 

@@ -434,6 +434,8 @@ contains
       mesh), 'create a mesh')
     call check_ok(riis_mesh_update(mesh, n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t), &
       'update a mesh')
+    call check_ok(riis_mesh_prepare(mesh, 2), 'prepare a mesh')
+    call check_refused(riis_mesh_prepare(mesh, -1), RIIS_INVALID_ARGUMENT, 'n_threads is -1')
     call check_ok(riis_mark_result_create(result), 'create a result')
     n_default = -1
     call check_ok(riis_mark_result_marked(result, n_default), 'the marked nodes of a new result')

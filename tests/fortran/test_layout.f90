@@ -55,10 +55,11 @@ program test_layout
     at(c_loc(fa%n_faces)), at(c_loc(fa%owner)), at(c_loc(fa%neighbor)), at(c_loc(fa%stride)), at(c_loc(fa%id_bits)), &
     at(c_loc(fa%index_base)), at(c_loc(fa%n_threads)), at(c_loc(fa%reserved))])
   call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), at(c_loc(mo%distance_limit)), &
-    at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads))])
+    at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads)), at(c_loc(mo%instructions)), &
+    at(c_loc(mo%reserved))])
   call compare('riis_mark_stats', c_sizeof(ms), c_loc(ms), [at(c_loc(ms%n_nodes)), at(c_loc(ms%n_marked)), &
     at(c_loc(ms%n_within_limit)), at(c_loc(ms%n_queries)), at(c_loc(ms%seconds)), at(c_loc(ms%search)), &
-    at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%reserved)), at(c_loc(ms%n_unreached))])
+    at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%instructions)), at(c_loc(ms%n_unreached))])
 
   call check(transfer(RIIS_AUTO, 0_c_int64_t) == transfer(twin_auto(), 0_c_int64_t), 'RIIS_AUTO')
   call check(transfer(RIIS_FAR_DISTANCE, 0_c_int64_t) == transfer(twin_far_distance(), 0_c_int64_t), &

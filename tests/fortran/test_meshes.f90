@@ -205,7 +205,13 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created')
     call mesh%clear_adjacency(status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created')
+    call mesh%prepare(status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created')
     call mesh%create(xyz)
+    call mesh%prepare(-2, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -2')
+    call mesh%prepare(2_int64)
+    call check_marking(mesh, 'clusters', RIIS_SEARCH_CLUSTERS)
     n = n_nodes
     call mesh%set_adjacency(offsets(:n), columns, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of offsets is 9261; it must be one more than the 9261 nodes')
