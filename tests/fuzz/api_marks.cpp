@@ -8,7 +8,7 @@
 namespace fuzz {
 namespace {
 
-ResultSlot &slot_of(Input &in, State &state) { return state.results[static_cast<std::size_t>(in.below(n_slots))]; }
+ResultSlot &slot_of(Input &in, State &state) { return state.results[in.slot()]; }
 
 struct List {
   std::int64_t n = -9;
@@ -149,8 +149,8 @@ void mark(Input &in, State &state) {
     slot.handle = made_by<riis_mark_result>(in, [](riis_mark_result **made) { return riis_mark_result_create(made); });
     if (!slot.handle) return;
   }
-  riis_surface *surface_slot = state.surfaces[static_cast<std::size_t>(in.below(n_slots))];
-  const MeshSlot &mesh_slot = state.meshes[static_cast<std::size_t>(in.below(n_slots))];
+  riis_surface *surface_slot = state.surfaces[in.slot()];
+  const MeshSlot &mesh_slot = state.meshes[in.slot()];
   const Given<riis_surface> surface = given(in, state, State::surface, surface_slot);
   const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
   const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);

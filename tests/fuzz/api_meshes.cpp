@@ -8,7 +8,7 @@
 namespace fuzz {
 namespace {
 
-MeshSlot &slot_of(Input &in, State &state) { return state.meshes[static_cast<std::size_t>(in.below(n_slots))]; }
+MeshSlot &slot_of(Input &in, State &state) { return state.meshes[in.slot()]; }
 
 // A few nodes one by one, a lattice, or a cloud.
 std::vector<std::array<double, 3>> places_of(Input &in) {
@@ -167,7 +167,7 @@ void give_rows(Input &in, State &state) {
 namespace {
 
 void put(Input &in, State &state, riis_adjacency *made) {
-  if (made) state.adjacencies[static_cast<std::size_t>(in.below(n_slots))] = std::make_shared<OwnedAdjacency>(made);
+  if (made) state.adjacencies[in.slot()] = std::make_shared<OwnedAdjacency>(made);
 }
 
 // Ascending columns without repetition, symmetric, base 0.
@@ -192,7 +192,7 @@ void check_rows(const riis_csr &csr) {
 
 void give_adjacency(Input &in, State &state) {
   MeshSlot &slot = slot_of(in, state);
-  const auto adjacency = state.adjacencies[static_cast<std::size_t>(in.below(n_slots))];
+  const auto adjacency = state.adjacencies[in.slot()];
   const Given<riis_adjacency> from = given(in, state, State::adjacency, adjacency ? adjacency->handle : nullptr);
   const auto csr = std::make_unique<riis_csr>();
   std::memset(static_cast<void *>(csr.get()), 0x5a, sizeof *csr);

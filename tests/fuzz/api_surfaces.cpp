@@ -30,7 +30,7 @@ Closest closest_by_loop(const Triangles &t, const std::array<double, 3> &point) 
 
 namespace {
 
-riis_surface *&slot_of(Input &in, State &state) { return state.surfaces[static_cast<std::size_t>(in.below(n_slots))]; }
+riis_surface *&slot_of(Input &in, State &state) { return state.surfaces[in.slot()]; }
 
 riis_surface_options options_of(Input &in) {
   riis_surface_options options = initialised(in, riis_surface_options_init);
@@ -65,9 +65,9 @@ double size_of(const ValveSlot &slot) {
 void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
   const double ratio = options.tolerance * half_thickness / options.scale / size;
-  if (!(ratio > 0 && ratio < 0.01) || (ratio < 1e-16 && in.one_in(2))) return;
+  if (!(ratio > 0 && ratio < 0.03) || (ratio < 1e-16 && in.one_in(2))) return;
   options.tolerance = 1;
-  options.half_thickness = 0.01 * size * options.scale;
+  options.half_thickness = 0.03 * size * options.scale;
 }
 
 // What can be read of a surface but times.
@@ -102,7 +102,7 @@ void make(Input &in, State &state, const Create &create, const Update &update) {
 }  // namespace
 
 void make_surface(Input &in, State &state) {
-  const ValveSlot &valve_slot = state.valves[static_cast<std::size_t>(in.below(n_slots))];
+  const ValveSlot &valve_slot = state.valves[in.slot()];
   const Given<riis_valve> valve = given(in, state, State::valve, valve_slot.handle);
   riis_surface_options options = options_of(in);
   make_coarse(in, size_of(valve_slot), options);

@@ -64,7 +64,7 @@ std::vector<double> values_of(const riis_valve *valve) {
   return all;
 }
 
-ValveSlot &slot_of(Input &in, State &state) { return state.valves[static_cast<std::size_t>(in.below(n_slots))]; }
+ValveSlot &slot_of(Input &in, State &state) { return state.valves[in.slot()]; }
 
 void put(ValveSlot &slot, riis_valve *valve, double size) {
   if (!valve) return;

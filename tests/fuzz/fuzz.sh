@@ -34,7 +34,7 @@ options() {
   # VTK's readers leak on what they refuse: looking for leaks behind each such input takes all the time. At the end it is done all
   # the same.
   [[ $1 != vt? && $1 != stl ]] || echo -detect_leaks=0
-  printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=100 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
+  printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=300 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
   [[ ! -f $here/$dictionary.dict ]] || echo -dict="$here/$dictionary.dict"
 }
 

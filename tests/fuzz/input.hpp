@@ -25,6 +25,12 @@ class Input {
 
   bool one_in(int n) { return below(n) == n - 1; }
 
+  // Which of three handles: mostly the first, so that what belongs together meets.
+  std::size_t slot() {
+    const int k = byte();
+    return static_cast<std::size_t>(k < 208 ? 0 : k % 3);
+  }
+
   template <class T>
   T raw() {
     std::uint8_t bytes[sizeof(T)];
