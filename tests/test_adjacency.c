@@ -279,7 +279,9 @@ static void cells_that_are_refused(void **state) {
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 0 are given from 0 to 7|4, 5, 6 and 8");
   offsets[1] = 4, offsets[2] = 3;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 1 are given from 4 to 3");
-  offsets[2] = 8, offsets[0] = 1;
+  offsets[1] = 8, offsets[2] = 16; /* beyond what the last one promises: nothing is read there */
+  REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 2 are given from 16 to 12");
+  offsets[1] = 4, offsets[2] = 8, offsets[0] = 1;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cells.offsets begins with 1|begin with 0");
   offsets[0] = 0;
   good.offsets = offsets;
@@ -597,6 +599,8 @@ static void rows_that_are_refused(void **state) {
     columns[4] = 3;
     offsets[3] = 2;
     REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
+    offsets[3] = 1000; /* beyond what the last one promises: nothing is read there */
+    REFUSED(RIIS_INVALID_MESH, "row 3|ends at 7|begins, at 1000");
     offsets[3] = 5;
     offsets[0] = 1;
     REFUSED(RIIS_INVALID_MESH, "csr.offsets begins with 1|begin with 0");

@@ -145,7 +145,10 @@ class Cells {
              static_cast<Long>(first_offset_), static_cast<Long>(base_));
     } else if (!shape_of(cells.nodes_per_cell))
       fail(RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is %d; it must be 4, 5, 6 or 8", cells.nodes_per_cell);
-    for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check(cell);
+    // All offsets before any node: only then is it known where the nodes end.
+    if (offsets_.data)
+      for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_size(cell);
+    for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_nodes(cell);
   }
 
   std::int64_t begin(std::int64_t cell) const {
@@ -156,14 +159,15 @@ class Cells {
 
  private:
   // On the numbers as they are given: what is subtracted before it is known to be sound may overflow.
-  void check(std::int64_t cell) const {
-    if (offsets_.data) {
-      const std::int64_t from = offsets_[cell], to = offsets_[cell + 1];
-      if (to < from || !shape_of(to - from))
-        fail(RIIS_INVALID_MESH,
-             "the nodes of cell %lld are given from %lld to %lld; there are cells of 4, 5, 6 and 8 nodes",
-             static_cast<Long>(cell), static_cast<Long>(from), static_cast<Long>(to));
-    }
+  void check_size(std::int64_t cell) const {
+    const std::int64_t from = offsets_[cell], to = offsets_[cell + 1];
+    if (to < from || !shape_of(to - from))
+      fail(RIIS_INVALID_MESH,
+           "the nodes of cell %lld are given from %lld to %lld; there are cells of 4, 5, 6 and 8 nodes",
+           static_cast<Long>(cell), static_cast<Long>(from), static_cast<Long>(to));
+  }
+
+  void check_nodes(std::int64_t cell) const {
     for (std::int64_t k = 0; k < size(cell); ++k) {
       const std::int64_t given = nodes_[begin(cell) + k];
       if (given < base_ || given >= cells_.n_nodes + base_)
@@ -204,6 +208,10 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
     if (end < begin)
       fail(RIIS_INVALID_MESH, "row %lld of the adjacency ends at %lld, before it begins, at %lld", static_cast<Long>(i),
            static_cast<Long>(end), static_cast<Long>(begin));
+  }
+  // Now that all rows are in order, none reaches beyond the columns that the last offset promises.
+  for (std::int64_t i = 0; i < csr.n_rows; ++i) {
+    const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
     if (end > begin) require(csr.columns, "csr.columns");
     for (std::int64_t k = begin - made.base; k < end - made.base; ++k) {
       const std::int64_t given = made.columns[k];

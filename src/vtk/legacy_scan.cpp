@@ -3,9 +3,18 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string_view>
+
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationIntegerVectorKey.h>
+#include <vtkInformationKeyLookup.h>
+#include <vtkInformationStringKey.h>
+#include <vtkInformationStringVectorKey.h>
 
 #include "vtk/files.hpp"
 #include "vtk/text.hpp"
@@ -36,6 +45,33 @@ int size_of_type(const std::string &type) {
                                                    {"utf8_string", 0}};
   const auto found = sizes.find(type);
   return found == sizes.end() ? -1 : found->second;
+}
+
+// Whether VTK, which reads by streams, takes the whole word for a number of the type: infinite or too large ones it does not.
+bool is_number(std::string_view word, const std::string &type) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char *const first = word.data(), *const last = first + word.size();
+  if (type == "float" || type == "double") {
+    double value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (end != last) return false;
+    if (error == std::errc::result_out_of_range)
+      return word.find_first_of("eE") < word.find('-', 1) && word.find('-', 1) < word.size();
+    return error == std::errc() && std::isfinite(value) &&
+           (type == "double" || std::isfinite(static_cast<float>(value)));
+  }
+  // Single bytes are written, and read, as larger numbers.
+  const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
+  const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
+  if (is_unsigned && size_of_type(type) > 1) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    return error == std::errc() && end == last && (n_bits == 64 || value >> n_bits == 0);
+  }
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  const std::int64_t most = std::numeric_limits<std::int64_t>::max() >> (64 - n_bits);
+  return error == std::errc() && end == last && value <= most && value >= -most - 1;
 }
 
 class Scan {
@@ -114,10 +150,17 @@ class Scan {
     rest_.remove_prefix(static_cast<std::size_t>(n));
   }
 
-  void skip_words(std::int64_t n) {
+  // n words of an ASCII file, each a number of the type: VTK closes the file at one that it cannot read, and reads on.
+  void skip_words(std::int64_t n, const std::string &type) {
     for (std::int64_t i = 0; i < n; ++i) {
-      if (take_word(rest_).empty()) refuse_end();
+      const std::string_view word = take_word(rest_);
+      if (word.empty()) refuse_end();
+      check_number(word, type);
     }
+  }
+
+  void check_number(std::string_view word, const std::string &type) const {
+    if (!is_number(word, type)) refuse("has '" + std::string(word.substr(0, 40)) + "' for a number of type " + type);
   }
 
   // A string in a binary file: the upper two bits of its first byte tell how many bytes hold its length.
@@ -150,13 +193,13 @@ class Scan {
     line();
     const int size = size_of_type(type);
     if (type == "bit") {
-      binary_ ? skip_bytes((n + 7) / 8) : skip_words(n);
+      binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
     } else if (size < 0) {
       refuse("has values of the unknown type " + type);
     } else if (size == 0) {
       skip_strings(n);
     } else {
-      binary_ ? skip_bytes(n * size) : skip_words(n);
+      binary_ ? skip_bytes(n * size) : skip_words(n, type);
     }
   }
 
@@ -178,7 +221,49 @@ class Scan {
       std::string_view text = line();
       const std::string keyword = lower_case(take_word(text));
       if (keyword.empty()) return;
+      if (keyword == "information") return skip_information(number_of(take_word(text)));
       for (std::int64_t i = 0; keyword == "component_names" && i < n_components && !rest_.empty(); ++i) line();
+    }
+  }
+
+  // The rest of a block of METADATA: keys, a line with the NAME and one with the DATA of each. VTK seeks as many keys as are promised,
+  // past the blank line if need be, and for ever once it has met a number that it cannot read.
+  void skip_information(std::int64_t n_keys) {
+    std::int64_t n_found = 0;
+    vtkInformationKey *key = nullptr;
+    while (!rest_.empty()) {
+      std::string_view text = line();
+      const std::string_view keyword = take_word(text);
+      if (keyword.empty()) break;
+      if (keyword == "NAME") {
+        const std::string name(take_word(text));
+        take_word(text);
+        key = vtkInformationKeyLookup::Find(name, std::string(take_word(text)));
+        ++n_found;
+      } else if (key) {
+        if (keyword != "DATA")
+          refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' in the place of DATA");
+        skip_data(key, text);
+        key = nullptr;
+      }
+    }
+    if (n_found != n_keys || key)
+      refuse("has INFORMATION of " + std::to_string(n_keys) + " keys and gives " + std::to_string(n_found));
+  }
+
+  // The values of a key that VTK knows: a text, or numbers, several of them behind their count.
+  void skip_data(vtkInformationKey *key, std::string_view text) {
+    if (vtkInformationStringKey::SafeDownCast(key)) return;
+    const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
+    const bool are_reals = vtkInformationDoubleVectorKey::SafeDownCast(key) != nullptr;
+    const bool are_many = are_texts || are_reals || vtkInformationIntegerVectorKey::SafeDownCast(key);
+    const std::int64_t n = are_many ? number_of(take_word(text)) : 1;
+    if (n < 0 || n > n_bits_left()) refuse("has metadata with the count " + std::to_string(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (are_texts)
+        line();
+      else
+        check_number(take_word(text), are_reals || vtkInformationDoubleKey::SafeDownCast(key) ? "double" : "int");
     }
   }
 
@@ -239,7 +324,7 @@ class Scan {
       n_left -= 1 + n_corners;
       if (n_corners < 0 || n_left < 0)
         refuse("cell " + std::to_string(i) + " has " + std::to_string(n_corners) + " points, more than CELLS has");
-      binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners);
+      binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners, "int");
     }
     if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");
   }
@@ -269,15 +354,18 @@ class Scan {
       skip_tuples(n_tuples_, width, next());
     } else if (keyword == "color_scalars") {
       next();
-      skip_tuples(n_tuples_, count(), "unsigned_char");
+      skip_tuples(n_tuples_, count(), type_of_colors());
     } else if (keyword == "lookup_table") {
       next();
-      skip_tuples(count(), 4, "unsigned_char");
+      skip_tuples(count(), 4, type_of_colors());
     } else {
       return false;
     }
     return true;
   }
+
+  // Of one byte each, or in an ASCII file from 0 to 1.
+  std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
 
   void scalars() {
     next();

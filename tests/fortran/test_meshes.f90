@@ -256,7 +256,8 @@ contains
         cubes(corner, cube + 1) = dot_product(at + corners(:, corner), [1, per_side, per_side**2]) + 1
       end do
     end do
-    node_ids = reshape(cubes, [8 * n_cubes])
+    allocate (node_ids(8 * n_cubes)) ! gfortran 14 takes it for undefined when it is made by the assignment
+    node_ids(:) = reshape(cubes, [8 * n_cubes])
     offsets = [(8 * k + 1, k = 0, n_cubes)]
     call get_rows(rows, columns)
     allocate (faces(2, (size(columns) + 1) / 2))

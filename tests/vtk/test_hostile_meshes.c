@@ -213,6 +213,65 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
+/* VTK seeks the next of the keys that INFORMATION promises for ever, once it has met what it cannot read as a number. */
+static void test_endless_information(void **state) {
+  (void)state;
+  const struct {
+    const char *n_keys, *data, *text;
+  } cases[] = {{"1", "DATA 2 1 2", NULL},
+               {"2", "DATA 2 1 2", "has INFORMATION of 2 keys and gives 1"},
+               {"1", "DATA 2 ; 2", "has ';' for a number of type double"},
+               {"1", "DATA 2 1 nan", "has 'nan' for a number of type double"},
+               {"1", "DATA 2 1", "has '' for a number of type double"},
+               {"1", "DATA -1", "has metadata with the count -1"},
+               {"1", "1 2", "has metadata with '1' in the place of DATA"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 4.2\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\nCELLS 0 0\n"
+             "CELL_TYPES 0\nPOINT_DATA 1\nFIELD FieldData 1\na 2 1 int\n1 2\nMETADATA\nINFORMATION %s\n"
+             "NAME L2_NORM_RANGE LOCATION vtkDataArray\n%s\n\n",
+             cases[i].n_keys, cases[i].data);
+    scratch_write_text("information.vtk", text);
+    if (cases[i].text) {
+      expect_file_error("information.vtk", cases[i].text);
+    } else {
+      riis_vtk_mesh *mesh = NULL;
+      expect_fine(read_mesh("information.vtk", &mesh));
+      riis_vtk_mesh_destroy(&mesh);
+    }
+  }
+}
+
+/* VTK closes a file at a word that is no number of its type, and reads on. */
+static void test_words_for_numbers(void **state) {
+  (void)state;
+  const struct {
+    const char *point, *cell, *text;
+  } cases[] = {{"0 0 +1.5e-400", "1 0", NULL},
+               {"0 0 CELLS", "1 0", "has 'CELLS' for a number of type float"},
+               {"0 0 nan", "1 0", "has 'nan' for a number of type float"},
+               {"0 0 1e39", "1 0", "has '1e39' for a number of type float"},
+               {"0 0 1.5.5", "1 0", "has '1.5.5' for a number of type float"},
+               {"0 0 0", "1 0.5", "has '0.5' for a number of type int"},
+               {"0 0 0", "1 2147483648", "has '2147483648' for a number of type int"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n%s\nCELLS 1 2\n%s\n"
+             "CELL_TYPES 1\n1\n",
+             cases[i].point, cases[i].cell);
+    scratch_write_text("words.vtk", text);
+    if (cases[i].text) {
+      expect_file_error("words.vtk", cases[i].text);
+    } else {
+      riis_vtk_mesh *mesh = NULL;
+      expect_fine(read_mesh("words.vtk", &mesh));
+      riis_vtk_mesh_destroy(&mesh);
+    }
+  }
+}
+
 static void test_truncated(void **state) {
   (void)state;
   cut_everywhere("ascii.vtu", "cut.vtu", SHIM_ASCII);
@@ -225,9 +284,11 @@ static void test_truncated(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_not_files), cmocka_unit_test(test_unreadable),   cmocka_unit_test(test_other_content),
-      cmocka_unit_test(test_promises),  cmocka_unit_test(test_broken_cells), cmocka_unit_test(test_not_a_number_passes),
-      cmocka_unit_test(test_truncated),
+      cmocka_unit_test(test_not_files),         cmocka_unit_test(test_unreadable),
+      cmocka_unit_test(test_other_content),     cmocka_unit_test(test_promises),
+      cmocka_unit_test(test_broken_cells),      cmocka_unit_test(test_not_a_number_passes),
+      cmocka_unit_test(test_truncated),         cmocka_unit_test(test_endless_information),
+      cmocka_unit_test(test_words_for_numbers),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// One call of the library, in some floating-point environment of the caller's, and what holds after every call whatever it was.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cfenv>
+#include <cstring>
+#include <string>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "expect.hpp"
+#include "input.hpp"
+
+namespace fuzz {
+
+// What of the environment a caller would notice.
+struct FloatSettings {
+  int rounding = std::fegetround(), traps = fegetexcept(), raised = std::fetestexcept(FE_ALL_EXCEPT);
+#if defined(__SSE__)
+  unsigned int sse = _mm_getcsr();
+#endif
+  bool operator==(const FloatSettings &other) const {
+#if defined(__SSE__)
+    if (sse != other.sse) return false;
+#endif
+    return rounding == other.rounding && traps == other.traps && raised == other.raised;
+  }
+};
+
+inline void set_float_environment(int choice) {
+  std::fesetenv(FE_DFL_ENV);
+  if (choice == 1) std::fesetround(FE_UPWARD);
+  if (choice == 2) std::fesetround(FE_TOWARDZERO);
+  if (choice == 3) feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+#if defined(__SSE__)
+  if (choice == 4) _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
+#endif
+}
+
+inline void check_status(riis_status status, const std::string &text_before) {
+  const char *text = riis_last_error();
+  EXPECT(text != nullptr, "after status %d", status);
+  if (status == RIIS_OK) {
+    EXPECT(text == text_before, "a successful call changed the text of the last error to '%s'", text);
+    return;
+  }
+  EXPECT(status >= RIIS_INVALID_ARGUMENT && status <= RIIS_OUT_OF_MEMORY, "status %d: %s", status, text);
+  EXPECT(std::strcmp(riis_status_name(status), "unknown status") != 0, "status %d", status);
+  EXPECT(std::strlen(text) > 8 && std::strlen(text) < 512, "status %d has the text '%s'", status, text);
+}
+
+// Makes the call and returns its status, which is RIIS_OK or a refusal with a text.
+template <class Call>
+riis_status call(Input &in, const Call &make_call) {
+  const std::string text_before = riis_last_error();
+  const int environment = in.byte();
+  set_float_environment(environment < 192 ? 0 : environment % 5);
+  const FloatSettings before;
+  const riis_status status = make_call();
+  const FloatSettings after;
+  std::fesetenv(FE_DFL_ENV);
+  EXPECT(before == after, "the floating-point environment %d changed", environment);
+  check_status(status, text_before);
+  return status;
+}
+
+// A call that no state nor memory can refuse.
+#define EXPECT_OK(call_)                                                                \
+  do {                                                                                  \
+    const riis_status status_ = (call_);                                                \
+    EXPECT(status_ == RIIS_OK, "%s: %s", riis_status_name(status_), riis_last_error()); \
+  } while (0)
+
+// A call that makes an object: the place it goes to is written on success, and only then.
+template <class Handle, class Make>
+Handle *made_by(Input &in, const Make &make) {
+  auto *const untouched = reinterpret_cast<Handle *>(0x5a5a5a5a5a5a5a50);
+  Handle *handle = untouched;
+  const bool into_nothing = in.one_in(64);
+  const riis_status status = call(in, [&] { return make(into_nothing ? nullptr : &handle); });
+  EXPECT((status == RIIS_OK) == (handle != untouched), "status %d", status);
+  EXPECT(handle != nullptr, "status %d", status);
+  return status == RIIS_OK ? handle : nullptr;
+}
+
+// An option struct filled by its init function, its size now and then spoilt.
+template <class Struct>
+Struct initialised(Input &in, riis_status (*init)(Struct *, int64_t)) {
+  Struct made;
+  EXPECT_OK(init(&made, sizeof made));
+  static const int64_t wrong[] = {0, 8, -8, 1, sizeof(Struct) - 8, sizeof(Struct) + 8, sizeof(Struct) + 1, INT64_MAX};
+  if (in.one_in(48)) made.struct_size = in.one_of(wrong);
+  return made;
+}
+
+}  // namespace fuzz

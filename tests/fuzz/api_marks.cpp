@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_mark_*.
+#include <algorithm>
+#include <cmath>
+
+#include "api_state.hpp"
+
+namespace fuzz {
+namespace {
+
+ResultSlot &slot_of(Input &in, State &state) { return state.results[in.slot()]; }
+
+struct List {
+  std::int64_t n = -9;
+  const std::int64_t *node_id = nullptr, *triangle_id = nullptr;
+  const double *distance = nullptr;
+  const std::int32_t *leaflet_id = nullptr;
+};
+
+struct Found {
+  std::int64_t node, triangle_id;
+  double distance;
+  std::int32_t leaflet_id;
+  bool operator==(const Found &o) const {
+    return node == o.node && triangle_id == o.triangle_id && distance == o.distance && leaflet_id == o.leaflet_id;
+  }
+};
+
+List marked_of(const riis_mark_result *result) {
+  List l;
+  EXPECT_OK(riis_mark_result_marked(result, &l.n, &l.node_id, &l.distance, &l.triangle_id, &l.leaflet_id));
+  return l;
+}
+
+List within_of(const riis_mark_result *result) {
+  List l;
+  EXPECT_OK(riis_mark_result_within_limit(result, &l.n, &l.node_id, &l.distance, &l.triangle_id, &l.leaflet_id));
+  return l;
+}
+
+std::vector<Found> copy_of(const List &list) {
+  EXPECT((list.n == 0) == (list.node_id == nullptr), "%lld nodes", static_cast<long long>(list.n));
+  std::vector<Found> found;
+  for (std::int64_t i = 0; i < list.n; ++i)
+    found.push_back({list.node_id[i], list.triangle_id[i], list.distance[i], list.leaflet_id[i]});
+  for (std::size_t i = 1; i < found.size(); ++i) EXPECT(found[i].node > found[i - 1].node, "not ascending at %zu", i);
+  return found;
+}
+
+void expect_same(const std::vector<Found> &found, const std::vector<Found> &expected, const char *what) {
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i)
+    EXPECT(found[i] == expected[i],
+           "%s %zu: node %lld at %.17g of triangle %lld, expected node %lld at %.17g of triangle %lld", what, i,
+           static_cast<long long>(found[i].node), found[i].distance, static_cast<long long>(found[i].triangle_id),
+           static_cast<long long>(expected[i].node), expected[i].distance,
+           static_cast<long long>(expected[i].triangle_id));
+  EXPECT(found.size() == expected.size(), "%s: %zu nodes, expected %zu", what, found.size(), expected.size());
+}
+
+void expect_part(const std::vector<Found> &found, const std::vector<Found> &whole, const char *what) {
+  for (const Found &one : found)
+    EXPECT(std::find(whole.begin(), whole.end(), one) != whole.end(), "%s: node %lld at %.17g", what,
+           static_cast<long long>(one.node), one.distance);
+}
+
+// Every node within the limit, by asking for the closest point of each.
+std::vector<Found> expected_of(const riis_surface *surface, const Nodes &nodes, double limit,
+                               const std::uint8_t *mask) {
+  const Triangles t = triangles_of(surface);
+  const bool by_loop = is_small(t, nodes.n);
+  std::vector<Found> found;
+  for (std::int64_t i = 0; i < nodes.n; ++i) {
+    if (mask && !mask[i]) continue;
+    if (by_loop) {
+      const Closest closest = closest_by_loop(t, nodes[i]);
+      if (closest.distance <= limit)
+        found.push_back({i, t.triangle_id[closest.triangle], closest.distance, t.leaflet_id[closest.triangle]});
+    } else {
+      const std::array<double, 3> p = nodes[i];
+      riis_closest closest;
+      EXPECT_OK(riis_closest_point(surface, p.data(), &closest, sizeof closest));
+      if (closest.distance <= limit) found.push_back({i, closest.triangle_id, closest.distance, closest.leaflet_id});
+    }
+  }
+  return found;
+}
+
+void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std::vector<Found> &marked,
+                 const std::vector<Found> &within) {
+  const auto n = static_cast<std::size_t>(n_nodes);
+  std::vector<std::uint8_t> mark(n, 7), expected_mark(n, 0);
+  std::vector<double> distance(n, -77.5), expected_distance(n, RIIS_FAR_DISTANCE);
+  std::vector<std::int64_t> triangle(n, -77), expected_triangle(n, -1);
+  for (const Found &one : marked) expected_mark[static_cast<std::size_t>(one.node)] = 1;
+  for (const Found &one : within) {
+    expected_distance[static_cast<std::size_t>(one.node)] = one.distance;
+    expected_triangle[static_cast<std::size_t>(one.node)] = one.triangle_id;
+  }
+  // A far distance within the limit is refused: limits go to 1e60.
+  if (riis_mark_result_dense(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
+    EXPECT(false, "%s", riis_last_error());
+  std::replace(expected_distance.begin(), expected_distance.end(), RIIS_FAR_DISTANCE, -1.0);
+  EXPECT(mark == expected_mark && distance == expected_distance && triangle == expected_triangle,
+         "dense arrays differ");
+}
+
+void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh, const riis_mark_options &options,
+                   const ResultSlot &slot) {
+  riis_surface_info info;
+  EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
+  riis_mark_stats stats;
+  EXPECT_OK(riis_mark_result_stats(slot.handle, &stats, sizeof stats));
+  const std::vector<Found> marked = copy_of(marked_of(slot.handle)), within = copy_of(within_of(slot.handle));
+  EXPECT(stats.n_nodes == mesh.nodes->n && stats.n_marked == static_cast<std::int64_t>(marked.size()) &&
+             stats.n_within_limit == static_cast<std::int64_t>(within.size()) && stats.n_queries >= 0 &&
+             stats.seconds >= 0 && stats.n_threads >= 1 && stats.n_unreached >= 0 &&
+             stats.n_unreached <= stats.n_within_limit && stats.reserved == 0,
+         "%lld marked", static_cast<long long>(stats.n_marked));
+  EXPECT(options.n_threads == 0 || stats.n_threads <= options.n_threads, "%d threads of %d", stats.n_threads,
+         options.n_threads);
+  const bool is_of_paper = options.search == RIIS_SEARCH_PAPER;
+  EXPECT(stats.search == (options.search == RIIS_SEARCH_AUTO ? RIIS_SEARCH_EXHAUSTIVE : options.search), "%d",
+         stats.search);
+  EXPECT(stats.complete == (is_of_paper ? 0 : 1), "search %d, complete %d", options.search, stats.complete);
+  for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
+
+  for (std::int64_t i = 0; i < mesh.nodes->n; ++i)  // moved without a word: nothing to compare with
+    for (const double x : (*mesh.nodes)[i])
+      if (!(std::abs(x) <= 1e60)) return;
+  const std::vector<Found> expected = expected_of(surface, *mesh.nodes, slot.distance_limit, options.node_mask);
+  std::vector<Found> expected_marked;
+  for (const Found &one : expected)
+    if (one.distance <= info.half_thickness) expected_marked.push_back(one);
+  if (is_of_paper || !mesh.was_told) {
+    expect_part(within, expected, "within the limit");
+    expect_part(marked, expected_marked, "marked");
+  } else {
+    expect_same(within, expected, "within the limit");
+    expect_same(marked, expected_marked, "marked");
+  }
+  if (in.one_in(4)) check_dense(slot.handle, mesh.nodes->n, marked, within);
+}
+
+}  // namespace
+
+void mark(Input &in, State &state) {
+  ResultSlot &slot = slot_of(in, state);
+  if (!slot.handle) {
+    slot.handle = made_by<riis_mark_result>(in, [](riis_mark_result **made) { return riis_mark_result_create(made); });
+    if (!slot.handle) return;
+  }
+  riis_surface *surface_slot = state.surfaces[in.slot()];
+  const MeshSlot &mesh_slot = state.meshes[in.slot()];
+  const Given<riis_surface> surface = given(in, state, State::surface, surface_slot);
+  const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
+  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  riis_mark_options options = initialised(in, riis_mark_options_init);
+  static const std::int32_t searches[] = {2, 1, 2, 0, 3, 2, 1, 2, 3, 2, 2, 4, -1};
+  options.search = in.one_of(searches);
+  options.n_threads = in.n_threads();
+  riis_surface_info info{};
+  if (surface.is_right) EXPECT_OK(riis_surface_get_info(surface.handle, &info, sizeof info));
+  if (in.one_in(2)) options.distance_limit = in.one_in(4) ? in.number() : info.half_thickness * (1 + in.below(8));
+  std::vector<std::uint8_t> mask(mesh_slot.handle ? static_cast<std::size_t>(mesh_slot.nodes->n) : 0);
+  if (in.one_in(4)) {
+    std::uint32_t bits = in.raw<std::uint16_t>();
+    for (std::uint8_t &m : mask)
+      m = (bits = bits * 1664525u + 1013904223u) >> 28 > 5 ? static_cast<std::uint8_t>(1 + (bits >> 30)) : 0;
+    options.node_mask = mask.data();
+  }
+  const bool by_default = in.one_in(16);
+  const std::vector<Found> before = copy_of(within_of(slot.handle));
+  const riis_status status = call(
+      in, [&] { return riis_mark_nodes(surface.handle, mesh.handle, by_default ? nullptr : &options, result.handle); });
+  const bool are_right = surface.is_right && mesh.is_right && result.is_right;
+  if (!are_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (status != RIIS_OK) {
+    EXPECT(status != RIIS_INVALID_MESH || !mesh_slot.was_told, "a mesh that was accepted is refused: %s",
+           riis_last_error());
+    expect_same(copy_of(within_of(slot.handle)), before, "after a refusal");
+    return;
+  }
+  if (by_default) EXPECT_OK(riis_mark_options_init(&options, sizeof options));
+  EXPECT(options.search <= RIIS_SEARCH_EXHAUSTIVE || mesh_slot.adjacency, "search %d without an adjacency",
+         options.search);
+  slot.distance_limit = options.distance_limit == RIIS_AUTO ? info.half_thickness : options.distance_limit;
+  check_marking(in, surface.handle, mesh_slot, options, slot);
+}
+
+void read_marks(Input &in, State &state) {
+  ResultSlot &slot = slot_of(in, state);
+  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  const auto stats = std::make_unique<riis_mark_stats>();
+  std::memset(static_cast<void *>(stats.get()), 0x5a, sizeof *stats);
+  const std::int64_t size = in.mostly<std::int64_t>(sizeof *stats);
+  riis_status status = call(in, [&] { return riis_mark_result_stats(result.handle, mostly(in, stats.get()), size); });
+  if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (status != RIIS_OK) EXPECT(stats->n_nodes == 0x5a5a5a5a5a5a5a5a, "refused counts were written");
+
+  List list;
+  const auto get = in.one_in(2) ? riis_mark_result_marked : riis_mark_result_within_limit;
+  status = call(in, [&] {
+    return get(result.handle, mostly(in, &list.n), nullptr, mostly(in, &list.distance), nullptr, nullptr);
+  });
+  if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT && list.n == -9, "%d", status);
+
+  std::int64_t n_nodes = 0;
+  if (slot.handle) {
+    riis_mark_stats of_slot;
+    EXPECT_OK(riis_mark_result_stats(slot.handle, &of_slot, sizeof of_slot));
+    n_nodes = of_slot.n_nodes;
+  }
+  const auto n = static_cast<std::size_t>(n_nodes);
+  std::vector<std::uint8_t> marks(n, 7);
+  std::vector<double> distance(n, -77.5);
+  std::vector<std::int64_t> triangle(n, -77);
+  std::vector<std::int32_t> leaflet(n, -77);
+  const double far_distance = in.number();
+  const std::int64_t n_asked = in.mostly(n_nodes);
+  status = call(in, [&] {
+    return riis_mark_result_dense(result.handle, n_asked, far_distance, mostly(in, marks.data()),
+                                  mostly(in, distance.data()), mostly(in, triangle.data()), mostly(in, leaflet.data()));
+  });
+  if (status != RIIS_OK) {
+    for (std::size_t i = 0; i < n; ++i) EXPECT(marks[i] == 7 && triangle[i] == -77, "refused, but written");
+    return;
+  }
+  EXPECT(result.is_right && n_asked == n_nodes, "%lld of %lld nodes", static_cast<long long>(n_asked),
+         static_cast<long long>(n_nodes));
+  EXPECT(!(far_distance >= 0 && far_distance <= slot.distance_limit), "far distance %g, limit %g", far_distance,
+         slot.distance_limit);
+}
+
+}  // namespace fuzz

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The handles that a sequence of calls works on, with what they borrow, and the calls.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "api_call.hpp"
+#include "input.hpp"
+
+namespace fuzz {
+
+constexpr int n_slots = 3;
+
+// An adjacency that the library made; meshes that borrow it keep it.
+struct OwnedAdjacency {
+  riis_adjacency *handle = nullptr;
+  explicit OwnedAdjacency(riis_adjacency *made) : handle(made) {}
+  OwnedAdjacency(const OwnedAdjacency &) = delete;
+  OwnedAdjacency &operator=(const OwnedAdjacency &) = delete;
+  ~OwnedAdjacency() { riis_adjacency_destroy(&handle); }
+};
+
+// Coordinates in one of several layouts, in a buffer that ends where the last one does.
+struct Nodes {
+  std::int64_t n = 0, stride = 1;
+  std::vector<double> buffer;
+  const double *x = nullptr, *y = nullptr, *z = nullptr;
+  std::array<double, 3> operator[](std::int64_t i) const { return {x[i * stride], y[i * stride], z[i * stride]}; }
+};
+
+// A mesh and everything that its handle borrows.
+struct MeshSlot {
+  riis_mesh *handle = nullptr;
+  std::shared_ptr<Nodes> nodes;
+  std::shared_ptr<void> adjacency;  // what the rows lie in; empty: none
+  bool was_told = true;             // of the last change of coordinates
+};
+
+struct ValveSlot {
+  riis_valve *handle = nullptr;
+  double size = 1;  // of a valve from patches: the extent of its control points
+};
+
+struct ResultSlot {
+  riis_mark_result *handle = nullptr;
+  double distance_limit = 0;  // of the last marking
+};
+
+struct State {
+  std::array<ValveSlot, n_slots> valves;
+  std::array<riis_surface *, n_slots> surfaces{};
+  std::array<MeshSlot, n_slots> meshes;
+  std::array<std::shared_ptr<OwnedAdjacency>, n_slots> adjacencies;
+  std::array<ResultSlot, n_slots> results;
+
+  State() = default;
+  State(const State &) = delete;
+  State &operator=(const State &) = delete;
+  ~State();
+
+  // A handle of any kind but the given one, for a place where it does not belong; NULL if there is none.
+  enum Kind { valve, surface, mesh, adjacency, result, n_kinds };
+  void *handle_of_another_kind(Input &in, Kind but) const;
+};
+
+// The handle, or now and then another kind's, or NULL; `is_right` says which.
+template <class Handle>
+struct Given {
+  Handle *handle;
+  bool is_right;
+};
+template <class Handle>
+Given<Handle> given(Input &in, const State &state, State::Kind kind, Handle *right) {
+  const int choice = in.below(32);
+  if (choice == 31) return {static_cast<Handle *>(state.handle_of_another_kind(in, kind)), false};
+  if (choice == 30) return {nullptr, false};
+  return {right, right != nullptr};
+}
+
+// Groups of calls; each takes what it needs from the input.
+void call_status_functions(Input &in);
+void call_init_functions(Input &in);
+void make_valve(Input &in, State &state);
+void make_valve_of_patches(Input &in, State &state);
+void set_parameter(Input &in, State &state);
+void read_parameters(Input &in, State &state);
+void set_open_state(Input &in, State &state);
+void make_surface(Input &in, State &state);
+void make_surface_of_arrays(Input &in, State &state);
+void read_surface(Input &in, State &state);
+void ask_closest_point(Input &in, State &state);
+void ask_closest_points(Input &in, State &state);
+void make_mesh(Input &in, State &state);
+void move_mesh(Input &in, State &state);
+void give_rows(Input &in, State &state);
+void give_adjacency(Input &in, State &state);
+void make_adjacency_of_cells(Input &in, State &state);
+void make_adjacency_of_faces(Input &in, State &state);
+void make_adjacency_of_grid(Input &in, State &state);
+void mark(Input &in, State &state);
+void read_marks(Input &in, State &state);
+void destroy_something(Input &in, State &state);
+
+// Closest triangle by a loop over all, and its distance; the position is -1 where none is within the limit.
+struct Closest {
+  double distance;
+  std::int64_t triangle;
+};
+struct Triangles {
+  std::int64_t n = 0, n_vertices = 0;
+  const std::int64_t *vertex_id = nullptr, *triangle_id = nullptr;
+  const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;
+  const double *xyz = nullptr;
+};
+Triangles triangles_of(const riis_surface *surface);
+Closest closest_by_loop(const Triangles &triangles, const std::array<double, 3> &point);
+// Whether the loop over all triangles is worth its time, n_points times.
+inline bool is_small(const Triangles &triangles, std::int64_t n_points) { return triangles.n * n_points <= 60'000; }
+
+}  // namespace fuzz

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a harness finds wrong ends the process, which the fuzzer takes for a crash and keeps the input of.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+#define EXPECT(condition, ...)                                                         \
+  do {                                                                                 \
+    if (!(condition)) {                                                                \
+      std::fprintf(stderr, "%s:%d: expected: %s\n  ", __FILE__, __LINE__, #condition); \
+      std::fprintf(stderr, __VA_ARGS__);                                               \
+      std::fputc('\n', stderr);                                                        \
+      std::abort();                                                                    \
+    }                                                                                  \
+  } while (0)

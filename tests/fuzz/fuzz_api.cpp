@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C interface: the input is a sequence of calls with arguments right and wrong, on a few handles of each kind. After every call
+// what the header promises of all of them is checked, and of what they return what can be found out in another way.
+#include <cstdio>
+
+#include "api_state.hpp"
+
+namespace fuzz {
+
+State::~State() {
+  for (ResultSlot &slot : results) riis_mark_result_destroy(&slot.handle);
+  for (MeshSlot &slot : meshes) riis_mesh_destroy(&slot.handle);
+  for (riis_surface *&surface : surfaces) riis_surface_destroy(&surface);
+  for (ValveSlot &slot : valves) riis_valve_destroy(&slot.handle);
+}
+
+void *State::handle_of_another_kind(Input &in, Kind but) const {
+  const auto kind = static_cast<Kind>((static_cast<int>(but) + 1 + in.below(n_kinds - 1)) % n_kinds);
+  const auto i = in.slot();
+  switch (kind) {
+    case valve:
+      return valves[i].handle;
+    case surface:
+      return surfaces[i];
+    case mesh:
+      return meshes[i].handle;
+    case adjacency:
+      return adjacencies[i] ? adjacencies[i]->handle : nullptr;
+    default:
+      return results[i].handle;
+  }
+}
+
+void call_status_functions(Input &in) {
+  const auto status = in.raw<riis_status>();
+  EXPECT(riis_status_name(status) != nullptr, "%d", status);
+  EXPECT(riis_status_name(in.below(16) - 2)[0] != '\0', "no name");
+  std::int32_t major = -7, minor = -7, patch = -7;
+  riis_version(in.one_in(2) ? nullptr : &major, &minor, in.one_in(2) ? nullptr : &patch);
+  EXPECT(minor == RIIS_VERSION_MINOR && riis_version_string() != nullptr, "%d", minor);
+}
+
+namespace {
+
+// An init function fills as much as the caller has room for, or nothing.
+template <class Struct>
+void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
+  static const int64_t sizes[] = {sizeof(Struct),     0,         8,        -8, sizeof(Struct) - 8, sizeof(Struct) + 8,
+                                  sizeof(Struct) + 1, INT64_MAX, INT64_MIN};
+  const int64_t size = in.one_of(sizes);
+  // On the heap, where it ends.
+  const auto out = std::make_unique<Struct>();
+  std::memset(static_cast<void *>(out.get()), 0x5a, sizeof(Struct));
+  const bool into_nothing = in.one_in(8);
+  const riis_status status = call(in, [&] { return init_function(into_nothing ? nullptr : out.get(), size); });
+  EXPECT(status == RIIS_OK || status == (into_nothing ? RIIS_INVALID_ARGUMENT : RIIS_INVALID_STRUCT_SIZE), "%d",
+         status);
+  const auto *bytes = reinterpret_cast<const unsigned char *>(out.get());
+  const std::size_t n_written = status == RIIS_OK ? static_cast<std::size_t>(size) : 0;
+  for (std::size_t i = n_written; i < sizeof(Struct); ++i) EXPECT(bytes[i] == 0x5a, "byte %zu was written", i);
+  if (status == RIIS_OK) EXPECT(out->struct_size == size, "%lld", static_cast<long long>(out->struct_size));
+}
+
+}  // namespace
+
+void call_init_functions(Input &in) {
+  switch (in.below(8)) {
+    case 0:
+      return init(in, riis_patches_init);
+    case 1:
+      return init(in, riis_surface_options_init);
+    case 2:
+      return init(in, riis_surface_arrays_init);
+    case 3:
+      return init(in, riis_closest_options_init);
+    case 4:
+      return init(in, riis_closest_arrays_init);
+    case 5:
+      return init(in, riis_csr_init);
+    case 6:
+      return init(in, riis_cells_init);
+    default:
+      return in.one_in(2) ? init(in, riis_faces_init) : init(in, riis_mark_options_init);
+  }
+}
+
+namespace {
+
+template <class Handle>
+void destroy(Input &in, const State &state, State::Kind kind, void (*destroy_function)(Handle **), Handle *&handle) {
+  destroy_function(nullptr);
+  if (auto *other = static_cast<Handle *>(state.handle_of_another_kind(in, kind))) {
+    Handle *const before = other;
+    destroy_function(&other);
+    EXPECT(other == before, "a handle of another kind was destroyed as one of kind %d", kind);
+  }
+  destroy_function(&handle);
+  EXPECT(handle == nullptr, "a destroyed handle of kind %d is not NULL", kind);
+}
+
+}  // namespace
+
+void destroy_something(Input &in, State &state) {
+  const auto i = in.slot();
+  switch (in.below(State::n_kinds)) {
+    case State::valve:
+      return destroy(in, state, State::valve, riis_valve_destroy, state.valves[i].handle);
+    case State::surface:
+      return destroy(in, state, State::surface, riis_surface_destroy, state.surfaces[i]);
+    case State::mesh:
+      destroy(in, state, State::mesh, riis_mesh_destroy, state.meshes[i].handle);
+      state.meshes[i] = {};
+      return;
+    case State::adjacency:
+      state.adjacencies[i].reset();
+      return;
+    default:
+      destroy(in, state, State::result, riis_mark_result_destroy, state.results[i].handle);
+      state.results[i] = {};
+      return;
+  }
+}
+
+namespace {
+
+// What comes next where the input says nothing else: bytes of 0 alone are a run through all of them that works.
+void (*const calls[])(Input &, State &) = {make_valve,
+                                           make_surface,
+                                           make_mesh,
+                                           give_rows,
+                                           mark,
+                                           move_mesh,
+                                           mark,
+                                           set_parameter,
+                                           make_surface,
+                                           mark,
+                                           make_surface_of_arrays,
+                                           mark,
+                                           make_adjacency_of_cells,
+                                           give_adjacency,
+                                           mark,
+                                           make_valve_of_patches,
+                                           set_open_state,
+                                           make_surface,
+                                           mark,
+                                           make_adjacency_of_faces,
+                                           give_adjacency,
+                                           mark,
+                                           read_marks,
+                                           make_adjacency_of_grid,
+                                           give_adjacency,
+                                           mark,
+                                           read_parameters,
+                                           read_surface,
+                                           ask_closest_point,
+                                           ask_closest_points,
+                                           destroy_something,
+                                           [](Input &in, State &) { call_status_functions(in); },
+                                           [](Input &in, State &) { call_init_functions(in); }};
+
+void log_nothing(void *, std::int32_t level, const char *message) {
+  EXPECT(message != nullptr && message[0] != '\0', "level %d", level);
+}
+
+}  // namespace
+}  // namespace fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
+  fuzz::Input in(bytes, size);
+  fuzz::State state;
+  riis_set_log(in.one_in(4) ? fuzz::log_nothing : nullptr, nullptr);
+  constexpr int n_calls = static_cast<int>(sizeof fuzz::calls / sizeof *fuzz::calls);
+  for (int i = 0; i < 40 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
+  return 0;
+}

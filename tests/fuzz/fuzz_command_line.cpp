@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis-mark's command line: each line of the input is an argument. No file is opened. What is asked for with --set is set.
+#include <string>
+#include <vector>
+
+#include "cli/command_line.hpp"
+#include "cli/handles.hpp"
+#include "cli/parameters.hpp"
+#include "cli/refusal.hpp"
+#include "expect.hpp"
+
+namespace {
+
+void check(const riis::cli::Options &options) {
+  EXPECT(!options.valve.empty() || !options.surface.empty(), "neither valve nor surface");
+  EXPECT(!options.opening || (*options.opening >= 0 && *options.opening <= 1), "opening %g", *options.opening);
+  for (const riis::cli::Picture &picture : options.pictures)
+    EXPECT(picture.view >= 0 && picture.view <= 2 && !picture.path.empty(), "view %d", picture.view);
+  riis_valve *handle = nullptr;
+  EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",
+         riis_last_error());
+  const riis::cli::Valve valve(handle);
+  for (const std::string &setting : options.settings) riis::cli::set_from_text(valve.get(), setting);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
+  std::vector<std::string> words = {"riis-mark"};
+  // An argument ends at a 0 byte.
+  std::string text(reinterpret_cast<const char *>(bytes), size);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    words.emplace_back(text.substr(begin, end - begin).c_str());
+    begin = end + 1;
+  }
+  std::vector<char *> arguments;
+  for (std::string &word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  try {
+    if (const auto options = riis::cli::parse_command_line(static_cast<int>(words.size()), arguments.data()))
+      check(*options);
+  } catch (const riis::cli::Refusal &refusal) {
+    EXPECT(refusal.exit_code == riis::cli::exit_bad_data || refusal.exit_code == riis::cli::exit_wrong_usage,
+           "exit code %d", refusal.exit_code);
+    EXPECT(!refusal.text.empty(), "no text");
+  }
+  return 0;
+}

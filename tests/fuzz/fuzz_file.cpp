@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of meshes and surfaces, of the format RIIS_FUZZ_ENDING: read whole or refused with the file's name and a reason. What is read
+// can be used: its nodes make a mesh or are refused for their coordinates, its cells make an adjacency, its faces a surface.
+#include <riis/riis_vtk.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "expect.hpp"
+#include "scratch_file.hpp"
+
+namespace {
+
+const fuzz::ScratchFile &file() {
+  static const fuzz::ScratchFile scratch("input." RIIS_FUZZ_ENDING);
+  return scratch;
+}
+
+// Whether it is fine; if not, it is refused in one of two ways, with a text.
+bool is_fine(riis_status status, riis_status refusal) {
+  if (status == RIIS_OK) return true;
+  const char *text = riis_last_error();
+  EXPECT(status == refusal || status == RIIS_OUT_OF_MEMORY, "status %d: %s", status, text);
+  EXPECT(std::strlen(text) > 8 && std::strlen(text) < 512, "the text '%s'", text);
+  if (status == RIIS_FILE_ERROR) EXPECT(std::strstr(text, "input." RIIS_FUZZ_ENDING ": "), "no file in '%s'", text);
+  return false;
+}
+
+void use_rows(riis_mesh *mesh, const riis_vtk_mesh *read, std::int64_t n_nodes) {
+  riis_adjacency *adjacency = nullptr;
+  if (!is_fine(riis_vtk_mesh_adjacency(read, 1, &adjacency), RIIS_OUT_OF_MEMORY)) return;
+  riis_csr rows;
+  EXPECT(riis_adjacency_csr(adjacency, &rows, sizeof rows) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(rows.n_rows == n_nodes, "%lld rows", static_cast<long long>(rows.n_rows));
+  if (mesh) EXPECT(riis_mesh_set_adjacency(mesh, &rows) == RIIS_OK, "%s", riis_last_error());
+  riis_adjacency_destroy(&adjacency);
+}
+
+void read_mesh() {
+  riis_vtk_mesh *read = nullptr;
+  if (!is_fine(riis_vtk_mesh_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {
+    EXPECT(read == nullptr, "a refused mesh was written");
+    return;
+  }
+  std::int64_t n_nodes = 0, n_cells = -1;
+  const double *xyz = nullptr;
+  EXPECT(riis_vtk_mesh_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(n_nodes > 0 && n_cells >= 0, "%lld nodes", static_cast<long long>(n_nodes));
+  double sum = 0;
+  for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];  // the sanitizer watches
+  riis_mesh *mesh = nullptr;
+  if (is_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), RIIS_INVALID_MESH))
+    EXPECT(std::isfinite(sum), "%g", sum);
+  use_rows(mesh, read, n_nodes);
+  riis_mesh_destroy(&mesh);
+  riis_vtk_mesh_destroy(&read);
+}
+
+void read_surface() {
+  riis_vtk_surface *read = nullptr;
+  if (!is_fine(riis_vtk_surface_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {
+    EXPECT(read == nullptr, "a refused surface was written");
+    return;
+  }
+  riis_surface_arrays arrays;
+  EXPECT(riis_surface_arrays_init(&arrays, sizeof arrays) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_surface_arrays(read, &arrays) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(arrays.n_faces > 0 && arrays.n_vertices > 0, "%lld faces", static_cast<long long>(arrays.n_faces));
+  riis_surface_options options;
+  EXPECT(riis_surface_options_init(&options, sizeof options) == RIIS_OK, "%s", riis_last_error());
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  riis_surface *surface = nullptr;
+  is_fine(riis_surface_create_from_arrays(&arrays, &options, &surface), RIIS_INVALID_SURFACE);
+  riis_surface_destroy(&surface);
+  riis_vtk_surface_destroy(&read);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
+  file().hold(bytes, size);
+  const std::string ending = RIIS_FUZZ_ENDING;
+  if (ending == "vtk" || ending == "vtu") read_mesh();
+  if (ending != "vtk") read_surface();
+  return 0;
+}

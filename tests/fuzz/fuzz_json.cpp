@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis-mark's JSON files: each input is read as a valve of patches and as parameters of either kind of valve. What is not refused
+// with an exit status and a text is a valve, whose parameters, printed, read back as they were.
+#include <functional>
+
+#include "cli/json_file.hpp"
+#include "cli/parameters.hpp"
+#include "cli/refusal.hpp"
+#include "cli/valve_file.hpp"
+#include "expect.hpp"
+#include "scratch_file.hpp"
+
+namespace {
+
+using riis::cli::Valve;
+
+const fuzz::ScratchFile &file() {
+  static const fuzz::ScratchFile scratch("input.json");
+  return scratch;
+}
+
+// Whether the file was taken.
+bool is_taken(const std::function<void()> &read) {
+  try {
+    read();
+    return true;
+  } catch (const riis::cli::Refusal &refusal) {
+    EXPECT(refusal.exit_code == riis::cli::exit_bad_data || refusal.exit_code == riis::cli::exit_wrong_usage,
+           "exit code %d", refusal.exit_code);
+    EXPECT(refusal.text.size() > file().path().size() && refusal.text.size() < 2000, "the text '%s'",
+           refusal.text.c_str());
+    return false;
+  }
+}
+
+Valve made(const char *kind) {
+  riis_valve *valve = nullptr;
+  EXPECT(riis_valve_create(kind, &valve) == RIIS_OK, "%s", riis_last_error());
+  return Valve(valve);
+}
+
+void read_parameters(const char *kind) {
+  const Valve valve = made(kind), twin = made(kind);
+  if (!is_taken([&] { riis::cli::set_from_json_file(valve.get(), file().path()); })) return;
+  const std::string printed = riis::cli::json_template(valve.get());
+  file().hold(reinterpret_cast<const std::uint8_t *>(printed.data()), printed.size());
+  EXPECT(is_taken([&] { riis::cli::set_from_json_file(twin.get(), file().path()); }), "printed parameters are refused");
+  EXPECT(riis::cli::json_template(twin.get()) == printed, "printed parameters read back as others");
+}
+
+void read_valve() {
+  is_taken([] {
+    riis::cli::ValveFile valve_file(file().path());
+    EXPECT(riis_valve_set_scalar(valve_file.valve(), "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
+    valve_file.check_opening();
+    const Valve valve = valve_file.take_valve();
+    double opening = -1;
+    EXPECT(riis_valve_get(valve.get(), "opening", 1, &opening) == RIIS_OK && opening == 0.5, "opening %g", opening);
+  });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
+  file().hold(bytes, size);
+  read_valve();
+  for (const char *kind : {"aortic", "mitral"}) {
+    file().hold(bytes, size);
+    read_parameters(kind);
+  }
+  return 0;
+}
