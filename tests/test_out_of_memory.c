@@ -5,6 +5,8 @@
 
 #include "test_support.h"
 
+#include <unistd.h>
+
 #include "failing_memory.h"
 #include "handles.h"
 #include "searches.h"
@@ -38,6 +40,14 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
+/* Embree keeps something for each thread that works for it, from that thread's first time on, which with TBB's threads may be any
+ * time. A leak of a scenario's would use this up at once. */
+static int may_be_a_new_thread(void) {
+  static int64_t n_left = -1;
+  if (n_left < 0) n_left = sysconf(_SC_NPROCESSORS_ONLN);
+  return n_left-- > 0;
+}
+
 static int n_grown; /* how often more was left than before, in a scenario that is the first of its kind */
 
 /* Allocation n fails in a fresh world. Returns how many allocations failed: 0 if there are fewer. */
@@ -63,7 +73,8 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
     if (expected->after) check_digest(s, &w, expected->after, "after the call", n);
   }
   destroy(&w);
-  const live after = live_now();
+  live after = live_now();
+  if (after.embree == before.embree + 1 && may_be_a_new_thread()) --after.embree;
   const int grew = memcmp(&before, &after, sizeof before) != 0;
   if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0)) /* what is made once stays, but only once */
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
