@@ -27,9 +27,11 @@
 !!   nor when it is passed to an intent(out) argument, which loses it. Creating what was created, and using what was not, is
 !!   an error; destroying twice is none. Objects cannot be copied: a = b stops the program, unless both are empty. Pass them
 !!   as arguments, or point to them; functions cannot return them. (Array constructors and allocate(..., source=...) copy
-!!   without asking: do not use them.)
+!!   without asking, and so does gfortran with objects in allocatable components, such as type(riis_valve), allocatable :: v,
+!!   when a variable of the type around them is assigned: do not do that. Neither is an array of them enlarged by assignment.)
 !! - Integers. Ids, counts, numbers of threads and bases may be integer(int32), the default kind, or integer(int64). Optional
-!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. What the library
+!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. Where a call has
+!!   several counts that are not optional (n_nodes and stride; ni, nj, nk), they are of one kind. What the library
 !!   writes has the kind that it has in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
 !! - Counting. What is called *_id counts from 0, as in C, also triangle_id and leaflet_id (RIIS_LEAFLET_*); what is called
 !!   node_num counts from 1. What goes in counts from index_base, 1 unless it is given.
@@ -43,7 +45,8 @@
 !!   it. Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region,
 !!   declare a thread's own objects in a procedure that it calls or in a BLOCK: copies by PRIVATE gfortran leaves undefined.
 !! - With compiler options that change the default kinds (-fdefault-integer-8), logical arguments need the kind that this
-!!   module was compiled with.
+!!   module was compiled with; leaflet_id, side and marks stay integer(int32). Compile these sources without gfortran's
+!!   -fno-automatic: local variables in static memory are not a thread's own, and texts of errors get lost.
 module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer

@@ -66,7 +66,7 @@ contains
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
+    if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
     the_cells%id_bits = storage_size(cells)
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
     call finish(code, status)
@@ -86,7 +86,7 @@ contains
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
+    if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
     the_cells%id_bits = storage_size(cells)
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
     call finish(code, status)
@@ -106,7 +106,7 @@ contains
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
+    if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
     the_cells%id_bits = storage_size(cells)
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
     call finish(code, status)
@@ -126,7 +126,7 @@ contains
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
-    if (size(cells) > 0) the_cells%node_ids = c_loc(cells)
+    if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
     the_cells%id_bits = storage_size(cells)
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
     call finish(code, status)
@@ -154,7 +154,7 @@ contains
       code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
       the_cells%n_cells = n - 1
       the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
+      if (size(node_ids, kind=int64) > 0) the_cells%node_ids = c_loc(node_ids)
       the_cells%id_bits = storage_size(node_ids)
     end if
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
@@ -182,7 +182,7 @@ contains
       code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
       the_cells%n_cells = n - 1
       the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
+      if (size(node_ids, kind=int64) > 0) the_cells%node_ids = c_loc(node_ids)
       the_cells%id_bits = storage_size(node_ids)
     end if
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
@@ -210,7 +210,7 @@ contains
       code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
       the_cells%n_cells = n - 1
       the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
+      if (size(node_ids, kind=int64) > 0) the_cells%node_ids = c_loc(node_ids)
       the_cells%id_bits = storage_size(node_ids)
     end if
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)
@@ -238,7 +238,7 @@ contains
       code = check_nodes_of_cells(int(offsets(n), int64) - offsets(1), size(node_ids, kind=int64))
       the_cells%n_cells = n - 1
       the_cells%offsets = c_loc(offsets)
-      if (size(node_ids) > 0) the_cells%node_ids = c_loc(node_ids)
+      if (size(node_ids, kind=int64) > 0) the_cells%node_ids = c_loc(node_ids)
       the_cells%id_bits = storage_size(node_ids)
     end if
     call create_from_cells(this, int(n_nodes, int64), the_cells, index_base, n_threads, code)

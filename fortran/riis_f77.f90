@@ -16,7 +16,8 @@
 !! Conventions, true for every subroutine:
 !!
 !! - Every argument has to be given, of exactly the kind that is said here, since no compiler checks it. `integer(int32)` is
-!!   INTEGER*4, INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION.
+!!   INTEGER*4, INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION,
+!!   or REAL*8 where an option (-fdefault-real-8) makes DOUBLE PRECISION longer.
 !! - Handles are INTEGER*8, 0 before they are created and after they were destroyed. Creating sets them only on success.
 !! - The last argument is the status: RIIS_OK (0), or an error, whose text riisf_last_error gives; nothing has changed then.
 !!   Each thread has its own text. Texts count from 0.

@@ -8,7 +8,7 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, re
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_mark_nodes, riis_mark_options_init, &
-    riis_mark_result_create
+    riis_mark_result_create, riis_mark_result_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -28,8 +28,9 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, re
   options%n_threads = n_threads
   c_handle = c_handle_of(result)
   if (result == 0) status = riis_mark_result_create(c_handle)
-  result = handle_of(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
+  if (status /= RIIS_OK .and. result == 0) call riis_mark_result_destroy(c_handle) ! 0 as before
+  result = handle_of(c_handle)
 end subroutine riisf_mark_nodes
 
 !> Copies the marked nodes into the caller's arrays, ascending by node. Errors: RIIS_INVALID_ARGUMENT if the arrays are
@@ -241,7 +242,7 @@ subroutine riisf_dense_mark(result, n_nodes, mark, status)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int8), allocatable :: bytes(:)
   integer :: stat
-  allocate (bytes(max(n_nodes, 0)), stat=stat)
+  allocate (bytes(max(n_nodes, 0_int32)), stat=stat)
   status = out_of_memory(stat)
   if (status == RIIS_OK) status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, bytes)
   if (status == RIIS_OK) mark(:n_nodes) = bytes

@@ -139,6 +139,8 @@ contains
     class(*), intent(in), optional :: search, n_threads
     integer(riis_status), intent(inout) :: code
     type(riis_mark_options) :: options
+    logical :: was_empty
+    was_empty = .not. c_associated(result%handle)
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'surface')
     if (code == RIIS_OK) code = check_created(mesh%c_handle(), 'mesh')
     if (code == RIIS_OK) code = riis_mark_options_init(options, c_sizeof(options))
@@ -147,10 +149,11 @@ contains
     call get_integer(n_threads, 'n_threads', options%n_threads, code)
     if (code == RIIS_OK .and. present(mask)) then
       code = check_size(size(mask, kind=int64), mesh%n_nodes(), 'node_mask', 'nodes')
-      if (size(mask) > 0) options%node_mask = c_loc(mask)
+      if (size(mask, kind=int64) > 0) options%node_mask = c_loc(mask)
     end if
-    if (code == RIIS_OK .and. .not. c_associated(result%handle)) code = riis_mark_result_create(result%handle)
+    if (code == RIIS_OK .and. was_empty) code = riis_mark_result_create(result%handle)
     if (code == RIIS_OK) code = c_mark_nodes(surface%c_handle(), mesh%c_handle(), options, result%handle)
+    if (code /= RIIS_OK .and. was_empty) call riis_mark_result_destroy(result%handle) ! empty as before
   end subroutine mark
 
   !> How many nodes are marked.

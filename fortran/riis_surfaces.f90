@@ -142,7 +142,7 @@ contains
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -171,7 +171,7 @@ contains
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -202,7 +202,7 @@ contains
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -233,7 +233,7 @@ contains
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -262,7 +262,7 @@ contains
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -291,7 +291,7 @@ contains
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -322,7 +322,7 @@ contains
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -353,7 +353,7 @@ contains
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
-    if (size(vertex_ids) > 0) arrays%vertex_ids = c_loc(vertex_ids)
+    if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
     call finish(code, status)
@@ -417,7 +417,7 @@ contains
     call get_integer(index_base, 'index_base', arrays%index_base, code)
     if (code /= RIIS_OK .or. .not. present(leaflet_id)) return
     code = check_size(size(leaflet_id, kind=int64), n_faces, 'leaflet_id', 'faces')
-    if (size(leaflet_id) > 0) arrays%leaflet_id = c_loc(leaflet_id)
+    if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
   end subroutine get_arrays
 
   ! What all specifics of create_from_arrays have in common; does nothing after an error.
@@ -649,20 +649,23 @@ contains
     call get_vectors(normal, 'normal', arrays%normal)
     if (code == RIIS_OK .and. present(distance)) then
       code = check_size(size(distance, kind=int64), points%n, 'distance', 'points')
-      if (size(distance) > 0) arrays%distance = c_loc(distance)
+      if (size(distance, kind=int64) > 0) arrays%distance = c_loc(distance)
     end if
     if (code == RIIS_OK .and. present(triangle_id)) then
       code = check_size(size(triangle_id, kind=int64), points%n, 'triangle_id', 'points')
-      if (size(triangle_id) > 0) arrays%triangle_id = c_loc(triangle_id)
+      if (size(triangle_id, kind=int64) > 0) arrays%triangle_id = c_loc(triangle_id)
     end if
     if (code == RIIS_OK .and. present(leaflet_id)) then
       code = check_size(size(leaflet_id, kind=int64), points%n, 'leaflet_id', 'points')
-      if (size(leaflet_id) > 0) arrays%leaflet_id = c_loc(leaflet_id)
+      if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
     end if
     if (code == RIIS_OK .and. present(side)) then
       code = check_size(size(side, kind=int64), points%n, 'side', 'points')
-      if (size(side) > 0) arrays%side = c_loc(side)
+      if (size(side, kind=int64) > 0) arrays%side = c_loc(side)
     end if
+    if (code == RIIS_OK .and. .not. (present(distance) .or. present(point) .or. present(barycentric) .or. present(normal) .or. &
+      present(triangle_id) .or. present(leaflet_id) .or. present(side))) code = refuse('none of distance, point, &
+      &barycentric, normal, triangle_id, leaflet_id and side is given, or allocated')
     if (code == RIIS_OK) call ask(points%n)
 
   contains
@@ -675,7 +678,7 @@ contains
       if (size(vectors, 1) /= 3 .or. size(vectors, 2, int64) /= points%n) then
         code = refuse('the shape of ' // name // ' is (' // text_of(size(vectors, 1)) // ', ' // &
           text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(points%n) // ')')
-      else if (size(vectors) > 0) then
+      else if (size(vectors, kind=int64) > 0) then
         location = c_loc(vectors)
       end if
     end subroutine get_vectors

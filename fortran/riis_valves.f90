@@ -92,16 +92,16 @@ contains
     if (code == RIIS_OK) then
       patches%n_curves = size(degree, kind=int64)
       patches%n_patches = size(curve_id, 2, int64)
-      if (size(degree) > 0) patches%degree = c_loc(degree)
-      if (size(control) > 0) patches%control = c_loc(control)
-      if (size(curve_id) > 0) patches%curve_id = c_loc(curve_id)
+      if (size(degree, kind=int64) > 0) patches%degree = c_loc(degree)
+      if (size(control, kind=int64) > 0) patches%control = c_loc(control)
+      if (size(curve_id, kind=int64) > 0) patches%curve_id = c_loc(curve_id)
       if (present(leaflet_id)) then
-        if (size(leaflet_id) > 0) patches%leaflet_id = c_loc(leaflet_id)
+        if (size(leaflet_id, kind=int64) > 0) patches%leaflet_id = c_loc(leaflet_id)
       end if
       if (present(reversed)) then
         allocate (reversed_sides(4, size(curve_id, 2)), stat=stat)
         code = out_of_memory(stat)
-        if (code == RIIS_OK .and. size(reversed) > 0) then
+        if (code == RIIS_OK .and. size(reversed, kind=int64) > 0) then
           reversed_sides = merge(1_int32, 0_int32, reversed)
           patches%reversed = c_loc(reversed_sides)
         end if
@@ -123,7 +123,7 @@ contains
     integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error, which otherwise stops the program.
     integer(riis_status) :: code
     code = check_fits(degree, 'degree')
-    if (code == RIIS_OK) code = check_fits(reshape(curve_id, [size(curve_id)]), 'curve_id')
+    if (code == RIIS_OK) code = check_fits(reshape(curve_id, [size(curve_id, kind=int64)]), 'curve_id')
     if (code == RIIS_OK .and. present(leaflet_id)) code = check_fits(leaflet_id, 'leaflet_id')
     if (code /= RIIS_OK) then
       call finish(code, status)
@@ -166,9 +166,9 @@ contains
     integer(int64), intent(in) :: values(:)
     character(len=*), intent(in) :: name
     integer(riis_status) :: code
-    integer :: i
+    integer(int64) :: i
     code = RIIS_OK
-    do i = 1, size(values)
+    do i = 1, size(values, kind=int64)
       if (values(i) <= huge(0_int32) .and. values(i) >= -huge(0_int32)) cycle
       code = refuse(name // ' has the entry ' // text_of(values(i)) // '; it must fit in 32 bits')
       return

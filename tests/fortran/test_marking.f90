@@ -261,7 +261,7 @@ contains
     call check(all(is_right), 'threads do not disturb each other')
   end subroutine test_threads
 
-  subroutine work(part, is_right)
+  recursive subroutine work(part, is_right) ! whatever -fcheck and -fno-automatic say
     integer, intent(in) :: part
     logical, intent(out) :: is_right
     type(riis_mark_result) :: result

@@ -207,6 +207,8 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -1')
     call surface%closest_points(square(:, :1), n_threads=1.0, distance=distance, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is neither an integer(int32) nor an integer(int64)')
+    call surface%closest_points(square(:, :1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'none of distance, point,')
     call surface%destroy()
     call valve%destroy()
   end subroutine test_options
