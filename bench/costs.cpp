@@ -102,6 +102,25 @@ void add_making(Table &table, const std::string &name, const std::function<riis_
   table.add(name, seconds, allocated() - before);
 }
 
+void add_preparing(Table &table, const std::function<void(riis_mesh **)> &make_mesh) {
+  for (const std::int32_t n_threads : {1, 2}) {
+    riis_mesh *mesh = nullptr;
+    make_mesh(&mesh);
+    const auto prepare = [&] { check(riis_mesh_prepare(mesh, n_threads)); };
+    const double before = allocated();
+    prepare();
+    const double bytes = allocated() - before;
+    const auto renew = [&] {
+      riis_mesh_destroy(&mesh);
+      make_mesh(&mesh);
+    };
+    renew();
+    table.add(n_threads == 1 ? "`riis_mesh_prepare`, 1 thread" : "`riis_mesh_prepare`, 2 threads", shortest(prepare, renew),
+              n_threads == 1 ? bytes : -1);
+    riis_mesh_destroy(&mesh);
+  }
+}
+
 void add_marking(Table &table, const std::string &name, const Surface &surface, riis_mesh *mesh, std::int32_t search) {
   for (const std::int32_t n_threads : {1, 2}) {
     const double before = allocated();
@@ -142,6 +161,9 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
       [&](riis_mesh **made) { return riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, made); }, riis_mesh_destroy,
       &new_mesh);
   const Mesh mesh(new_mesh);
+  add_preparing(table, [&](riis_mesh **made) { check(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, made)); });
+  check(riis_mesh_prepare(mesh.get(), 0));
+  add_marking(table, "clusters", surface, mesh.get(), RIIS_SEARCH_CLUSTERS);
   add_marking(table, "exhaustive search", surface, mesh.get(), RIIS_SEARCH_EXHAUSTIVE);
 
   const std::vector<std::int32_t> tetrahedra = cylinder_mesh.tetrahedra();

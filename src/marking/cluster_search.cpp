@@ -142,12 +142,17 @@ class ClusterSearch {
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
+    std::uint32_t near = 0;  // leaves, a bit each
+    for (std::size_t k = 0; k < item.n; ++k) near |= leaf_bits[k];
     Undecided undecided;
-    for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
+    for (; near; near &= near - 1) {
+      const int bit = __builtin_ctz(near);
+      const std::uint32_t after = near & (near - 1);
+      if (after) prefetch(clusters_.leaves[static_cast<std::size_t>(leaves.begin + __builtin_ctz(after))]);
       own.leaf_groups.clear();
       for (std::size_t k = 0; k < item.n; ++k)
-        if (leaf_bits[k] >> (leaf - leaves.begin) & 1) own.leaf_groups.push_back(candidates[k]);
-      if (!own.leaf_groups.empty()) filter_leaf(leaf, leaves.begin, own, undecided);
+        if (leaf_bits[k] >> bit & 1) own.leaf_groups.push_back(candidates[k]);
+      filter_leaf(leaves.begin + bit, leaves.begin, own, undecided);
     }
     decide(leaves.begin, own, undecided);
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
@@ -160,6 +165,11 @@ class ClusterSearch {
           found.push_back({clusters_.leaves[static_cast<std::size_t>(leaf)].node[lane], distance, closest.triangle});
       }
     }
+  }
+
+  static void prefetch(const Leaf &leaf) {
+    constexpr std::size_t line = 64;
+    for (std::size_t at = 0; at < sizeof leaf; at += line) __builtin_prefetch(reinterpret_cast<const char *>(&leaf) + at);
   }
 
   void filter_leaf(std::int64_t number, std::int64_t first_leaf, Clustered::Thread &own, Undecided &undecided) {
