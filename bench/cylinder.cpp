@@ -27,9 +27,14 @@ CylinderMesh::CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes)
   riis_mesh *mesh = nullptr;
   check(riis_mesh_create(n_nodes(), xyz_.data(), xyz_.data() + 1, xyz_.data() + 2, 3, &mesh));
   mesh_.reset(mesh);
+  const riis_csr of_tetrahedra = rows();
+  check(riis_mesh_set_adjacency(mesh_.get(), &of_tetrahedra));
+}
+
+riis_csr CylinderMesh::rows() const {
   riis_csr rows;
   check(riis_adjacency_csr(adjacency_.get(), &rows, sizeof rows));
-  check(riis_mesh_set_adjacency(mesh_.get(), &rows));
+  return rows;
 }
 
 std::vector<std::int32_t> CylinderMesh::tetrahedra() const {

@@ -29,6 +29,8 @@ class CylinderMesh {
   const std::vector<double> &xyz() const { return xyz_; }
   std::vector<std::int32_t> tetrahedra() const;
 
+  // The adjacency by its tetrahedra: 64-bit offsets, 32-bit columns.
+  riis_csr rows() const;
   // With the adjacency by its tetrahedra; borrows from this.
   const riis_mesh *mesh() const { return mesh_.get(); }
 
