@@ -53,22 +53,29 @@ struct LevelledGrid {
   QuadGrid grid;
   std::vector<int> levels;
   std::int64_t n_triangles;  // of one image, with those that turn out to have no area
+  std::int64_t n_vertices;
 };
 
 LevelledGrid with_levels(QuadGrid grid, double max_error) {
-  LevelledGrid made{std::move(grid), {}, 0};
+  LevelledGrid made{std::move(grid), {}, 0, 0};
+  made.n_vertices = static_cast<std::int64_t>(made.grid.u.size() * made.grid.v.size());
   for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
     made.levels.push_back(subdivision_level(made.grid, i, j, max_error));
-    made.n_triangles += std::int64_t{2} << 2 * made.levels.back();
+    const std::int64_t n = std::int64_t{1} << made.levels.back();
+    made.n_triangles += 2 * n * n;
+    if (n > 1) made.n_vertices += (n + 1) * (n + 1);
   });
   return made;
 }
 
 class Builder {
  public:
-  Builder(std::int64_t n_triangles, const Placement &placement, bool flip_normals)
+  Builder(std::int64_t n_triangles, std::int64_t n_vertices, const Placement &placement, bool flip_normals)
       : placement_(placement), flip_normals_(flip_normals) {
     const auto n = static_cast<std::size_t>(n_triangles);
+    set_.xyz.reserve(3 * static_cast<std::size_t>(n_vertices));
+    set_.uv.reserve(2 * static_cast<std::size_t>(n_vertices));
+    set_.grouping.order.reserve(n);
     set_.vertex_id.reserve(3 * n);
     set_.leaflet_id.reserve(n);
     set_.patch_id.reserve(n);
@@ -152,8 +159,8 @@ class Builder {
 
   std::int64_t add_vertex(Vec3 p, double u, double v, const PatchImage &image) {
     const Vec3 placed = place(placement_, place(image, p));
-    set_.xyz.insert(set_.xyz.end(), {placed.x, placed.y, placed.z});
-    set_.uv.insert(set_.uv.end(), {u, v});
+    for (const double x : {placed.x, placed.y, placed.z}) set_.xyz.push_back(x);
+    for (const double t : {u, v}) set_.uv.push_back(t);
     return n_vertices() - 1;
   }
 
@@ -200,7 +207,7 @@ class Builder {
       return false;
     }
     if ((image.mirror != Mirror::none) != flip_normals_) std::swap(b, c);
-    set_.vertex_id.insert(set_.vertex_id.end(), {a, b, c});
+    for (const std::int64_t id : {a, b, c}) set_.vertex_id.push_back(id);
     set_.leaflet_id.push_back(image.leaflet_id);
     set_.patch_id.push_back(image.patch_id);
     return true;
@@ -233,14 +240,15 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
   std::vector<double> tightness(set.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
     std::vector<LevelledGrid> grids;
-    std::int64_t n_triangles = 0;
+    std::int64_t n_triangles = 0, n_vertices = 0;
     for (QuadGrid &grid : make_grids(set, max_error, tightness)) {
       const std::size_t n_images = set.patches[grids.size()].images.size();
       grids.push_back(with_levels(std::move(grid), max_error));
       n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(n_images);
+      n_vertices += grids.back().n_vertices * static_cast<std::int64_t>(n_images);
       check_count(static_cast<double>(n_triangles), max_error);
     }
-    Builder builder(n_triangles, placement, flip_normals);
+    Builder builder(n_triangles, n_vertices, placement, flip_normals);
     std::vector<std::size_t> vanished;
     for (std::size_t i = 0; i < grids.size(); ++i) {
       bool is_whole = true;
