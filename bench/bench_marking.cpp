@@ -43,13 +43,14 @@ double median(std::vector<double> values) {
 class Contest {
  public:
   // before() prepares a turn, outside its time. At most n_turns.
-  void add(const std::string &name, int n_turns, std::function<void()> work, std::function<void()> before = [] {}) {
+  void add(
+      const std::string &name, int n_turns, std::function<void()> work, std::function<void()> before = [] {}) {
     contenders_.push_back({name, n_turns, std::move(work), std::move(before)});
   }
   void run() {
     int most = 0;
     for (const Contender &contender : contenders_) most = std::max(most, contender.n_turns);
-    for (Contender &contender : contenders_) { // memory and caches settle
+    for (Contender &contender : contenders_) {  // memory and caches settle
       contender.before();
       contender.work();
     }
@@ -62,7 +63,9 @@ class Contest {
       }
     contenders_.clear();
   }
-  double least(const std::string &name) const { return *std::min_element(times_.at(name).begin(), times_.at(name).end()); }
+  double least(const std::string &name) const {
+    return *std::min_element(times_.at(name).begin(), times_.at(name).end());
+  }
   // Of the ratio of two least times, the median of five parts of the run.
   double ratio(const std::string &above, const std::string &below) const {
     const std::vector<double> &a = times_.at(above), &b = times_.at(below);
@@ -79,13 +82,14 @@ class Contest {
   void print() const {
     std::printf("| what | least, ms | median, ms | turns |\n|---|---|---|---|\n");
     for (const auto &[name, times] : times_)
-      std::printf("| %s | %.3f | %.3f | %zu |\n", name.c_str(), *std::min_element(times.begin(), times.end()), median(times),
-                  times.size());
+      std::printf("| %s | %.3f | %.3f | %zu |\n", name.c_str(), *std::min_element(times.begin(), times.end()),
+                  median(times), times.size());
   }
   nlohmann::json json() const {
     nlohmann::json all;
     for (const auto &[name, times] : times_)
-      all[name] = {{"least_ms", *std::min_element(times.begin(), times.end())}, {"median_ms", median(times)},
+      all[name] = {{"least_ms", *std::min_element(times.begin(), times.end())},
+                   {"median_ms", median(times)},
                    {"turns", times.size()}};
     return all;
   }
@@ -132,7 +136,8 @@ class Steps {
     check(riis_mark_result_marked(result_.get(), &n, &node_id, &distance, &triangle_id, nullptr));
   }
   void add_to(Contest &contest, const std::string &name, int n_turns) {
-    contest.add(name, n_turns, [this] { step(); }, [this] { move(); });
+    contest.add(
+        name, n_turns, [this] { step(); }, [this] { move(); });
   }
   const riis_surface *surface() const { return surface_.get(); }
   riis_mark_stats stats() const {
@@ -185,8 +190,12 @@ int main(int argc, char **argv) {
   constexpr int n_turns = 40, n_slow_turns = 5;
   Contest contest;
   std::vector<Bar> bars;
-  const auto at_least = [&](const std::string &name, double value, double bar) { bars.push_back({name, value, bar, false}); };
-  const auto at_most = [&](const std::string &name, double value, double bar) { bars.push_back({name, value, bar, true}); };
+  const auto at_least = [&](const std::string &name, double value, double bar) {
+    bars.push_back({name, value, bar, false});
+  };
+  const auto at_most = [&](const std::string &name, double value, double bar) {
+    bars.push_back({name, value, bar, true});
+  };
 
   const CylinderMesh nodes(cylinder, million);
   Mesh mesh = mesh_over(nodes);
@@ -196,7 +205,8 @@ int main(int argc, char **argv) {
 
   Steps one(mesh.get(), coarse, 0.1, 1, 0), two(mesh.get(), coarse, 0.1, 2, 0), four(mesh.get(), coarse, 0.1, 4, 0);
   Steps fine_two(mesh.get(), fine, 0.1, 2, 0), thick(mesh.get(), coarse * 0.1 / 0.3, 0.3, 2, 0);
-  Steps avx2(mesh.get(), coarse, 0.1, 1, RIIS_INSTRUCTIONS_AVX2), baseline(mesh.get(), coarse, 0.1, 1, RIIS_INSTRUCTIONS_BASELINE);
+  Steps avx2(mesh.get(), coarse, 0.1, 1, RIIS_INSTRUCTIONS_AVX2),
+      baseline(mesh.get(), coarse, 0.1, 1, RIIS_INSTRUCTIONS_BASELINE);
   const bool has_avx512 = has(RIIS_INSTRUCTIONS_AVX512, one.surface(), mesh.get());
 
   const Triangles triangles(one.surface());
@@ -216,7 +226,8 @@ int main(int argc, char **argv) {
     baseline.add_to(contest, "step, 1 thread, baseline", n_turns);
   }
   contest.add("coordinates, 1 thread", n_turns, [&] { pass_over_coordinates(nodes.n_nodes(), nodes.xyz().data(), 1); });
-  contest.add("coordinates, 2 threads", n_turns, [&] { pass_over_coordinates(nodes.n_nodes(), nodes.xyz().data(), 2); });
+  contest.add("coordinates, 2 threads", n_turns,
+              [&] { pass_over_coordinates(nodes.n_nodes(), nodes.xyz().data(), 2); });
   for (const int n_threads : {1, 2}) {
     const std::string threads = n_threads == 1 ? ", 1 thread" : ", 2 threads";
     contest.add("the paper's search, every triangle" + threads, n_slow_turns, [&, n_threads] {
@@ -227,15 +238,17 @@ int main(int argc, char **argv) {
                 [&, n_threads] { n_by_query = paper.run(point_query, 0.1, n_threads); });
   }
   Mesh fresh;
-  contest.add("prepare the mesh, 2 threads", n_turns / 2, [&] { check(riis_mesh_prepare(fresh.get(), 2)); },
-              [&] { fresh = mesh_over(nodes); });
+  contest.add(
+      "prepare the mesh, 2 threads", n_turns / 2, [&] { check(riis_mesh_prepare(fresh.get(), 2)); },
+      [&] { fresh = mesh_over(nodes); });
   const Result first_result = make_result();
   riis_mark_options automatic;
   check(riis_mark_options_init(&automatic, sizeof automatic));
   automatic.n_threads = 2;
-  contest.add("first marking, 2 threads", n_turns / 2,
-              [&] { check(riis_mark_nodes(one.surface(), fresh.get(), &automatic, first_result.get())); },
-              [&] { fresh = mesh_over(nodes); });
+  contest.add(
+      "first marking, 2 threads", n_turns / 2,
+      [&] { check(riis_mark_nodes(one.surface(), fresh.get(), &automatic, first_result.get())); },
+      [&] { fresh = mesh_over(nodes); });
   riis_mark_options exhaustive = automatic;
   exhaustive.search = RIIS_SEARCH_EXHAUSTIVE;
   contest.add("exhaustive search, 2 threads", n_turns / 2,
@@ -243,18 +256,26 @@ int main(int argc, char **argv) {
   contest.run();
 
   const riis_mark_stats stats = two.stats();
-  std::printf("Aortic valve, half thickness 0.1 cm: %.0f triangles, fine %.0f. %lld nodes, %lld marked (%.1f %%), with 0.3 cm %lld.\n",
-              n_triangles_of(two.surface()), n_triangles_of(fine_two.surface()), static_cast<long long>(stats.n_nodes),
-              static_cast<long long>(stats.n_marked), 100.0 * static_cast<double>(stats.n_marked) / static_cast<double>(stats.n_nodes),
-              static_cast<long long>(thick.stats().n_marked));
-  std::printf("The paper's search asks %lld nodes and marks %lld (%lld by point queries), at %.2f ns a pair of a node and a triangle.\n\n",
-              static_cast<long long>(n_asked), static_cast<long long>(n_by_paper), static_cast<long long>(n_by_query),
-              1e6 * contest.least("the paper's search, every triangle, 1 thread") / static_cast<double>(n_asked) /
-                  static_cast<double>(triangles.n()));
+  std::printf(
+      "Aortic valve, half thickness 0.1 cm: %.0f triangles, fine %.0f. %lld nodes, %lld marked (%.1f %%), with 0.3 cm "
+      "%lld.\n",
+      n_triangles_of(two.surface()), n_triangles_of(fine_two.surface()), static_cast<long long>(stats.n_nodes),
+      static_cast<long long>(stats.n_marked),
+      100.0 * static_cast<double>(stats.n_marked) / static_cast<double>(stats.n_nodes),
+      static_cast<long long>(thick.stats().n_marked));
+  std::printf(
+      "The paper's search asks %lld nodes and marks %lld (%lld by point queries), at %.2f ns a pair of a node and a "
+      "triangle.\n\n",
+      static_cast<long long>(n_asked), static_cast<long long>(n_by_paper), static_cast<long long>(n_by_query),
+      1e6 * contest.least("the paper's search, every triangle, 1 thread") / static_cast<double>(n_asked) /
+          static_cast<double>(triangles.n()));
 
-  at_least("the paper's search with every triangle / step, 1 thread", contest.ratio("the paper's search, every triangle, 1 thread", "step, 1 thread"), 200);
-  at_least("the same, 2 threads", contest.ratio("the paper's search, every triangle, 2 threads", "step, 2 threads"), 200);
-  at_least("the paper's search with point queries / step, 1 thread", contest.ratio("the paper's search, point queries, 1 thread", "step, 1 thread"), 10);
+  at_least("the paper's search with every triangle / step, 1 thread",
+           contest.ratio("the paper's search, every triangle, 1 thread", "step, 1 thread"), 200);
+  at_least("the same, 2 threads", contest.ratio("the paper's search, every triangle, 2 threads", "step, 2 threads"),
+           200);
+  at_least("the paper's search with point queries / step, 1 thread",
+           contest.ratio("the paper's search, point queries, 1 thread", "step, 1 thread"), 10);
   at_most("step / pass over the coordinates, 2 threads", contest.ratio("step, 2 threads", "coordinates, 2 threads"), 6);
   at_least("step with 1 thread / with 2", contest.ratio("step, 1 thread", "step, 2 threads"), 1.8);
   at_most("step with 4 threads / with 2", contest.ratio("step, 4 threads", "step, 2 threads"), 1.3);
@@ -266,15 +287,21 @@ int main(int argc, char **argv) {
     at_most("AVX2 / AVX-512", contest.ratio("step, 1 thread, AVX2", "step, 1 thread"), 1.8);
     at_most("baseline / AVX-512", contest.ratio("step, 1 thread, baseline", "step, 1 thread"), 3.5);
   }
-  at_most("first marking / exhaustive search", contest.ratio("first marking, 2 threads", "exhaustive search, 2 threads"), 1.1);
+  at_most("first marking / exhaustive search",
+          contest.ratio("first marking, 2 threads", "exhaustive search, 2 threads"), 1.1);
 
   contest.print();
   std::printf("\n| bar | value | wanted | |\n|---|---|---|---|\n");
   nlohmann::json json{{"times", contest.json()}};
   for (const Bar &bar : bars) {
     const bool is_met = bar.at_most ? bar.value <= bar.bar : bar.value >= bar.bar;
-    std::printf("| %s | %.2f | %s %g | %s |\n", bar.name.c_str(), bar.value, bar.at_most ? "<=" : ">=", bar.bar, is_met ? "met" : "NOT met");
-    json["bars"].push_back({{"name", bar.name}, {"value", bar.value}, {"bar", bar.bar}, {"kind", bar.at_most ? "at most" : "at least"}, {"met", is_met}});
+    std::printf("| %s | %.2f | %s %g | %s |\n", bar.name.c_str(), bar.value, bar.at_most ? "<=" : ">=", bar.bar,
+                is_met ? "met" : "NOT met");
+    json["bars"].push_back({{"name", bar.name},
+                            {"value", bar.value},
+                            {"bar", bar.bar},
+                            {"kind", bar.at_most ? "at most" : "at least"},
+                            {"met", is_met}});
   }
   if (argc > 1) {
     std::ofstream file(argv[1]);

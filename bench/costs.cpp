@@ -115,8 +115,8 @@ void add_preparing(Table &table, const std::function<void(riis_mesh **)> &make_m
       make_mesh(&mesh);
     };
     renew();
-    table.add(n_threads == 1 ? "`riis_mesh_prepare`, 1 thread" : "`riis_mesh_prepare`, 2 threads", shortest(prepare, renew),
-              n_threads == 1 ? bytes : -1);
+    table.add(n_threads == 1 ? "`riis_mesh_prepare`, 1 thread" : "`riis_mesh_prepare`, 2 threads",
+              shortest(prepare, renew), n_threads == 1 ? bytes : -1);
     riis_mesh_destroy(&mesh);
   }
 }

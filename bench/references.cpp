@@ -62,7 +62,8 @@ Triangles::Triangles(const riis_surface *surface) {
   const std::int32_t *leaflets;
   check(riis_surface_vertices(surface, nullptr, &xyz));
   check(riis_surface_triangles(surface, &n, &vertex_id, nullptr, &leaflets, nullptr));
-  for (std::int64_t i = 0; i < 3 * n; ++i) corners.insert(corners.end(), xyz + 3 * vertex_id[i], xyz + 3 * vertex_id[i] + 3);
+  for (std::int64_t i = 0; i < 3 * n; ++i)
+    corners.insert(corners.end(), xyz + 3 * vertex_id[i], xyz + 3 * vertex_id[i] + 3);
   leaflet_id.assign(leaflets, leaflets + n);
 }
 
@@ -126,7 +127,8 @@ PointQuery::PointQuery(const Triangles &triangles) : implementation_(std::make_u
 PointQuery::~PointQuery() = default;
 
 double PointQuery::operator()(const double *p, double limit) const {
-  Implementation::Asked asked{implementation_->triangles.corners.data(), at(p), std::numeric_limits<double>::infinity()};
+  Implementation::Asked asked{implementation_->triangles.corners.data(), at(p),
+                              std::numeric_limits<double>::infinity()};
   RTCPointQuery sphere;
   sphere.x = static_cast<float>(p[0]);
   sphere.y = static_cast<float>(p[1]);
@@ -163,7 +165,8 @@ std::int64_t PaperSearch::run(const Distance &distance, double half_thickness, i
   was_seen_.assign(static_cast<std::size_t>(n_nodes_), 0);
   std::vector<std::int64_t> level, next;
   for (const std::int64_t node : starts_)
-    if (!was_seen_[static_cast<std::size_t>(node)]) was_seen_[static_cast<std::size_t>(node)] = 1, level.push_back(node);
+    if (!was_seen_[static_cast<std::size_t>(node)])
+      was_seen_[static_cast<std::size_t>(node)] = 1, level.push_back(node);
   std::vector<std::uint8_t> is_marked;
   std::int64_t n_marked = 0;
   n_asked_ = 0;

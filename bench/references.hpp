@@ -47,7 +47,8 @@ class PointQuery {
 // is taken level by level, so that threads can share it.
 class PaperSearch {
  public:
-  PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows) : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
+  PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
+      : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
   // Finds where to begin; not part of a search, which has the last marking.
   void begin_at(const Triangles &triangles);

@@ -361,7 +361,7 @@ static struct totals {
   int64_t different_bits, different_distances, different_marks, incomplete;
   int64_t unreached, most_threads;
   int64_t by_instructions[RIIS_INSTRUCTIONS_AVX512 + 1]; /* markings over clusters */
-  double largest; /* error, relative to the coordinates */
+  double largest;                                        /* error, relative to the coordinates */
 } totals;
 
 /* A share of the nodes against brute force. */
@@ -416,7 +416,8 @@ static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh,
                              const riis_mark_result *exhaustive, riis_mark_result *clustered) {
   riis_mark_options options = *asked;
   options.search = RIIS_SEARCH_CLUSTERS;
-  for (options.instructions = RIIS_INSTRUCTIONS_BASELINE; options.instructions <= RIIS_INSTRUCTIONS_AVX512; ++options.instructions) {
+  for (options.instructions = RIIS_INSTRUCTIONS_BASELINE; options.instructions <= RIIS_INSTRUCTIONS_AVX512;
+       ++options.instructions) {
     options.n_threads = (int32_t)random_integer(1, 4);
     const riis_status status = riis_mark_nodes(surface, mesh, &options, clustered);
     if (status == RIIS_UNAVAILABLE) continue;
@@ -528,7 +529,8 @@ static void random_cases_equal_brute_force(void **state) {
       (long long)totals.markings, (long long)totals.nodes, (long long)totals.marked, (long long)totals.unreached,
       (long long)totals.most_threads, (long long)totals.different_bits, (long long)totals.incomplete);
   printf("%lld markings over clusters by the baseline's instructions, %lld by AVX2, %lld by AVX-512\n",
-         (long long)totals.by_instructions[RIIS_INSTRUCTIONS_BASELINE], (long long)totals.by_instructions[RIIS_INSTRUCTIONS_AVX2],
+         (long long)totals.by_instructions[RIIS_INSTRUCTIONS_BASELINE],
+         (long long)totals.by_instructions[RIIS_INSTRUCTIONS_AVX2],
          (long long)totals.by_instructions[RIIS_INSTRUCTIONS_AVX512]);
   printf(
       "%lld pairs of node and surface by brute force, %lld within the limit: %lld distances and %lld marks differ; "

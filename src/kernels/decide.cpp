@@ -73,9 +73,8 @@ RIIS_INLINE Doubles distances(Doubles3 p, Doubles3 a, Doubles3 b, Doubles3 c) {
     const Doubles distance_sq = dot(difference, difference);
     best = choose(both(where, distance_sq < best), distance_sq, best);
   };
-  const auto on_edge = [&](Doubles3 first, Doubles3 edge, Doubles3 last, Doubles t) RIIS_LAMBDA {
-    return choose(t == Doubles::all(1), last, first + t * edge);
-  };
+  const auto on_edge = [&](Doubles3 first, Doubles3 edge, Doubles3 last, Doubles t)
+                           RIIS_LAMBDA { return choose(t == Doubles::all(1), last, first + t * edge); };
   const Doubles::Mask everywhere = Doubles::all(0) == Doubles::all(0);
   offer(on_edge(a, ab, b, t_ab), everywhere);
   offer(on_edge(b, bc, c, t_bc), everywhere);
@@ -195,7 +194,8 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const double *first, 
     across[1] += sum_of(normal.y);
     across[2] += sum_of(normal.z);
   }
-  const auto dot3 = [](const double *a, const double *b) RIIS_LAMBDA { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto dot3 = [](const double *a, const double *b)
+                        RIIS_LAMBDA { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   const auto normalize = [&](double *a) RIIS_LAMBDA {
     const double length = __builtin_sqrt(dot3(a, a));
     if (!(length > 1e-12)) return false;
@@ -265,10 +265,12 @@ void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds
   for (int half = 0; half < halves; ++half) {
     const int from = half * Doubles::n;
     const double *triangle[Doubles::n];
-    for (int lane = 0; lane < Doubles::n; ++lane) triangle[lane] = corners + 9 * (from + lane < bounds.n ? from + lane : 0);
+    for (int lane = 0; lane < Doubles::n; ++lane)
+      triangle[lane] = corners + 9 * (from + lane < bounds.n ? from + lane : 0);
     Doubles3 *q = all_corners[half];
     for (int i = 0; i < 3; ++i)
-      q[i] = {Doubles::gather(triangle, 3 * i), Doubles::gather(triangle, 3 * i + 1), Doubles::gather(triangle, 3 * i + 2)};
+      q[i] = {Doubles::gather(triangle, 3 * i), Doubles::gather(triangle, 3 * i + 1),
+              Doubles::gather(triangle, 3 * i + 2)};
     const Doubles3 ac = q[2] - q[0];
     const Direction e = direction(q[1] - q[0], {one, zero, zero});
     // What of a-c is across e, twice: the second time takes away what rounding left of e in a needle's.
@@ -294,7 +296,6 @@ void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds
   }
   bound_group(all_corners, corners, bounds);
 }
-
 
 }  // namespace
 

@@ -118,9 +118,11 @@ struct Lanes {
 typedef Lanes<float, FloatRegister, 16> Floats;
 typedef Lanes<double, DoubleRegister, 8> Doubles;
 
-#define RIIS_LANES template <class S, class R, int n> RIIS_INLINE
-#define RIIS_LANEWISE(result, expression) \
-  result r;                                                  \
+#define RIIS_LANES                   \
+  template <class S, class R, int n> \
+  RIIS_INLINE
+#define RIIS_LANEWISE(result, expression)                                       \
+  result r;                                                                     \
   for (int i = 0; i < Lanes<S, R, n>::n_registers; ++i) r.part[i] = expression; \
   return r
 
@@ -226,18 +228,6 @@ RIIS_INLINE float least_lane(Floats a) {
   for (int i = 1; i < Floats::n_registers; ++i) m = least(m, a.part[i]);
   float r = m[0];
   for (int i = 1; i < Floats::per_register; ++i) r = m[i] < r ? m[i] : r;
-  return r;
-#endif
-}
-
-RIIS_INLINE float sum_of_lanes(Floats a) {
-#if defined(__AVX512F__)
-  return _mm512_reduce_add_ps((__m512)a.part[0]);
-#else
-  FloatRegister m = a.part[0];
-  for (int i = 1; i < Floats::n_registers; ++i) m = m + a.part[i];
-  float r = m[0];
-  for (int i = 1; i < Floats::per_register; ++i) r += m[i];
   return r;
 #endif
 }

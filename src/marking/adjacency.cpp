@@ -280,7 +280,9 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
     if (given < least || given >= faces.n_cells + base)
       fail(RIIS_INVALID_MESH, "%s of face %lld is %lld; there are cells %lld to %lld%s", which, static_cast<Long>(face),
            static_cast<Long>(given), static_cast<Long>(base), static_cast<Long>(faces.n_cells - 1 + base),
-           least == base ? "" : base == 1 ? ", and 0 for the boundary" : ", and -1 for the boundary");
+           least == base ? ""
+           : base == 1   ? ", and 0 for the boundary"
+                         : ", and -1 for the boundary");
   };
   for (std::int64_t face = 0; face < faces.n_faces; ++face) {
     check("owner", face, owner, base);

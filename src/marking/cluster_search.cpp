@@ -49,6 +49,8 @@ class ClusterSearch {
     task_.shift[2] = static_cast<float>(placing.shift.z);
     task_.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
     task_.tolerance = static_cast<float>(8 * error * (limit + 2 * error));
+    task_.reach = reach_;
+    task_.error = static_cast<float>(error);
     task_.margin = static_cast<float>(0.5 * error);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
@@ -69,7 +71,8 @@ class ClusterSearch {
         const Clusters::Box &box = clusters_.boxes[static_cast<std::size_t>(region)];
         float centre[3], sum = 0, gap_sq = 0;
         for (int i = 0; i < 3; ++i) {
-          const float from = box.lower[i] * task_.ratio + task_.shift[i], to = box.upper[i] * task_.ratio + task_.shift[i];
+          const float from = box.lower[i] * task_.ratio + task_.shift[i],
+                      to = box.upper[i] * task_.ratio + task_.shift[i];
           centre[i] = 0.5f * (from + to);
           sum += (to - from) * (to - from);
           const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
@@ -86,7 +89,8 @@ class ClusterSearch {
                                  static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
           continue;
         const Range of_region = clusters_.clusters_of(region);
-        for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster) add_cluster(cluster, cluster - of_region.begin, own);
+        for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster)
+          add_cluster(cluster, cluster - of_region.begin, own);
       }
     });
     n_threads_ = std::max(n_threads_, n_ran);
@@ -100,10 +104,11 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    const int n_ran = parallel_for(static_cast<std::int64_t>(items.size()), request_.n_threads, [&](std::int64_t i, int thread) {
-      search_cluster(items[static_cast<std::size_t>(i)], own_.threads[static_cast<std::size_t>(thread)],
-                     collection_.by_thread[static_cast<std::size_t>(thread)]);
-    });
+    const int n_ran =
+        parallel_for(static_cast<std::int64_t>(items.size()), request_.n_threads, [&](std::int64_t i, int thread) {
+          search_cluster(items[static_cast<std::size_t>(i)], own_.threads[static_cast<std::size_t>(thread)],
+                         collection_.by_thread[static_cast<std::size_t>(thread)]);
+        });
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
@@ -121,8 +126,9 @@ class ClusterSearch {
     const std::size_t n = own.near_groups.size() - first;
     if (n == 0) return;
     own.leaf_bits.resize(first + n);
-    if (kernels_.near_boxes(task_, clusters_.clusters[static_cast<std::size_t>(cluster)], own.near_groups.data() + first,
-                            static_cast<std::int32_t>(n), own.leaf_bits.data() + first)) {
+    if (kernels_.near_boxes(task_, clusters_.clusters[static_cast<std::size_t>(cluster)],
+                            own.near_groups.data() + first, static_cast<std::int32_t>(n),
+                            own.leaf_bits.data() + first)) {
       own.items.push_back({cluster, first, n, 0});
     } else {
       own.near_groups.resize(first);
@@ -167,9 +173,24 @@ class ClusterSearch {
     }
   }
 
+  // Around the leaf's box.
+  void place_ball(std::int64_t number, std::int64_t first_leaf, LeafTask &task) const {
+    const Boxes &boxes = clusters_.clusters[static_cast<std::size_t>(number / leaves_per_cluster)];
+    const std::int64_t at = number - first_leaf;
+    float sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const float from = boxes.lower[i][at] * task_.ratio + task_.shift[i],
+                  to = boxes.upper[i][at] * task_.ratio + task_.shift[i];
+      task.centre[i] = 0.5f * (from + to);
+      sum += (to - from) * (to - from);
+    }
+    task.radius = 0.5f * std::sqrt(sum);
+  }
+
   static void prefetch(const Leaf &leaf) {
     constexpr std::size_t line = 64;
-    for (std::size_t at = 0; at < sizeof leaf; at += line) __builtin_prefetch(reinterpret_cast<const char *>(&leaf) + at);
+    for (std::size_t at = 0; at < sizeof leaf; at += line)
+      __builtin_prefetch(reinterpret_cast<const char *>(&leaf) + at);
   }
 
   void filter_leaf(std::int64_t number, std::int64_t first_leaf, Clustered::Thread &own, Undecided &undecided) {
@@ -182,17 +203,19 @@ class ClusterSearch {
     if (request_.node_mask)
       for (int lane = 0; lane < n_nodes; ++lane)
         if (!request_.node_mask[leaf.node[lane]]) task.wanted &= ~(1u << lane);
+    place_ball(number, first_leaf, task);
     task.near_groups = own.leaf_groups.data();
     task.n_groups = static_cast<std::int32_t>(own.leaf_groups.size());
     task.lower_bounds = own.room_for_bounds(own.leaf_groups.size());
     task.next_group = 0;
     task.rest = 0;
     while (task.next_group < task.n_groups) {
-      constexpr std::int32_t room = Clustered::room_for_pairs, enough = 512;
+      constexpr std::int32_t room = Clustered::room_for_pairs, enough = room_to_begin;
       if (room - undecided.n_pairs < enough) decide(first_leaf, own, undecided);
       const std::int32_t n = undecided.n_pairs;
       undecided.n_pairs += kernels_.filter_leaf(
-          task_, task, {own.pair_nodes.data() + n, own.pair_triangles.data() + n, own.pair_filtered.data() + n}, room - n);
+          task_, task, {own.pair_nodes.data() + n, own.pair_triangles.data() + n, own.pair_filtered.data() + n},
+          room - n);
       undecided.nodes[number - first_leaf] |= task.found;
       // The coordinates as they are lie anywhere: on their way while the filter goes on.
       for (std::uint32_t rest = task.found; rest; rest &= rest - 1) {
@@ -219,7 +242,8 @@ class ClusterSearch {
                     groups_.corners.data(), own.pair_decided.data());
     for (std::size_t i = 0; i < static_cast<std::size_t>(undecided.n_pairs); ++i) {
       ClosestTriangle &best = own.closest[static_cast<std::size_t>(own.pair_nodes[i])];
-      if (is_closer(own.pair_decided[i], own.pair_triangles[i], best)) best = {own.pair_decided[i], own.pair_triangles[i]};
+      if (is_closer(own.pair_decided[i], own.pair_triangles[i], best))
+        best = {own.pair_decided[i], own.pair_triangles[i]};
     }
     undecided.n_pairs = 0;
   }

@@ -130,7 +130,8 @@ class Sorter {
     std::vector<std::array<std::uint32_t, n_bins>> at(n_blocks);
     const auto for_each_block = [&](const auto &visit) {
       parallel_for_ranges(part.size(), nodes_per_block, n_threads_, [&](const Range &range, int) {
-        visit(static_cast<std::size_t>(range.begin / nodes_per_block), part.begin + range.begin, part.begin + range.end);
+        visit(static_cast<std::size_t>(range.begin / nodes_per_block), part.begin + range.begin,
+              part.begin + range.end);
       });
     };
     for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
@@ -230,7 +231,8 @@ void fill(Clusters &clusters, int n_threads, const ItemOf &item_of) {
   const auto n_clusters = static_cast<std::size_t>(n_of(clusters.n_nodes, nodes_per_cluster));
   clusters.leaves.resize(n_leaves);
   clusters.clusters.resize(n_clusters);
-  clusters.regions.resize(static_cast<std::size_t>(n_of(static_cast<std::int64_t>(n_clusters), Clusters::clusters_per_region)));
+  clusters.regions.resize(
+      static_cast<std::size_t>(n_of(static_cast<std::int64_t>(n_clusters), Clusters::clusters_per_region)));
   clusters.boxes.resize(clusters.regions.size());
   parallel_for(static_cast<std::int64_t>(clusters.regions.size()), n_threads, [&](std::int64_t r, int) {
     Boxes &region = clusters.regions[static_cast<std::size_t>(r)];
@@ -263,7 +265,8 @@ void fill(Clusters &clusters, int n_threads, const ItemOf &item_of) {
 
 Item item_at(const StridedPoints &nodes, const Clusters &clusters, std::int64_t node) {
   const Vec3 p = clusters.scale * (node_at(nodes, node) - clusters.centre);
-  return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, static_cast<std::uint32_t>(node)};
+  return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+          static_cast<std::uint32_t>(node)};
 }
 
 }  // namespace

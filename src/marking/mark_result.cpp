@@ -123,7 +123,9 @@ void put_in_order(const TriangleSet &triangles, double half_thickness, bool limi
   Collection &collection = result.collection;
   const std::size_t n_lists = collection.by_thread.size();
   const auto n_stretches = static_cast<std::size_t>((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch);
-  const auto stretch_of = [](const FoundNode &found) { return static_cast<std::size_t>(found.node / nodes_per_stretch); };
+  const auto stretch_of = [](const FoundNode &found) {
+    return static_cast<std::size_t>(found.node / nodes_per_stretch);
+  };
 
   std::size_t n_within = 0;
   for (const auto &found : collection.by_thread) n_within += found.size();
@@ -182,7 +184,9 @@ void put_in_order(const TriangleSet &triangles, double half_thickness, bool limi
     if (!limit_is_wider) return;
     const auto is_marked = [&](const FoundNode &found) { return found.distance <= half_thickness; };
     ranks.clear();
-    for_each([&](const FoundNode &found) { if (is_marked(found)) ranks.add(found.node); });
+    for_each([&](const FoundNode &found) {
+      if (is_marked(found)) ranks.add(found.node);
+    });
     ranks.count();
     for_each([&](const FoundNode &found) {
       if (is_marked(found)) put(result.marked, static_cast<std::size_t>(lists[0].n_marked), found);

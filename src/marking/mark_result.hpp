@@ -113,8 +113,8 @@ struct Collection {
       std::vector<std::int32_t> leaf_groups;
       std::vector<Leaf> lower_bounds;  // only for its alignment
       std::vector<std::int32_t> pair_nodes, pair_triangles;
-      std::vector<float> pair_filtered;  // squares of distances, in single
-      std::vector<double> pair_decided;  // and in double precision
+      std::vector<float> pair_filtered;      // squares of distances, in single
+      std::vector<double> pair_decided;      // and in double precision
       std::vector<ClosestTriangle> closest;  // of a cluster's nodes
       std::vector<double> points;            // and where they are
       std::int64_t n_queries = 0;

@@ -75,8 +75,8 @@ namespace {
 struct Query {
   const TriangleScene::Implementation *in;
   const Kernels *kernels;
-  Vec3 p;  // the point as it is
-  Vec3 q;  // and in the frame
+  Vec3 p;          // the point as it is
+  Vec3 q;          // and in the frame
   double largest;  // a bound of q's coordinates and of distances that matter
   ClosestTriangle best;
 };
@@ -217,7 +217,8 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   sphere.z = point[2];
   sphere.time = 0;
   // Embree's own rounding, as in inflated_radius.
-  sphere.radius = radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+  sphere.radius =
+      radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &found);

@@ -23,7 +23,7 @@ struct TriangleSet {
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // left out
-  Grouping grouping;  // empty where whoever made the triangles knows nothing of it
+  Grouping grouping;                      // empty where whoever made the triangles knows nothing of it
 
   std::size_t n_vertices() const { return xyz.size() / 3; }
   std::size_t n_triangles() const { return triangle_id.size(); }

@@ -136,7 +136,8 @@ class Builder {
     Grouping &grouping = set_.grouping;
     if (n <= triangles_per_group) {
       for (std::size_t j = j0; j < j1; ++j)
-        for (std::int32_t t = triangles_of_row(j).first; t < triangles_of_row(j).second; ++t) grouping.order.push_back(t);
+        for (std::int32_t t = triangles_of_row(j).first; t < triangles_of_row(j).second; ++t)
+          grouping.order.push_back(t);
       grouping.end.push_back(static_cast<std::int32_t>(grouping.order.size()));
       return;
     }
@@ -145,9 +146,8 @@ class Builder {
       return;
     }
     const std::size_t i = (i0 + i1) / 2, j = (j0 + j1) / 2;
-    const bool along_u =
-        j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid.point(i0, j), grid.point(i1, j)) >
-                                            distance(grid.point(i, j0), grid.point(i, j1)));
+    const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid.point(i0, j), grid.point(i1, j)) >
+                                                             distance(grid.point(i, j0), grid.point(i, j1)));
     if (along_u) {
       group(grid, {i0, i, j0, j1});
       group(grid, {i, i1, j0, j1});
