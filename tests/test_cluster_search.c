@@ -223,6 +223,31 @@ static void masked_nodes_are_left_out(void **state) {
   riis_surface_destroy(&surface);
 }
 
+/* A node alone, so that nothing but what is allowed for single precision makes its box large: the limit is its distance, or a bit less. */
+static void nodes_at_the_limit_are_found(void **state) {
+  (void)state;
+  riis_surface_options options = surface_options();
+  options.half_thickness = 1e-4;
+  options.tolerance = 1;
+  for (int c = 0; c < 3; ++c) options.translation[c] = random_between(&rng, -3, 3);
+  riis_surface *surface = valve_surface("aortic", options);
+  int n_tried = 0;
+  for (int i = 0; i < 300; ++i) {
+    point_near(surface, power_of_ten(-3, 0.5), xyz);
+    const double distance = closest_to(surface, xyz[0], xyz[1], xyz[2]).distance;
+    if (distance <= options.half_thickness * 1.01) continue;
+    most_within = 0;
+    check(surface, 1, xyz, distance);
+    assert_int_equal(most_within, 1);
+    most_within = 0;
+    check(surface, 1, xyz, nextafter(distance, 0));
+    assert_int_equal(most_within, 0);
+    ++n_tried;
+  }
+  assert_true(n_tried > 200);
+  riis_surface_destroy(&surface);
+}
+
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
 
 /* A sphere about the origin, (2 n) times n quads, two triangles each but at the poles. */
@@ -654,6 +679,7 @@ int main(void) {
       cmocka_unit_test(nodes_that_differ_by_next_to_nothing),
       cmocka_unit_test(graded_and_anisotropic_meshes),
       cmocka_unit_test(masked_nodes_are_left_out),
+      cmocka_unit_test(nodes_at_the_limit_are_found),
       cmocka_unit_test(more_pairs_than_room),
       cmocka_unit_test(surfaces_from_arrays),
       cmocka_unit_test(needles_that_are_lines_in_the_frame),
