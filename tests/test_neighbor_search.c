@@ -1056,7 +1056,7 @@ static void a_steady_step_allocates_nothing(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.09, 0.2);
   for (int wide = 0; wide < 2; ++wide)
-    for (int32_t search = RIIS_SEARCH_EXHAUSTIVE; search <= RIIS_SEARCH_PAPER; ++search) {
+    for (int32_t search = RIIS_SEARCH_EXHAUSTIVE; search <= RIIS_SEARCH_CLUSTERS; ++search) {
       riis_mesh *mesh = mesh_from(&nodes);
       riis_mark_result *result = new_result();
       riis_mark_options options = mark_options();

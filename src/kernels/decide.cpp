@@ -217,6 +217,7 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const double *first, 
     for (int i = 0; i < 3; ++i) along[i] = i == (__builtin_fabs(across[0]) < 0.6 ? 0 : 1);
     take_across_away();
   }
+  take_across_away();  // what rounding left of it, which is much where the edge is nearly across the triangles
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     axis[0][i] = static_cast<float>(across[i]);
@@ -277,7 +278,10 @@ void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
     const Doubles::Mask steep = magnitude(e.unit.x) < Doubles::all(0.6);
     const Doubles3 any_other = {choose(steep, one, zero), choose(steep, zero, one), zero};
-    const Doubles3 roughly = direction(across(ac), direction(across(any_other), {zero, zero, one}).unit).unit;
+    // Where rounding has left nothing of the triangle's height, what is across e is noise, and may be along e again.
+    const Doubles3 over = across(ac), other = direction(across(any_other), {zero, zero, one}).unit;
+    const Doubles::Mask has_height = dot(over, over) > Doubles::all(0x1p-88) * dot(ac, ac);
+    const Doubles3 roughly = choose(has_height, direction(over, other).unit, other);
     const Doubles3 f = direction(across(roughly), {zero, zero, one}).unit;
     const Doubles c_e = dot(ac, e.unit), c_f = dot(ac, f);
     const Direction along_ac = direction({c_e, c_f, zero}, {one, zero, zero});

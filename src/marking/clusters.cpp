@@ -194,7 +194,7 @@ void frame_nodes(const StridedPoints &nodes, int n_threads, Clusters &clusters) 
   const Vec3 extent = 0.5 * all.upper - 0.5 * all.lower;
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
-  clusters.scale = std::ldexp(1.0, -exponent);
+  clusters.scale = std::ldexp(1.0, -std::max(exponent, -1000));  // of denormal extents it would be infinite
 }
 
 void put_box(const Box &box, Boxes &boxes, std::int64_t at) {
@@ -224,16 +224,18 @@ Boxes no_boxes() {
 
 std::int64_t n_of(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
 
-// Fills leaves by item_of(position), which says node and coordinates in the mesh's frame; then the boxes.
+// Fills leaves by item_of(position), which says node and coordinates in the mesh's frame; then the boxes. Clusters of no nodes stay that
+// if there is no memory.
 template <class ItemOf>
-void fill(Clusters &clusters, int n_threads, const ItemOf &item_of) {
-  const auto n_leaves = static_cast<std::size_t>(n_of(clusters.n_nodes, nodes_per_leaf));
-  const auto n_clusters = static_cast<std::size_t>(n_of(clusters.n_nodes, nodes_per_cluster));
+void fill(std::int64_t n_nodes, Clusters &clusters, int n_threads, const ItemOf &item_of) {
+  const auto n_leaves = static_cast<std::size_t>(n_of(n_nodes, nodes_per_leaf));
+  const auto n_clusters = static_cast<std::size_t>(n_of(n_nodes, nodes_per_cluster));
   clusters.leaves.resize(n_leaves);
   clusters.clusters.resize(n_clusters);
   clusters.regions.resize(
       static_cast<std::size_t>(n_of(static_cast<std::int64_t>(n_clusters), Clusters::clusters_per_region)));
   clusters.boxes.resize(clusters.regions.size());
+  clusters.n_nodes = n_nodes;
   parallel_for(static_cast<std::int64_t>(clusters.regions.size()), n_threads, [&](std::int64_t r, int) {
     Boxes &region = clusters.regions[static_cast<std::size_t>(r)];
     region = no_boxes();
@@ -294,14 +296,13 @@ void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clu
   });
   Sorter sorter(std::move(items), n_threads);
   const std::vector<Item> &sorted = sorter.sort();
-  clusters.n_nodes = nodes.n;
-  fill(clusters, n_threads, [&](std::int64_t i) { return sorted[static_cast<std::size_t>(i)]; });
+  fill(nodes.n, clusters, n_threads, [&](std::int64_t i) { return sorted[static_cast<std::size_t>(i)]; });
 }
 
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
   frame_nodes(nodes, n_threads, clusters);
   const std::vector<Leaf> &leaves = clusters.leaves;
-  fill(clusters, n_threads, [&](std::int64_t i) {
+  fill(nodes.n, clusters, n_threads, [&](std::int64_t i) {
     const Leaf &leaf = leaves[static_cast<std::size_t>(i / nodes_per_leaf)];
     return item_at(nodes, clusters, leaf.node[i % nodes_per_leaf]);
   });

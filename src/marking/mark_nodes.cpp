@@ -12,8 +12,8 @@ namespace {
 
 // The clusters, once they pay for themselves; a single marking asks the nodes one by one.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
-  if (asked_for == RIIS_SEARCH_AUTO)
-    asked_for = request.mesh.pays_for_clusters() ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+  const bool pays = request.mesh.pays_for_clusters();
+  if (asked_for == RIIS_SEARCH_AUTO) asked_for = pays ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   if (asked_for == RIIS_SEARCH_CLUSTERS && !can_search_clusters(request)) return RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
   if (walks && !request.mesh.adjacency().has_value())

@@ -47,6 +47,19 @@ void Collection::prepare(int n_threads) {
 void Collection::Clustered::prepare(int n_threads) {
   const auto n = static_cast<std::size_t>(n_threads);
   if (threads.size() < n) threads.resize(n);
+  // As above.
+  const auto make_room = [this](auto member) {
+    std::size_t largest = 0;
+    for (const Thread &thread : threads) largest = std::max(largest, (thread.*member).capacity());
+    for (Thread &thread : threads) (thread.*member).reserve(largest);
+  };
+  make_room(&Thread::candidates);
+  make_room(&Thread::bits);
+  make_room(&Thread::items);
+  make_room(&Thread::near_groups);
+  make_room(&Thread::leaf_bits);
+  make_room(&Thread::leaf_groups);
+  make_room(&Thread::lower_bounds);
   for (Thread &thread : threads) {
     thread.items.clear();
     thread.near_groups.clear();

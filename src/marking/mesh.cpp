@@ -34,6 +34,7 @@ const Clusters &Mesh::clusters(int n_threads) const {
       sort_into_clusters(nodes_, n_threads, clusters_);
     else
       place_clusters(nodes_, n_threads, clusters_);
+    was_marked_.store(true, std::memory_order_relaxed);
     has_clusters_.store(true, std::memory_order_release);
   }
   return clusters_;

@@ -37,10 +37,8 @@ class Mesh {
   // The same in clusters, for at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
 
-  // Counts a marking of these nodes; true if it is not the first, or if clusters are there already: then they pay.
-  bool pays_for_clusters() const {
-    return has_clusters_.load(std::memory_order_relaxed) || was_marked_.exchange(true, std::memory_order_relaxed);
-  }
+  // Counts a marking of these nodes; true if it is not the first, or if clusters were made before: then they pay.
+  bool pays_for_clusters() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
  private:
   StridedPoints nodes_;

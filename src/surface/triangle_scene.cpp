@@ -124,8 +124,19 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   return true;
 }
 
+struct Collected {
+  std::vector<std::int32_t> &groups;
+  bool is_out_of_memory;
+};
+
+// Embree swallows exceptions.
 bool add_group(RTCPointQueryFunctionArguments *arguments) {
-  static_cast<std::vector<std::int32_t> *>(arguments->userPtr)->push_back(static_cast<std::int32_t>(arguments->primID));
+  auto &collected = *static_cast<Collected *>(arguments->userPtr);
+  try {
+    collected.groups.push_back(static_cast<std::int32_t>(arguments->primID));
+  } catch (const std::bad_alloc &) {
+    collected.is_out_of_memory = true;
+  }
   return false;
 }
 
@@ -221,7 +232,9 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
       radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &found);
+  Collected collected{found, false};
+  rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &collected);
+  if (collected.is_out_of_memory) throw std::bad_alloc();
 }
 
 }  // namespace riis

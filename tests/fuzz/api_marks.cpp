@@ -114,13 +114,18 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   EXPECT(stats.n_nodes == mesh.nodes->n && stats.n_marked == static_cast<std::int64_t>(marked.size()) &&
              stats.n_within_limit == static_cast<std::int64_t>(within.size()) && stats.n_queries >= 0 &&
              stats.seconds >= 0 && stats.n_threads >= 1 && stats.n_unreached >= 0 &&
-             stats.n_unreached <= stats.n_within_limit && stats.reserved == 0,
+             stats.n_unreached <= stats.n_within_limit && stats.instructions >= RIIS_INSTRUCTIONS_BASELINE &&
+             stats.instructions <= RIIS_INSTRUCTIONS_AVX512 &&
+             (options.instructions == RIIS_INSTRUCTIONS_AUTO || options.instructions == stats.instructions),
          "%lld marked", static_cast<long long>(stats.n_marked));
   EXPECT(options.n_threads == 0 || stats.n_threads <= options.n_threads, "%d threads of %d", stats.n_threads,
          options.n_threads);
   const bool is_of_paper = options.search == RIIS_SEARCH_PAPER;
-  EXPECT(stats.search == (options.search == RIIS_SEARCH_AUTO ? RIIS_SEARCH_EXHAUSTIVE : options.search), "%d",
-         stats.search);
+  // Where clusters cannot be used the exhaustive search runs.
+  const bool may_be_clusters = options.search == RIIS_SEARCH_AUTO || options.search == RIIS_SEARCH_CLUSTERS;
+  EXPECT(may_be_clusters ? stats.search == RIIS_SEARCH_EXHAUSTIVE || stats.search == RIIS_SEARCH_CLUSTERS
+                         : stats.search == options.search,
+         "%d", stats.search);
   EXPECT(stats.complete == (is_of_paper ? 0 : 1), "search %d, complete %d", options.search, stats.complete);
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
 
@@ -155,8 +160,10 @@ void mark(Input &in, State &state) {
   const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
   const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
   riis_mark_options options = initialised(in, riis_mark_options_init);
-  static const std::int32_t searches[] = {2, 1, 2, 0, 3, 2, 1, 2, 3, 2, 2, 4, -1};
+  static const std::int32_t searches[] = {2, 1, 4, 0, 3, 4, 1, 2, 4, 0, 4, 5, -1};
   options.search = in.one_of(searches);
+  static const std::int32_t instructions[] = {0, 0, 0, 0, 1, 1, 2, 3, 4, -1};
+  options.instructions = in.one_of(instructions);
   options.n_threads = in.n_threads();
   riis_surface_info info{};
   if (surface.is_right) EXPECT_OK(riis_surface_get_info(surface.handle, &info, sizeof info));
@@ -181,8 +188,8 @@ void mark(Input &in, State &state) {
     return;
   }
   if (by_default) EXPECT_OK(riis_mark_options_init(&options, sizeof options));
-  EXPECT(options.search <= RIIS_SEARCH_EXHAUSTIVE || mesh_slot.adjacency, "search %d without an adjacency",
-         options.search);
+  const bool walks = options.search == RIIS_SEARCH_NEIGHBOR || options.search == RIIS_SEARCH_PAPER;
+  EXPECT(!walks || mesh_slot.adjacency, "search %d without an adjacency", options.search);
   slot.distance_limit = options.distance_limit == RIIS_AUTO ? info.half_thickness : options.distance_limit;
   check_marking(in, surface.handle, mesh_slot, options, slot);
 }

@@ -113,6 +113,17 @@ void move_mesh(Input &in, State &state) {
   slot.was_told = true;
 }
 
+void prepare_mesh(Input &in, State &state) {
+  const MeshSlot &slot = slot_of(in, state);
+  const Given<riis_mesh> mesh = given(in, state, State::mesh, slot.handle);
+  const std::int32_t n_threads = in.n_threads();
+  const riis_status status = call(in, [&] { return riis_mesh_prepare(mesh.handle, n_threads); });
+  if (!mesh.is_right || n_threads < 0 || n_threads > 1024)
+    EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  else
+    EXPECT(status == RIIS_OK || (status == RIIS_INVALID_MESH && !slot.was_told), "%d: %s", status, riis_last_error());
+}
+
 void give_rows(Input &in, State &state) {
   MeshSlot &slot = slot_of(in, state);
   const Given<riis_mesh> mesh = given(in, state, State::mesh, slot.handle);

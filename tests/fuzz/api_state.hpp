@@ -97,6 +97,7 @@ void ask_closest_point(Input &in, State &state);
 void ask_closest_points(Input &in, State &state);
 void make_mesh(Input &in, State &state);
 void move_mesh(Input &in, State &state);
+void prepare_mesh(Input &in, State &state);
 void give_rows(Input &in, State &state);
 void give_adjacency(Input &in, State &state);
 void make_adjacency_of_cells(Input &in, State &state);

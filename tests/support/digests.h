@@ -64,7 +64,7 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
   riis_surface *surface = aortic_surface(&coarse);
   riis_mark_options options = mark_options();
   options.n_threads = 1;
-  for (int32_t search = RIIS_SEARCH_EXHAUSTIVE; search <= RIIS_SEARCH_PAPER; ++search) {
+  for (int32_t search = RIIS_SEARCH_EXHAUSTIVE; search <= RIIS_SEARCH_CLUSTERS; ++search) {
     riis_mark_result *result = new_result();
     options.search = search;
     const riis_status status = riis_mark_nodes(surface, mesh, &options, result);

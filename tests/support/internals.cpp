@@ -274,8 +274,12 @@ int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t 
     const Vec3 p = vec(points + 3 * i);
     ClosestTriangle expected = closest_by_brute_force(set, p);
     if (!(std::sqrt(expected.distance_sq) <= limit)) expected = {std::numeric_limits<double>::infinity(), -1};
-    const ClosestTriangle got = scene.closest(p, limit);
-    n_different += got.triangle != expected.triangle || got.distance_sq != expected.distance_sq;
+    for (int k = 0; k < n_instruction_sets; ++k) {
+      const auto instructions = static_cast<InstructionSet>(k);
+      if (!has(instructions)) continue;
+      const ClosestTriangle got = scene.closest(p, limit, instructions);
+      n_different += got.triangle != expected.triangle || got.distance_sq != expected.distance_sq;
+    }
   }
   return n_different;
 }

@@ -80,10 +80,49 @@ riis_status bounded_quads(const char *kind, int n_parameters, const char *const 
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
 /* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the
- * closest triangle to each point; returns for how many points squared distance (bits) or triangle differ. Points beyond
- * the limit must give none. */
+ * closest triangle to each point, by every instruction set that there is; returns how often squared distance (bits) or
+ * triangle differ. Points beyond the limit must give none. */
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
+
+/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512. */
+enum { n_kernel_sets = 3 };
+int kernels_there(int set);
+const char *kernels_name(int set);
+
+/* Squares of distances of pairs of a point and a triangle, by their positions; room for n + 7 is wanted in distance_sq. */
+void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
+                    const double *corners, double *distance_sq);
+
+/* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
+typedef struct kernel_group kernel_group;
+kernel_group *kernels_group(int set, int n, const double *corners);
+void kernels_group_free(kernel_group *group);
+/* Single precision's squares of the distances of a point to its 16 lanes. */
+void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
+
+/* What the library allows for: points scaled by a ratio, moved by a shift, up to a reach from the surface. */
+double kernels_error(double ratio, double shift, double reach);
+
+/* What a search does with up to 32 nodes (3, n_nodes) of the mesh's frame and groups that they are near to, with a limit in the
+ * surface's frame. */
+typedef struct kernel_pair {
+  int32_t node, triangle; /* 16 * group + position in it */
+} kernel_pair;
+typedef struct kernel_filter {
+  double ratio, shift[3], limit;
+  uint32_t wanted; /* a bit a node */
+  int n_groups;
+  const kernel_group *const *groups;
+  int n_nodes;
+  const float *nodes;
+} kernel_filter;
+/* All pairs that the filter leaves with room for so many at a time; *n_calls is how often it took that. The pairs are to be freed. */
+int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
+/* Squares of the first bounds: from below by groups, lower_sq(32, n_groups), and from above, upper_sq(32). */
+void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq);
+/* A bit for each of up to 16 boxes of one node each that a group may be near to, near(n_groups). Returns what the kernel does. */
+int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
 
 /* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory",
  * std::bad_alloc; "standard", another standard exception, "boom"; "other", an int; "worker", an Error thrown by a

@@ -214,6 +214,7 @@ static riis_status update_mesh(world *w) {
   const test_mesh *to = &fewer_nodes;
   return riis_mesh_update(w->mesh, to->n, to->xyz, to->xyz + 1, to->xyz + 2, 3);
 }
+static riis_status prepare(world *w) { return riis_mesh_prepare(w->mesh, w->scenario->n_threads); }
 static riis_status set_adjacency(world *w) {
   const riis_csr csr = csr_of(&nodes);
   return riis_mesh_set_adjacency(w->mesh, &csr);
@@ -336,8 +337,9 @@ static void destroy(world *w) {
 
 #define ALL_SEARCHES(name, make, call, n_threads, flags)                         \
   {name ", exhaustive", make, call, n_threads, RIIS_SEARCH_EXHAUSTIVE, flags},   \
-      {name ", neighbor", make, call, n_threads, RIIS_SEARCH_NEIGHBOR, flags}, { \
-    name ", paper", make, call, n_threads, RIIS_SEARCH_PAPER, flags              \
+      {name ", neighbor", make, call, n_threads, RIIS_SEARCH_NEIGHBOR, flags},   \
+      {name ", paper", make, call, n_threads, RIIS_SEARCH_PAPER, flags}, {       \
+    name ", clusters", make, call, n_threads, RIIS_SEARCH_CLUSTERS, flags        \
   }
 
 static void nothing(world *w) { (void)w; }
@@ -366,6 +368,8 @@ static const scenario scenarios[] = {
     {"closest points, 4 threads", aortic_made, closest_points, 4, 0, 0},
     {"mesh", nothing, make_mesh, 0, 0, 0},
     {"mesh update", mesh_made, update_mesh, 0, 0, ALLOCATES_NONE},
+    {"mesh preparation, 1 thread", mesh_made, prepare, 1, 0, 0},
+    {"mesh preparation, 4 threads", mesh_made, prepare, 4, 0, 0},
     {"mesh adjacency", mesh_made, set_adjacency, 0, 0, ALLOCATES_NONE},
     {"adjacency from grid, 1 thread", nothing, from_grid, 1, 0, 0},
     {"adjacency from grid, 4 threads", nothing, from_grid, 4, 0, ON_WORKERS},
@@ -383,6 +387,8 @@ static const scenario scenarios[] = {
     ALL_SEARCHES("larger mesh, 4 threads", marked_little, mark, 4, 0),
     {"marking again", marked_often, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
     {"marking of nodes that moved", marked_and_moved, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
+    {"marking again by clusters", marked_often, mark, 1, RIIS_SEARCH_CLUSTERS, ALLOCATES_NONE},
+    {"marking of nodes that moved, by clusters", marked_and_moved, mark, 1, RIIS_SEARCH_CLUSTERS, 0},
     {"dense arrays, 1 thread", marked_before, dense, 1, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
     {"dense arrays, 4 threads", marked_before, dense, 4, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
 };

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/kernels.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "internals.h"
+#include "surface/triangle_groups.hpp"
+
+using namespace riis;
+
+static_assert(n_kernel_sets == n_instruction_sets);
+
+struct kernel_group {
+  TriangleGroup group;
+  GroupBounds bounds;
+};
+
+namespace {
+
+const Kernels &of(int set) { return kernels(static_cast<InstructionSet>(set)); }
+
+// As cluster_search.cpp makes it.
+struct Filter {
+  std::vector<TriangleGroup> groups;
+  std::vector<GroupBounds> bounds;
+  std::vector<std::int32_t> near_groups;
+  std::vector<Leaf> lower_bounds;  // for its alignment
+  Leaf leaf;
+  FilterTask task;
+  LeafTask of_leaf;
+
+  explicit Filter(const kernel_filter &filter) : lower_bounds(static_cast<std::size_t>(filter.n_groups)) {
+    for (int i = 0; i < filter.n_groups; ++i) {
+      groups.push_back(filter.groups[i]->group);
+      bounds.push_back(filter.groups[i]->bounds);
+      for (int k = 0; k < bounds.back().n; ++k) bounds.back().triangle[k] = triangles_per_group * i + k;
+      near_groups.push_back(i);
+    }
+    for (int i = 0; i < nodes_per_leaf; ++i) {
+      const int node = std::min(i, filter.n_nodes - 1);
+      leaf.x[i] = filter.nodes[3 * node], leaf.y[i] = filter.nodes[3 * node + 1],
+      leaf.z[i] = filter.nodes[3 * node + 2];
+      leaf.node[i] = static_cast<std::uint32_t>(node);
+    }
+    double shift = 0;
+    for (int i = 0; i < 3; ++i) {
+      shift = std::max(shift, std::abs(filter.shift[i]));
+      task.shift[i] = static_cast<float>(filter.shift[i]);
+    }
+    const double error = filter_error(filter.ratio, shift, filter.limit), reach = filter.limit + 2 * error;
+    task.ratio = static_cast<float>(filter.ratio);
+    task.reach_sq = static_cast<float>(reach * reach);
+    task.tolerance = static_cast<float>(8 * error * reach);
+    task.margin = static_cast<float>(0.5 * error);
+    task.groups = groups.data();
+    task.bounds = bounds.data();
+    of_leaf.leaf = &leaf;
+    of_leaf.first_node = 0;
+    of_leaf.wanted = filter.wanted;
+    of_leaf.near_groups = near_groups.data();
+    of_leaf.n_groups = filter.n_groups;
+    of_leaf.lower_bounds = lower_bounds.data()->x;
+    of_leaf.next_group = 0;
+    of_leaf.rest = 0;
+  }
+};
+
+constexpr std::int32_t untouched = -77;
+
+}  // namespace
+
+extern "C" {
+
+int kernels_there(int set) { return has(static_cast<InstructionSet>(set)); }
+
+const char *kernels_name(int set) {
+  static const char *const names[] = {"baseline", "AVX2", "AVX-512"};
+  return names[set];
+}
+
+void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
+                    const double *corners, double *distance_sq) {
+  of(set).decide(n, point, triangle, points, corners, distance_sq);
+}
+
+kernel_group *kernels_group(int set, int n, const double *corners) {
+  auto *group = new kernel_group{};
+  group->bounds.n = n;
+  of(set).make_group(corners, group->group, group->bounds);
+  return group;
+}
+
+void kernels_group_free(kernel_group *group) { delete group; }
+
+void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin,
+                             float *distance_sq) {
+  of(set).group_distances(group->group, point, static_cast<float>(margin), distance_sq);
+}
+
+double kernels_error(double ratio, double shift, double reach) { return filter_error(ratio, shift, reach); }
+
+int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls) {
+  Filter of_filter(*filter);
+  std::vector<kernel_pair> found;
+  const auto size = static_cast<std::size_t>(room) + 16;
+  for (*n_calls = 0; *n_calls == 0 || of_filter.of_leaf.next_group < filter->n_groups; ++*n_calls) {
+    std::vector<std::int32_t> node(size + 16, untouched), triangle(size + 16, untouched);
+    std::vector<float> distance_sq(size + 16, untouched);
+    const std::int32_t n = of(set).filter_leaf(of_filter.task, of_filter.of_leaf,
+                                               {node.data(), triangle.data(), distance_sq.data()}, room);
+    std::uint32_t nodes = 0;
+    bool is_right = n <= room;
+    for (std::size_t i = 0; is_right && i < static_cast<std::size_t>(n); ++i) {
+      nodes |= 1u << node[i];
+      found.push_back({node[i], triangle[i]});
+    }
+    for (std::size_t i = size; i < node.size(); ++i)
+      is_right = is_right && node[i] == untouched && triangle[i] == untouched && distance_sq[i] == untouched;
+    if (!is_right || nodes != of_filter.of_leaf.found) return -1;
+  }
+  *pairs = static_cast<kernel_pair *>(std::malloc((found.size() + 1) * sizeof(kernel_pair)));
+  std::copy(found.begin(), found.end(), *pairs);
+  return static_cast<int64_t>(found.size());
+}
+
+void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq) {
+  Filter of_filter(*filter);
+  of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {nullptr, nullptr, nullptr}, 0);
+  for (int k = 0; k < filter->n_groups; ++k)
+    std::copy_n(of_filter.of_leaf.lower_bounds + nodes_per_leaf * k, nodes_per_leaf,
+                lower_sq + nodes_per_leaf * of_filter.near_groups[static_cast<std::size_t>(k)]);
+  std::copy_n(of_filter.of_leaf.best, nodes_per_leaf, upper_sq);
+}
+
+int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near) {
+  const Filter of_filter(*filter);
+  Boxes boxes;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 16; ++k) {
+      boxes.lower[i][k] = k < filter->n_nodes ? filter->nodes[3 * k + i] : __builtin_inff();
+      boxes.upper[i][k] = k < filter->n_nodes ? filter->nodes[3 * k + i] : -__builtin_inff();
+    }
+  return of(set).near_boxes(of_filter.task, boxes, of_filter.near_groups.data(), filter->n_groups, near);
+}
+}

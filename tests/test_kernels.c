@@ -1,0 +1,439 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The kernels, compiled for several instruction sets: decisions have the bits of the scalar kernel, single precision is off by no more
+ * than the library allows for (docs/theory.md, section 8), and no pair that matters is left out, however little room there is. */
+#include "internals.h"
+#include "test_support.h"
+
+static random_source rng;
+
+static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
+static double power_of_ten(double from, double to) { return pow(10, random_between(&rng, from, to)); }
+static void random_point(double size, double *p) {
+  for (int c = 0; c < 3; ++c) p[c] = size * random_between(&rng, -1, 1);
+}
+static void random_direction(double *v) {
+  double length;
+  do {
+    random_point(1, v);
+    length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  } while (length < 0.1 || length > 1);
+  for (int c = 0; c < 3; ++c) v[c] /= length;
+}
+static void cross(const double *a, const double *b, double *c) {
+  for (int i = 0; i < 3; ++i) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+/* Unit vectors at right angles. */
+static void random_frame(double (*axis)[3]) {
+  double other[3], length = 0;
+  random_direction(axis[0]);
+  do {
+    random_direction(other);
+    cross(axis[0], other, axis[1]);
+    length = sqrt(axis[1][0] * axis[1][0] + axis[1][1] * axis[1][1] + axis[1][2] * axis[1][2]);
+  } while (length < 0.1);
+  for (int c = 0; c < 3; ++c) axis[1][c] /= length;
+  cross(axis[0], axis[1], axis[2]);
+}
+static void place(const double *origin, double (*axis)[3], double e, double f, double g, double *p) {
+  for (int c = 0; c < 3; ++c) p[c] = origin[c] + e * axis[0][c] + f * axis[1][c] + g * axis[2][c];
+}
+static double largest_of(const double *x, int n) {
+  double largest = 0;
+  for (int i = 0; i < n; ++i) largest = fmax(largest, fabs(x[i]));
+  return largest;
+}
+
+/* In the surface's frame, coordinates at most 1: any, needles of heights down to 1e-12 of their length and all angles at their tips, tiny
+ * ones, ones that corners coincide of. As a (first, second, third) or in another order. */
+enum { n_kinds = 6 };
+static void random_triangle(int kind, double *abc) {
+  double q[3][3], axis[3][3], origin[3];
+  const double size = kind == 3 ? power_of_ten(-60, -1) : power_of_ten(-2, -0.5),
+               height = kind == 1 || kind == 2 ? power_of_ten(-12, 0) : random_between(&rng, 0.1, 1);
+  random_frame(axis);
+  random_point(0.4, origin);
+  if (kind == 0)
+    for (int i = 0; i < 3; ++i) random_point(1, q[i]);
+  else {
+    /* Its third corner above an end of the first edge, far beyond it, or anywhere. */
+    const double along = kind == 2   ? random_between(&rng, 0, 1)
+                         : kind == 1 ? (double)(random_bits(&rng) % 2)
+                                     : random_between(&rng, -1, 2);
+    place(origin, axis, 0, 0, 0, q[0]);
+    place(origin, axis, size, 0, 0, q[1]);
+    place(origin, axis, size * along, size * height, 0, q[2]);
+    if (kind == 4) memcpy(q[random_bits(&rng) % 3], q[random_bits(&rng) % 3], sizeof q[0]);
+    if (kind == 5) /* a lattice's, axis by axis, where distances tie */
+      for (int i = 0; i < 9; ++i) q[i / 3][i % 3] = (double)((int)(random_bits(&rng) % 5) - 2) / 4;
+  }
+  const int first = (int)(random_bits(&rng) % 3), turn = random_bits(&rng) & 1 ? 1 : 2;
+  for (int i = 0; i < 3; ++i) memcpy(abc + 3 * i, q[(first + turn * i) % 3], sizeof q[0]);
+}
+
+/* Near a triangle: on it or off it by a power of ten, over corners, edges, inside, beyond its tips, and anywhere. */
+static void random_point_near(const double *abc, double reach, double *p) {
+  const int kind = (int)(random_bits(&rng) % 8), from = (int)(random_bits(&rng) % 3), to = (from + 1) % 3;
+  double offset[3], w[3] = {0, 0, 0};
+  if (kind == 0) {
+    random_point(1, p);
+    return;
+  }
+  random_direction(offset);
+  if (kind <= 2) w[from] = 1;
+  if (kind == 3 || kind == 4) w[from] = random_between(&rng, 0, 1), w[to] = 1 - w[from];
+  if (kind == 5 || kind == 6) {
+    w[0] = random_between(&rng, 0, 1), w[1] = random_between(&rng, 0, 1) * (1 - w[0]), w[2] = 1 - w[0] - w[1];
+    double ab[3], ac[3], n[3];
+    for (int c = 0; c < 3; ++c) ab[c] = abc[3 + c] - abc[c], ac[c] = abc[6 + c] - abc[c];
+    cross(ab, ac, n);
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (length > 1e-100)
+      for (int c = 0; c < 3; ++c) offset[c] = n[c] / length;
+  }
+  if (kind == 7) { /* in its plane, beyond a tip, along the middle of its edges there */
+    const double beyond = power_of_ten(-6, 0.5);
+    w[from] = 1 + 2 * beyond, w[to] = w[(from + 2) % 3] = -beyond;
+  }
+  const double off = (random_bits(&rng) % 4 == 0 || kind == 7) ? 0 : reach * sign() * power_of_ten(-9, 0);
+  for (int c = 0; c < 3; ++c) p[c] = w[0] * abc[c] + w[1] * abc[3 + c] + w[2] * abc[6 + c] + off * offset[c];
+}
+
+/* --- Decisions ------------------------------------------------------------------------------------------------------- */
+
+static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
+  (void)state;
+  enum { n_triangles = 64, n_points = 200, max_pairs = 600 };
+  static double corners[9 * n_triangles], points[3 * n_points], decided[max_pairs + 7], expected[max_pairs];
+  static int32_t point[max_pairs], triangle[max_pairs];
+  int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    /* In other units and far from the origin, too, where coordinates round. */
+    const double unit = trial % 3 ? 1 : power_of_ten(-50, 50), far = trial % 2 ? 0 : power_of_ten(0, 9);
+    double origin[3];
+    random_point(far, origin);
+    for (int i = 0; i < n_triangles; ++i) random_triangle(trial % 7 == 0 ? 5 : i % n_kinds, corners + 9 * i);
+    for (int i = 0; i < n_points; ++i)
+      random_point_near(corners + 9 * (random_bits(&rng) % n_triangles), i % 20 ? 1 : 1e6, points + 3 * i);
+    for (int i = 0; i < 9 * n_triangles; ++i) corners[i] = unit * (corners[i] + origin[i % 3]);
+    for (int i = 0; i < 3 * n_points; ++i) points[i] = unit * (points[i] + origin[i % 3]);
+    const int32_t n = 1 + (int32_t)(random_bits(&rng) % max_pairs);
+    for (int32_t i = 0; i < n; ++i) {
+      double on[3], weight[3];
+      point[i] = (int32_t)(random_bits(&rng) % n_points);
+      triangle[i] = (int32_t)(random_bits(&rng) % n_triangles);
+      expected[i] = kernel_point_triangle(points + 3 * point[i], corners + 9 * triangle[i], on, weight);
+      const int n_zero = (weight[0] == 0) + (weight[1] == 0) + (weight[2] == 0);
+      n_inside += n_zero == 0, n_edge += n_zero == 1, n_corner += n_zero == 2;
+    }
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      memset(decided, 0x77, sizeof decided);
+      kernels_decide(set, n, point, triangle, points, corners, decided);
+      for (int32_t i = 0; i < n; ++i)
+        if (memcmp(decided + i, expected + i, sizeof expected[0]) != 0)
+          fail_msg("%s, trial %d, pair %d: %.17g instead of %.17g", kernels_name(set), trial, i, decided[i],
+                   expected[i]);
+      n_compared += n;
+    }
+  }
+  printf("%lld decisions; %lld pairs inside, %lld at edges, %lld at corners\n", (long long)n_compared,
+         (long long)n_inside, (long long)n_edge, (long long)n_corner);
+  assert_true(n_compared > 100000 && n_inside > 5000 && n_edge > 5000 && n_corner > 5000);
+}
+
+/* --- Single precision ------------------------------------------------------------------------------------------------ */
+
+/* A point of the mesh's frame, as it is stored, and where it really is in the surface's. */
+typedef struct framed {
+  double ratio, shift[3], largest_shift;
+} framed;
+
+static framed random_framed(void) {
+  framed f = {ldexp(1, (int)(random_bits(&rng) % 9) - 4), {0, 0, 0}, 0};
+  if (random_bits(&rng) % 16 == 0) f.ratio = ldexp(1, (int)(random_bits(&rng) % 30) - 20);
+  random_point(f.ratio + 0.5, f.shift);
+  f.largest_shift = largest_of(f.shift, 3);
+  return f;
+}
+
+/* What the mesh stores for a point p of the surface's frame; 0 if it is not in the mesh. p becomes the point that was rounded, where an
+ * exact sum goes by. */
+static int store(const framed *f, const double *p, float *stored, float *as_float) {
+  for (int c = 0; c < 3; ++c) {
+    const double x = (p[c] - f->shift[c]) / f->ratio;
+    if (!(fabs(x) <= 1)) return 0;
+    stored[c] = (float)x;
+    as_float[c] = stored[c] * (float)f->ratio + (float)f->shift[c];
+  }
+  return 1;
+}
+
+/* Filtered distances against decided ones: how much of what is allowed for they use. What is said to be nearer than it is goes wrong in
+ * another way than what is said to be farther, which the margin makes most of. */
+static void single_precision_is_right_to_its_error(void **state) {
+  (void)state;
+  enum { n_lanes = 16 };
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set)) continue;
+    double nearer = 0, farther = 0;
+    int64_t n_compared = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+      double corners[9 * n_lanes], decided[n_lanes + 7];
+      float filtered[n_lanes];
+      const int n = 1 + (int)(random_bits(&rng) % n_lanes);
+      for (int i = 0; i < n; ++i) random_triangle((int)(random_bits(&rng) % n_kinds), corners + 9 * i);
+      kernel_group *group = kernels_group(set, n, corners);
+      const framed f = random_framed();
+      const double limit = power_of_ten(-3, 1);
+      for (int k = 0; k < 8; ++k) {
+        double p[3];
+        float stored[3], as_float[3];
+        random_point_near(corners + 9 * (random_bits(&rng) % (uint64_t)n), limit, p);
+        if (!store(&f, p, stored, as_float)) continue;
+        const double error = kernels_error(f.ratio, f.largest_shift, limit);
+        static const int32_t zeros[n_lanes];
+        int32_t triangle[n_lanes];
+        for (int i = 0; i < n_lanes; ++i) triangle[i] = i < n ? i : 0;
+        kernels_decide(set, n_lanes, zeros, triangle, p, corners, decided);
+        kernels_group_distances(set, group, as_float, 0.5 * error, filtered);
+        for (int i = 0; i < n_lanes; ++i) {
+          const double distance = sqrt(decided[i]);
+          if (!(distance <= limit)) continue;
+          const double share = (sqrt(filtered[i]) - distance) / error;
+          if (!(fabs(share) <= 1))
+            fail_msg("%s: filtered %.9g, decided %.17g, error allowed for %.9g", kernels_name(set), sqrt(filtered[i]),
+                     distance, error);
+          if (i >= n) continue;
+          nearer = fmax(nearer, -share), farther = fmax(farther, share);
+          ++n_compared;
+        }
+      }
+      kernels_group_free(group);
+    }
+    printf("%s: %lld distances, nearer by %.3f of the error at most, farther by %.3f\n", kernels_name(set),
+           (long long)n_compared, nearer, farther);
+    assert_true(n_compared > 100000);
+    /* The proof's E2 is at most half of the error. */
+    CHECK_AT_MOST(nearer, 0.5);
+    /* It does come near the margin: a smaller one than the library's would be seen above. */
+    CHECK_AT_MOST(0.4, farther);
+  }
+}
+
+/* --- A leaf and its groups ------------------------------------------------------------------------------------------- */
+
+typedef struct leaf_case {
+  enum { max_groups = 24, max_nodes = 32 } sizes;
+  int n_groups, n_nodes, n[max_groups];
+  double corners[max_groups][9 * 16], points[3 * max_nodes];
+  float nodes[3 * max_nodes];
+  kernel_group *groups[max_groups];
+  kernel_filter filter;
+  double error;
+} leaf_case;
+
+/* Triangles whose first has an edge across the others, which are level: what a group's axes are chosen by goes nearly to nothing. */
+static void first_edge_across(int n, double *corners) {
+  double axis[3][3], origin[3];
+  random_frame(axis);
+  random_point(0.2, origin);
+  const double height = power_of_ten(-12, -9);
+  place(origin, axis, 0, 0, 0, corners);
+  place(origin, axis, 0, 0, 0.7, corners + 3);
+  place(origin, axis, 0, height, 0.7, corners + 6);
+  for (int i = 1; i < n; ++i) {
+    double *abc = corners + 9 * i;
+    const double e = random_between(&rng, -0.4, 0.4), f = random_between(&rng, -0.4, 0.4),
+                 g = random_between(&rng, -0.4, 0.4);
+    place(origin, axis, e, f, g, abc);
+    place(origin, axis, e + 0.3, f, g, abc + 3);
+    place(origin, axis, e, f + 0.3, g, abc + 6);
+  }
+}
+
+/* Small ones, as far from the middle as each other. */
+static void on_a_sphere(int n, double *corners) {
+  for (int i = 0; i < n; ++i) {
+    double axis[3][3];
+    const double origin[3] = {0, 0, 0};
+    random_frame(axis);
+    place(origin, axis, 0.5, 0, 0, corners + 9 * i);
+    place(origin, axis, 0.5, 1e-4, 0, corners + 9 * i + 3);
+    place(origin, axis, 0.5, 0, 1e-4, corners + 9 * i + 6);
+  }
+}
+
+enum { with_edge_across, with_ties, all_near, any_at_all, n_cases };
+static void make_case(int set, int trial, leaf_case *c) {
+  memset(c, 0, sizeof *c);
+  const int what = trial % n_cases;
+  framed f = random_framed();
+  f.ratio = fmax(f.ratio, 0x1p-4);
+  const double limit = what == all_near ? 1 : power_of_ten(-4, 0.5), spread = what == with_ties  ? 1
+                                                                              : what == all_near ? 1e-6
+                                                                                                 : power_of_ten(-3, 0);
+  double centre[3];
+  c->n_groups = 1 + (int)(random_bits(&rng) % max_groups);
+  for (int g = 0; g < c->n_groups; ++g) {
+    c->n[g] = 1 + (int)(random_bits(&rng) % 16);
+    if (what == with_edge_across) first_edge_across(c->n[g], c->corners[g]);
+    if (what == all_near) on_a_sphere(c->n[g], c->corners[g]);
+    for (int i = 0; i < c->n[g] && (what == with_ties || what == any_at_all); ++i)
+      random_triangle(what == with_ties ? 5 : (int)(random_bits(&rng) % n_kinds), c->corners[g] + 9 * i);
+    c->groups[g] = kernels_group(set, c->n[g], c->corners[g]);
+  }
+  random_point_near(c->corners[0], limit, centre);
+  if (what == all_near) memset(centre, 0, sizeof centre);
+  const int wanted = 1 + (int)(random_bits(&rng) % max_nodes);
+  for (int tries = 0; tries < 1000 && c->n_nodes < wanted; ++tries) {
+    double *p = c->points + 3 * c->n_nodes;
+    float as_float[3];
+    random_point(spread, p);
+    for (int i = 0; i < 3; ++i)
+      p[i] = what == with_ties ? (double)((int)(random_bits(&rng) % 9) - 4) / 8 : p[i] + centre[i];
+    if (store(&f, p, c->nodes + 3 * c->n_nodes, as_float)) ++c->n_nodes;
+  }
+  const uint32_t there = c->n_nodes == 32 ? UINT32_MAX : (UINT32_C(1) << c->n_nodes) - 1;
+  c->filter = (kernel_filter){f.ratio,     {f.shift[0], f.shift[1], f.shift[2]},   limit,      there,
+                              c->n_groups, (const kernel_group *const *)c->groups, c->n_nodes, c->nodes};
+  if (trial % 3 == 0) c->filter.wanted &= (uint32_t)random_bits(&rng);
+  c->error = kernels_error(f.ratio, f.largest_shift, limit);
+}
+
+static void free_case(leaf_case *c) {
+  for (int g = 0; g < c->n_groups; ++g) kernels_group_free(c->groups[g]);
+}
+
+static double decided_sq(const leaf_case *c, int node, int triangle) {
+  double on[3], weight[3];
+  return kernel_point_triangle(c->points + 3 * node, c->corners[triangle / 16] + 9 * (triangle % 16), on, weight);
+}
+
+static void first_bounds_and_boxes_lose_nothing(void **state) {
+  (void)state;
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set)) continue;
+    double below = -1, above = -1;
+    int64_t n_near = 0, n_far = 0, n_cleared = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+      static leaf_case c;
+      static float lower_sq[32 * max_groups], upper_sq[32];
+      uint16_t near[max_groups];
+      make_case(set, trial, &c);
+      if (c.n_nodes == 0) {
+        free_case(&c);
+        continue;
+      }
+      c.filter.wanted = UINT32_MAX;
+      kernels_first_bounds(set, &c.filter, lower_sq, upper_sq);
+      kernel_filter boxes = c.filter;
+      if (boxes.n_nodes > 16) boxes.n_nodes = 16;
+      const int any_near = kernels_near_boxes(set, &boxes, near);
+      int expect_near = 0;
+      for (int node = 0; node < c.n_nodes; ++node) {
+        double nearest = INFINITY;
+        for (int g = 0; g < c.n_groups; ++g) {
+          double distance = INFINITY;
+          for (int i = 0; i < c.n[g]; ++i) distance = fmin(distance, sqrt(decided_sq(&c, node, 16 * g + i)));
+          nearest = fmin(nearest, distance);
+          if (node < 16 && !(near[g] >> node & 1)) {
+            ++n_cleared;
+            if (distance <= c.filter.limit) fail_msg("%s, trial %d: a near box is left out", kernels_name(set), trial);
+          }
+          if (node < 16) expect_near |= near[g] >> node & 1;
+          if (!(distance <= c.filter.limit)) {
+            ++n_far;
+            continue;
+          }
+          ++n_near;
+          const double share = (sqrt(lower_sq[32 * g + node]) - distance) / c.error;
+          below = fmax(below, share);
+          if (!(share <= 1))
+            fail_msg("%s, trial %d: a bound from below of %.9g, the distance is %.17g", kernels_name(set), trial,
+                     sqrt(lower_sq[32 * g + node]), distance);
+        }
+        if (!(nearest <= c.filter.limit)) continue;
+        const double share = (nearest - sqrt(upper_sq[node])) / c.error;
+        above = fmax(above, share);
+        if (!(share <= 1))
+          fail_msg("%s, trial %d: a bound from above of %.9g, the distance is %.17g", kernels_name(set), trial,
+                   sqrt(upper_sq[node]), nearest);
+      }
+      assert_int_equal(any_near, expect_near);
+      free_case(&c);
+    }
+    printf(
+        "%s: %lld near nodes and groups, %lld far, %lld of boxes left out; bounds are wrong by %.3f and %.3f of the "
+        "error\n",
+        kernels_name(set), (long long)n_near, (long long)n_far, (long long)n_cleared, below, above);
+    assert_true(n_near > 10000 && n_cleared > 10000);
+  }
+}
+
+/* The closest triangles of every node within the limit, all of them where they tie, are among the pairs: with room for all at once, and
+ * with so little that the filter stops and goes on. */
+static void no_pair_that_matters_is_lost(void **state) {
+  (void)state;
+  static const int32_t rooms[] = {100000, 32, 33, 47, 200};
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set)) continue;
+    int64_t n_closest = 0, n_ties = 0, n_left = 0, n_all = 0, n_resumed = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+      static leaf_case c;
+      make_case(set, trial, &c);
+      for (size_t k = 0; c.n_nodes > 0 && k < sizeof rooms / sizeof rooms[0]; ++k) {
+        static uint8_t has[32][16 * max_groups];
+        kernel_pair *pairs;
+        int64_t n_calls;
+        const int64_t n = kernels_filter(set, &c.filter, rooms[k], &pairs, &n_calls);
+        if (n < 0)
+          fail_msg("%s, trial %d: writes beyond its room, or names other nodes than it has pairs of", kernels_name(set),
+                   trial);
+        n_resumed += n_calls > 1;
+        if (k == 0) assert_int_equal(n_calls, 1);
+        memset(has, 0, sizeof has);
+        for (int64_t i = 0; i < n; ++i) {
+          if (!(c.filter.wanted >> pairs[i].node & 1)) fail_msg("a pair of a node that is not wanted");
+          if (has[pairs[i].node][pairs[i].triangle]++) fail_msg("%s, trial %d: a pair twice", kernels_name(set), trial);
+        }
+        n_left += n;
+        for (int node = 0; node < c.n_nodes; ++node) {
+          if (!(c.filter.wanted >> node & 1)) continue;
+          double smallest = INFINITY;
+          static double sq[16 * max_groups];
+          for (int g = 0; g < c.n_groups; ++g)
+            for (int i = 0; i < c.n[g]; ++i, ++n_all)
+              smallest = fmin(smallest, sq[16 * g + i] = decided_sq(&c, node, 16 * g + i));
+          if (!(sqrt(smallest) <= c.filter.limit)) continue;
+          int64_t n_of_node = 0;
+          for (int g = 0; g < c.n_groups; ++g)
+            for (int i = 0; i < c.n[g]; ++i) {
+              if (sq[16 * g + i] != smallest) continue;
+              ++n_of_node;
+              if (!has[node][16 * g + i])
+                fail_msg("%s, trial %d, room %d: a closest triangle of node %d, at %.17g, is lost", kernels_name(set),
+                         trial, rooms[k], node, sqrt(smallest));
+            }
+          ++n_closest, n_ties += n_of_node > 1;
+        }
+        free(pairs);
+      }
+      free_case(&c);
+    }
+    printf("%s: %lld nodes, %lld of them with ties; %lld of %lld pairs are left; went on %lld times\n",
+           kernels_name(set), (long long)n_closest, (long long)n_ties, (long long)n_left, (long long)n_all,
+           (long long)n_resumed);
+    assert_true(n_closest > 10000 && n_ties > 1000 && n_resumed > 500 && n_left < n_all);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
+      cmocka_unit_test(single_precision_is_right_to_its_error),
+      cmocka_unit_test(first_bounds_and_boxes_lose_nothing),
+      cmocka_unit_test(no_pair_that_matters_is_lost),
+  };
+  rng = random_start("test_kernels");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
