@@ -6,9 +6,6 @@
 namespace riis {
 namespace {
 
-constexpr int halves = nodes_per_leaf / 16;
-constexpr int n_together = 2;  // nodes that are compared with a group at a time
-
 struct Floats3 {
   Floats x, y, z;
 };
@@ -25,20 +22,17 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
   return greatest(greatest(from - x, x - to), Floats::all(0));
 }
 
-// Squares of distances of points to triangles, n registers of them: either the points, or the triangles, are the same in all lanes.
-// number(x) is x of the triangle, or of the sixteen. Everything is a distance to a point of the triangle, to rounding: inside means
-// inside by a margin; next to the edges the nearest edge is as near, to that margin.
-template <int n, class Number>
-RIIS_INLINE void distances(const TriangleGroup &group, const Number &number, const Floats3 (&p)[n], Floats margin,
-                           Floats (&distance_sq)[n]) {
+// Squares of the distances of n points to sixteen triangles: points together, so that a triangle's numbers are loaded once. Everything
+// is a distance to a point of the triangle, to rounding: inside means inside by a margin; next to the edges the nearest edge is as
+// near, to that margin.
+template <int n>
+RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
+                                    Floats (&distances)[n]) {
   const Floats zero = Floats::all(0);
   Floats e[n], f[n], g[n], in_plane[n];
   const auto beyond = [&](Floats along, Floats end) RIIS_LAMBDA { return along - least(greatest(along, zero), end); };
-  const auto vector = [&](const float(*of)[16]) RIIS_LAMBDA {
-    return Floats3{number(of[0]), number(of[1]), number(of[2])};
-  };
   {
-    const Floats3 a = vector(group.a), unit_e = vector(group.e), unit_f = vector(group.f), unit_g = vector(group.g);
+    const Floats3 a = load(group.a), unit_e = load(group.e), unit_f = load(group.f), unit_g = load(group.g);
     for (int i = 0; i < n; ++i) {
       const Floats3 r = p[i] - a;
       e[i] = dot(r, unit_e);
@@ -46,9 +40,9 @@ RIIS_INLINE void distances(const TriangleGroup &group, const Number &number, con
       g[i] = dot(r, unit_g);
     }
   }
-  const Floats ab = number(group.ab), ac = number(group.ac), bc = number(group.bc);
-  const Floats ac_e = number(group.ac_e), ac_f = number(group.ac_f);
-  const Floats bc_e = number(group.bc_e), bc_f = number(group.bc_f);
+  const Floats ab = Floats::load(group.ab), ac = Floats::load(group.ac), bc = Floats::load(group.bc);
+  const Floats ac_e = Floats::load(group.ac_e), ac_f = Floats::load(group.ac_f);
+  const Floats bc_e = Floats::load(group.bc_e), bc_f = Floats::load(group.bc_f);
   for (int i = 0; i < n; ++i) {
     const Floats past_ab = beyond(e[i], ab);
     in_plane[i] = multiply_add(past_ab, past_ab, f[i] * f[i]);
@@ -63,24 +57,8 @@ RIIS_INLINE void distances(const TriangleGroup &group, const Number &number, con
     in_plane[i] = least(in_plane[i], multiply_add(past_bc, past_bc, inside_bc * inside_bc));
 
     in_plane[i] = zero_where_at_least(least(least(f[i], inside_ac), inside_bc), margin, in_plane[i]);
-    distance_sq[i] = multiply_add(g[i], g[i], in_plane[i]);
+    distances[i] = multiply_add(g[i], g[i], in_plane[i]);
   }
-}
-
-// Of n points, each in all lanes, to the sixteen triangles of a group.
-template <int n>
-RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
-                                    Floats (&distance_sq)[n]) {
-  distances(
-      group, [](const float *of) RIIS_LAMBDA { return Floats::load(of); }, p, margin, distance_sq);
-}
-
-// Of n registers of points to one triangle of a group.
-template <int n>
-RIIS_INLINE void distances_to_triangle(const TriangleGroup &group, int lane, const Floats3 (&p)[n], Floats margin,
-                                       Floats (&distance_sq)[n]) {
-  distances(
-      group, [lane](const float *of) RIIS_LAMBDA { return Floats::all(of[lane]); }, p, margin, distance_sq);
 }
 
 bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
@@ -107,90 +85,10 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// A triangle that is near to a leaf.
-struct Near {
-  int32_t group, lane;
-};
+constexpr int halves = nodes_per_leaf / 16, n_together = 2;
 
-// From the leaf's centre: no node of it has a closest triangle, within the limit, that is farther from there than the nearest and twice
-// the leaf's radius, or than the limit and its radius. Keeps the groups that have nearer ones, the nearest first, and their triangles as
-// far as there is room; returns how many these are, more than the room if they are more.
-RIIS_INLINE int32_t look_from_centre(const FilterTask &task, LeafTask &leaf, Near *near) {
-  const Floats3 centre[1] = {all(leaf.centre)};
-  const Floats margin = Floats::all(task.margin);
-  float *from_centre = leaf.lower_bounds;  // for now
-  Floats least_sq = Floats::all(__builtin_inff());
-  for (int32_t k = 0; k < leaf.n_groups; ++k) {
-    Floats distance_sq[1];
-    distances_to_group(task.groups[leaf.near_groups[k]], centre, margin, distance_sq);
-    distance_sq[0].store(from_centre + triangles_per_group * k);
-    least_sq = least(least_sq, distance_sq[0]);
-  }
-  const float nearest = __builtin_sqrtf(least_lane(least_sq)) + leaf.radius;
-  const float keep =
-      (nearest < task.reach ? nearest : task.reach) + leaf.radius + 4 * task.error + 0x1p-16f * leaf.radius;
-  const Floats keep_sq = Floats::all(keep * keep);
-  int32_t n_near = 0, n_kept = 0;
-  float nearest_sq = __builtin_inff();
-  for (int32_t k = 0; k < leaf.n_groups; ++k) {
-    const int32_t group = leaf.near_groups[k];
-    const Floats distance_sq = Floats::load(from_centre + triangles_per_group * k);
-    uint32_t lanes = bits_at_most(distance_sq, keep_sq) & ((1u << task.bounds[group].n) - 1);
-    if (!lanes) continue;
-    leaf.near_groups[n_kept] = group;
-    const float of_group = least_lane(distance_sq);
-    if (of_group < nearest_sq) {
-      nearest_sq = of_group;
-      leaf.near_groups[n_kept] = leaf.near_groups[0];
-      leaf.near_groups[0] = group;
-    }
-    ++n_kept;
-    const int32_t n = __builtin_popcount(lanes);
-    if (n_near + n <= max_leaf_triangles)
-      for (; lanes; lanes &= lanes - 1) near[n_near++] = {group, __builtin_ctz(lanes)};
-    else
-      n_near = max_leaf_triangles + 1;
-  }
-  leaf.n_groups = n_kept;
-  return n_near;
-}
-
-// All nodes of the leaf, in lanes, with each of a few triangles.
-RIIS_INLINE int32_t compare_all(const FilterTask &task, LeafTask &leaf, const Floats3 (&p)[halves], const Near *near,
-                                int32_t n_near, const Pairs &pairs) {
-  alignas(64) float distance_sq[max_leaf_triangles][nodes_per_leaf];
-  const Floats margin = Floats::all(task.margin);
-  Floats best[halves];
-  for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);
-  for (int32_t i = 0; i < n_near; ++i) {
-    Floats to_triangle[halves];
-    distances_to_triangle(task.groups[near[i].group], near[i].lane, p, margin, to_triangle);
-    for (int h = 0; h < halves; ++h) {
-      to_triangle[h].store(distance_sq[i] + 16 * h);
-      best[h] = least(best[h], to_triangle[h]);
-    }
-  }
-  for (int h = 0; h < halves; ++h) best[h] = best[h] + Floats::all(task.tolerance);
-  int32_t nodes[nodes_per_leaf];
-  for (int i = 0; i < nodes_per_leaf; ++i) nodes[i] = leaf.first_node + i;
-  int32_t n = 0;
-  leaf.found = 0;
-  for (int32_t i = 0; i < n_near; ++i)
-    for (int h = 0; h < halves; ++h) {
-      const uint32_t close =
-          bits_at_most(Floats::load(distance_sq[i] + 16 * h), best[h]) & leaf.wanted >> 16 * h & 0xffff;
-      if (!close) continue;
-      compress(close, nodes + 16 * h, pairs.node + n);
-      fill(task.bounds[near[i].group].triangle[near[i].lane], pairs.triangle + n);
-      n += __builtin_popcount(close);
-      leaf.found |= close << 16 * h;
-    }
-  leaf.next_group = leaf.n_groups;
-  return n;
-}
-
-// For every group a lower bound of the nodes' distance to it; the nearest corner of the groups is an upper bound of their distance to
-// the surface.
+// The nodes of a leaf in the surface's frame, and for every group a lower bound of their distance to it; the nearest corner of the
+// groups is an upper bound of their distance to the surface.
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats3 *p) {
   Floats best[halves];
   for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);
@@ -209,6 +107,33 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats
     }
   }
   for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
+}
+
+RIIS_INLINE void swap_groups(const LeafTask &leaf, int32_t i, int32_t k) {
+  const int32_t group = leaf.near_groups[i];
+  leaf.near_groups[i] = leaf.near_groups[k];
+  leaf.near_groups[k] = group;
+  for (int h = 0; h < halves; ++h) {
+    float *a = leaf.lower_bounds + nodes_per_leaf * i + 16 * h, *b = leaf.lower_bounds + nodes_per_leaf * k + 16 * h;
+    const Floats of_a = Floats::load(a);
+    Floats::load(b).store(a);
+    of_a.store(b);
+  }
+}
+
+// The groups that are nearest to the leaf as a whole to the front: what is near is found before what need not be looked at then.
+RIIS_INLINE void nearest_first(const LeafTask &leaf) {
+  constexpr int32_t n_first = 4;
+  for (int32_t i = 0; i < n_first && i + 1 < leaf.n_groups; ++i) {
+    int32_t nearest = i;
+    float least_sum = __builtin_inff();
+    for (int32_t k = i; k < leaf.n_groups; ++k) {
+      const float *bounds = leaf.lower_bounds + nodes_per_leaf * k;
+      const float sum = sum_of_lanes(Floats::load(bounds) + Floats::load(bounds + 16));
+      if (sum < least_sum) least_sum = sum, nearest = k;
+    }
+    if (nearest != i) swap_groups(leaf, i, nearest);
+  }
 }
 
 RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, int32_t k) {
@@ -235,10 +160,8 @@ int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, 
   int32_t k = leaf.next_group;
   uint32_t rest = leaf.rest;
   if (k == 0 && rest == 0) {
-    Near near[max_leaf_triangles];
-    const int32_t n_near = look_from_centre(task, leaf, near);
-    if (n_near <= max_leaf_triangles) return compare_all(task, leaf, p, near, n_near, pairs);
     begin_leaf(task, leaf, p);
+    nearest_first(leaf);
     rest = leaf.n_groups > 0 ? nodes_near(task, leaf, 0) : 0;
   }
   const Floats margin = Floats::all(task.margin);

@@ -49,8 +49,6 @@ struct FilterTask {
   float reach_sq;   // of the limit and the error
   float tolerance;  // squares of distances that differ by no more may be of equal distances
   float margin;     // a point is inside a triangle if it is inside by this
-  float reach;      // the limit and twice the error
-  float error;      // of distances, up to the limit
   const TriangleGroup *groups;
   const GroupBounds *bounds;
 };
@@ -58,10 +56,9 @@ struct FilterTask {
 // One leaf and the groups it may be near to; filtered in pieces where there are more pairs than room.
 struct LeafTask {
   const Leaf *leaf;
-  int32_t first_node;       // its place in the cluster
-  uint32_t wanted;          // a bit a node
-  float centre[3], radius;  // a ball around its nodes, in the surface's frame
-  int32_t *near_groups;     // in any order; left in another, and fewer
+  int32_t first_node;    // its place in the cluster
+  uint32_t wanted;       // a bit a node
+  int32_t *near_groups;  // in any order; left in another
   int32_t n_groups;
   float *lower_bounds;  // room for nodes_per_leaf * n_groups, aligned
   int32_t next_group;   // 0 at first; n_groups when done
@@ -76,16 +73,12 @@ struct Pairs {
   float *distance_sq;
 };
 
-// Of a leaf that is near to no more triangles than this all nodes are compared with each.
-constexpr int max_leaf_triangles = 32;
-constexpr int32_t room_to_begin = max_leaf_triangles * nodes_per_leaf;
-
 struct Kernels {
   // For every candidate group the boxes that it is within reach of: a bit a box. False if there is none at all.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Writes pairs of a node and a triangle such that for every node within the limit its closest triangles are among them; returns how
-  // many, at most room. Begins, for which room_to_begin is needed, or goes on where it stopped for want of room.
+  // many, at most room. Begins, or goes on where it stopped for want of room: 32 are enough to go on.
   int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, int32_t room);
   // Squares of the distances, in single precision, of a point (in the surface's frame) to the triangles of a group.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);

@@ -232,5 +232,17 @@ RIIS_INLINE float least_lane(Floats a) {
 #endif
 }
 
+RIIS_INLINE float sum_of_lanes(Floats a) {
+#if defined(__AVX512F__)
+  return _mm512_reduce_add_ps((__m512)a.part[0]);
+#else
+  FloatRegister m = a.part[0];
+  for (int i = 1; i < Floats::n_registers; ++i) m = m + a.part[i];
+  float r = m[0];
+  for (int i = 1; i < Floats::per_register; ++i) r += m[i];
+  return r;
+#endif
+}
+
 }  // namespace
 }  // namespace riis

@@ -49,8 +49,6 @@ class ClusterSearch {
     task_.shift[2] = static_cast<float>(placing.shift.z);
     task_.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
     task_.tolerance = static_cast<float>(8 * error * (limit + 2 * error));
-    task_.reach = reach_;
-    task_.error = static_cast<float>(error);
     task_.margin = static_cast<float>(0.5 * error);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
@@ -173,20 +171,6 @@ class ClusterSearch {
     }
   }
 
-  // Around the leaf's box.
-  void place_ball(std::int64_t number, std::int64_t first_leaf, LeafTask &task) const {
-    const Boxes &boxes = clusters_.clusters[static_cast<std::size_t>(number / leaves_per_cluster)];
-    const std::int64_t at = number - first_leaf;
-    float sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      const float from = boxes.lower[i][at] * task_.ratio + task_.shift[i],
-                  to = boxes.upper[i][at] * task_.ratio + task_.shift[i];
-      task.centre[i] = 0.5f * (from + to);
-      sum += (to - from) * (to - from);
-    }
-    task.radius = 0.5f * std::sqrt(sum);
-  }
-
   static void prefetch(const Leaf &leaf) {
     constexpr std::size_t line = 64;
     for (std::size_t at = 0; at < sizeof leaf; at += line)
@@ -203,14 +187,13 @@ class ClusterSearch {
     if (request_.node_mask)
       for (int lane = 0; lane < n_nodes; ++lane)
         if (!request_.node_mask[leaf.node[lane]]) task.wanted &= ~(1u << lane);
-    place_ball(number, first_leaf, task);
     task.near_groups = own.leaf_groups.data();
     task.n_groups = static_cast<std::int32_t>(own.leaf_groups.size());
     task.lower_bounds = own.room_for_bounds(own.leaf_groups.size());
     task.next_group = 0;
     task.rest = 0;
     while (task.next_group < task.n_groups) {
-      constexpr std::int32_t room = Clustered::room_for_pairs, enough = room_to_begin;
+      constexpr std::int32_t room = Clustered::room_for_pairs, enough = 512;
       if (room - undecided.n_pairs < enough) decide(first_leaf, own, undecided);
       const std::int32_t n = undecided.n_pairs;
       undecided.n_pairs += kernels_.filter_leaf(
