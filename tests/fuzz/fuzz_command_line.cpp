@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis-mark's command line: each line of the input is an argument. No file is opened. What is asked for with --set is set.
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 

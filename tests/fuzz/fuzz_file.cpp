@@ -4,6 +4,8 @@
 #include <riis/riis_vtk.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "expect.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis-mark's JSON files: each input is read as a valve of patches and as parameters of either kind of valve. What is not refused
 // with an exit status and a text is a valve, whose parameters, printed, read back as they were.
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 
 #include "cli/json_file.hpp"
