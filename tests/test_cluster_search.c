@@ -317,7 +317,7 @@ static void surfaces_from_arrays(void **state) {
     const int64_t n_triangles = 1 + (int64_t)(random_bits(&rng) % max_triangles);
     const double unit = trial % 3 ? 1 : power_of_ten(-45, 45), far = trial % 2   ? 0
                                                                      : trial % 4 ? 300
-                                                                                 : power_of_ten(0, 6);
+                                                                                 : power_of_ten(0, 13);
     double origin[3];
     for (int c = 0; c < 3; ++c) origin[c] = far * random_between(&rng, -1, 1);
     for (int64_t i = 0; i < n_triangles; ++i) {
