@@ -521,7 +521,8 @@ RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 /* How nodes are sought. */
 enum {
   RIIS_SEARCH_AUTO = 0,       /* the library's choice, never incomplete: clusters from the second marking of a mesh on, or once it is
-                                 prepared; the exhaustive search for the first, which would not pay for them */
+                                 prepared; the exhaustive search for the first, which would not pay for them, and for limits
+                                 of more than half the surface's extent */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* every node is asked (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* from marked nodes to their neighbours (paper, algorithm "Recursive neighbor search"), started from
                                  the nodes that the result last had, or in every group of nodes that the surface may be near to;

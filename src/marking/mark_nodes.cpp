@@ -10,10 +10,18 @@
 namespace riis {
 namespace {
 
+// False for a limit so wide that most triangles are near to most nodes, which clusters do not help with.
+bool has_few_near(const SearchRequest &request) {
+  const Bounds &bounds = request.surface.scene().bounds();
+  const Vec3 extent = bounds.upper - bounds.lower;
+  return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
+}
+
 // The clusters, once they pay for themselves; a single marking asks the nodes one by one.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const bool pays = request.mesh.pays_for_clusters();
-  if (asked_for == RIIS_SEARCH_AUTO) asked_for = pays ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+  if (asked_for == RIIS_SEARCH_AUTO)
+    asked_for = pays && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   if (asked_for == RIIS_SEARCH_CLUSTERS && !can_search_clusters(request)) return RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
   if (walks && !request.mesh.adjacency().has_value())

@@ -111,7 +111,10 @@ struct Collection {
       std::vector<std::int32_t> near_groups;  // of clusters
       std::vector<std::uint16_t> leaf_bits;   // and which leaves each is near to
       std::vector<std::int32_t> leaf_groups;
-      std::vector<Leaf> lower_bounds;  // only for its alignment
+      struct alignas(64) NodeBounds {
+        float of_node[nodes_per_leaf];
+      };
+      std::vector<NodeBounds> lower_bounds;  // of a leaf's nodes, for each of its groups
       std::vector<std::int32_t> pair_nodes, pair_triangles;
       std::vector<float> pair_filtered;      // squares of distances, in single
       std::vector<double> pair_decided;      // and in double precision
@@ -121,7 +124,7 @@ struct Collection {
 
       float *room_for_bounds(std::size_t n_groups) {
         if (lower_bounds.size() < n_groups) lower_bounds.resize(n_groups + n_groups / 2);
-        return lower_bounds.data()->x;
+        return lower_bounds.data()->of_node;
       }
     };
     std::vector<Thread> threads;

@@ -34,8 +34,8 @@ class TriangleScene {
 
   const TriangleGroups &groups() const;
 
-  // Adds to `found` at least the groups whose bounds are within a radius of a point, both in the groups' frame. The radius is below
-  // 4e6, the point's coordinates below 1e6.
+  // Adds to `found` at least the groups whose bounds are within a radius of a point, both in the groups' frame. The radius and
+  // the point's coordinates are below 4e6.
   void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
 
   // How far a distance, as it is computed, may be off, beyond what is in proportion to it and to p: the triangles' coordinates round.
