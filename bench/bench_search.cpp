@@ -121,6 +121,7 @@ void mark_repeatedly(benchmark::State &state, std::int32_t search) {
   count(state, result.get());
 }
 
+void search_clusters(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_CLUSTERS); }
 void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_EXHAUSTIVE); }
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
@@ -272,6 +273,7 @@ void of_every_mesh(benchmark::internal::Benchmark *benchmark) { with(benchmark, 
 void of_the_smallest(benchmark::internal::Benchmark *benchmark) { with(benchmark, {{0, 1}, {100}, {1}}); }
 
 BENCHMARK(search_exhaustive)->Apply(of_every_size);
+BENCHMARK(search_clusters)->Apply(of_every_size);
 BENCHMARK(search_neighbor_cold)->Apply(of_every_size);
 BENCHMARK(search_neighbor_warm)->Apply(of_every_size);
 BENCHMARK(search_paper)->Apply(of_every_size);
