@@ -287,8 +287,8 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
  * counted here: triangles whose distance is no more than what single precision may be off by beyond the smallest. */
 static void more_pairs_than_room(void **state) {
   (void)state;
-  enum { n = 150, room = 4096 };
-  riis_surface *surface = sphere(80, 0.9, 0.1);
+  enum { n = 40, room = 4096 };
+  riis_surface *surface = sphere(40, 0.9, 0.1);
   const surface_content all = surface_content_of(surface);
   const double middle[3] = {0, 0, 0}, error = 0x1p-18 * 5, smallest = closest_to(surface, 0, 0, 0).distance;
   int64_t n_equal = 0;
