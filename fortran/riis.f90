@@ -51,7 +51,8 @@ module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
-  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, riis_last_error, &
+  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, riis_c_text_length, &
+    riis_last_error, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
@@ -110,17 +111,56 @@ module riis
 
 contains
 
+  ! A pure function may say how long a result is, and may call none that is not declared pure.
+  pure function error_length() result(length)
+    integer :: length
+    interface
+      pure function last_error() result(text) bind(c, name='riis_last_error')
+        import :: c_ptr
+        implicit none
+        type(c_ptr) :: text
+      end function last_error
+    end interface
+    length = riis_c_text_length(last_error())
+  end function error_length
+
+  pure function name_length(status) result(length)
+    integer(riis_status), intent(in) :: status
+    integer :: length
+    interface
+      pure function status_name_of(status) result(text) bind(c, name='riis_status_name')
+        import :: c_ptr, riis_status
+        implicit none
+        integer(riis_status), value :: status
+        type(c_ptr) :: text
+      end function status_name_of
+    end interface
+    length = riis_c_text_length(status_name_of(status))
+  end function name_length
+
+  pure function version_length() result(length)
+    integer :: length
+    interface
+      pure function version_text() result(text) bind(c, name='riis_version_string')
+        import :: c_ptr
+        implicit none
+        type(c_ptr) :: text
+      end function version_text
+    end interface
+    length = riis_c_text_length(version_text())
+  end function version_length
+
   !> The text of the calling thread's last error: what was wrong, naming the argument and its value. '' if there was none. A
   !! call that succeeds leaves it alone.
   function riis_error_message() result(text)
-    character(len=:), allocatable :: text                   !< A copy.
+    character(len=error_length()) :: text                   !< A copy.
     text = riis_c_text(riis_last_error())
   end function riis_error_message
 
   !> The status's own name, such as 'RIIS_INVALID_ARGUMENT'; 'unknown status' for a value that is none.
   function status_name(status) result(name)
     integer(riis_status), intent(in) :: status              !< Any.
-    character(len=:), allocatable :: name                   !< A copy.
+    character(len=name_length(status)) :: name              !< A copy.
     name = riis_c_text(c_status_name(status))
   end function status_name
 
@@ -134,7 +174,7 @@ contains
 
   !> The version of the library that was linked, '0.1.0'.
   function version_string() result(text)
-    character(len=:), allocatable :: text                   !< A copy.
+    character(len=version_length()) :: text                 !< A copy.
     text = riis_c_text(c_version_string())
   end function version_string
 

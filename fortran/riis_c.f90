@@ -796,19 +796,26 @@ contains
     c_text = trim(text) // c_null_char
   end function riis_c_string
 
+  !> The length of a text of the library, 0 if there is none. Functions that return texts say their lengths by this, not as deferred:
+  !! for those gfortran keeps the length where all threads share it.
+  pure function riis_c_text_length(c_text) result(length)
+    type(c_ptr), intent(in) :: c_text
+    integer :: length
+    length = 0
+    if (c_associated(c_text)) length = int(c_strlen(c_text))
+  end function riis_c_text_length
+
   !> A copy of a text of the library's; '' for c_null_ptr.
   function riis_c_text(c_text) result(text)
     type(c_ptr), intent(in) :: c_text
-    character(len=:), allocatable :: text
+    character(len=riis_c_text_length(c_text)) :: text
     character(kind=c_char), pointer :: letters(:)
-    integer :: i, length
-    length = 0
-    if (c_associated(c_text)) length = int(c_strlen(c_text))
-    allocate (character(len=length) :: text)
-    if (length == 0) return
-    call c_f_pointer(c_text, letters, [length])
-    do i = 1, length
+    integer :: i
+    if (len(text) == 0) return
+    call c_f_pointer(c_text, letters, [len(text)])
+    do i = 1, len(text)
       text(i:i) = letters(i)
     end do
   end function riis_c_text
+
 end module riis_c

@@ -262,19 +262,38 @@ contains
     end select
   end subroutine get_int64
 
+  ! Of a number as text, its sign included.
+  pure function n_letters(number) result(n)
+    integer(int64), intent(in) :: number
+    integer :: n
+    integer(int64) :: rest
+    n = merge(2, 1, number < 0)
+    rest = number / 10
+    do while (rest /= 0)
+      n = n + 1
+      rest = rest / 10
+    end do
+  end function n_letters
+
   !> As text_of.
   function text_of_int64(number) result(text)
     integer(int64), intent(in) :: number                    !< Any.
-    character(len=:), allocatable :: text                   !< Its digits.
-    character(len=24) :: digits
-    write (digits, '(i0)') number
-    text = trim(digits)
+    character(len=n_letters(number)) :: text                !< Its digits.
+    integer(int64) :: rest
+    integer :: i
+    rest = number
+    do i = len(text), 1, -1
+      text(i:i) = achar(iachar('0') + int(abs(mod(rest, 10_int64))))
+      rest = rest / 10
+    end do
+    if (number < 0) text(1:1) = '-'
   end function text_of_int64
 
   !> As text_of.
   function text_of_int32(number) result(text)
     integer(int32), intent(in) :: number                    !< Any.
-    character(len=:), allocatable :: text                   !< Its digits.
+    character(len=n_letters(int(number, int64))) :: text    !< Its digits.
     text = text_of_int64(int(number, int64))
   end function text_of_int32
+
 end module riis_support
