@@ -124,7 +124,7 @@ class Builder {
 
   // Halves quads along their longer side until their triangles are a group.
   void group(const QuadGrid &grid, const Quads &quads) {
-    const auto [i0, i1, j0, j1] = quads;
+    const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
     const std::size_t n_u = grid.u.size() - 1;
     // Quads of a row follow each other, and so do their triangles.
     const auto triangles_of_row = [&](std::size_t j) {
