@@ -85,7 +85,7 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-constexpr int halves = nodes_per_leaf / 16, n_together = 2;
+constexpr int halves = nodes_per_leaf / 16;
 
 // The nodes of a leaf in the surface's frame, and for every group a lower bound of their distance to it; the nearest corner of the
 // groups is an upper bound of their distance to the surface.
@@ -121,7 +121,7 @@ RIIS_INLINE void swap_groups(const LeafTask &leaf, int32_t i, int32_t k) {
   }
 }
 
-// The groups that are nearest to the leaf as a whole to the front: what is near is found before what need not be looked at then.
+// The groups that are nearest to two of the leaf's nodes to the front: what is near is found before what need not be looked at then.
 RIIS_INLINE void nearest_first(const LeafTask &leaf) {
   constexpr int32_t n_first = 4;
   for (int32_t i = 0; i < n_first && i + 1 < leaf.n_groups; ++i) {
@@ -129,7 +129,7 @@ RIIS_INLINE void nearest_first(const LeafTask &leaf) {
     float least_sum = __builtin_inff();
     for (int32_t k = i; k < leaf.n_groups; ++k) {
       const float *bounds = leaf.lower_bounds + nodes_per_leaf * k;
-      const float sum = sum_of_lanes(Floats::load(bounds) + Floats::load(bounds + 16));
+      const float sum = bounds[nodes_per_leaf / 3] + bounds[2 * nodes_per_leaf / 3];
       if (sum < least_sum) least_sum = sum, nearest = k;
     }
     if (nearest != i) swap_groups(leaf, i, nearest);
@@ -145,17 +145,65 @@ RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, in
   return near & leaf.wanted;
 }
 
-int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, int32_t room) {
+// A node and the triangles of a group that were close to it when it was compared with them.
+struct Close {
+  float nearest_sq;
+  int32_t group;  // of the leaf's
+  uint32_t triangles;
+  int32_t lane;
+};
+
+// Four nodes of the rest, or as many as there are, with a group; adds those that are close to some of its triangles.
+RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float (*xyz)[nodes_per_leaf], int32_t k,
+                            uint32_t *rest, Close *found) {
+  const GroupBounds &bounds = task.bounds[leaf.near_groups[k]];
+  const TriangleGroup &group = task.groups[leaf.near_groups[k]];
+  const uint32_t in_use = (1u << bounds.n) - 1;
+  const Floats margin = Floats::all(task.margin);
+  constexpr int n = 4, n_together = 2;
+  int lanes[n];
+  Floats distances[n];
+  for (int i = 0; i < n; i += n_together) {
+    if (!*rest) {
+      // Nothing of what is left out here is used.
+      for (int j = i; j < n; ++j) lanes[j] = -1, distances[j] = distances[0];
+      break;
+    }
+    Floats3 points[n_together];
+    Floats of_points[n_together];
+    for (int j = 0; j < n_together; ++j) {
+      const int lane = *rest ? __builtin_ctz(*rest) : lanes[i];
+      lanes[i + j] = *rest ? lane : -1;
+      *rest &= *rest - 1;
+      points[j] = {Floats::all(xyz[0][lane]), Floats::all(xyz[1][lane]), Floats::all(xyz[2][lane])};
+    }
+    distances_to_group(group, points, margin, of_points);
+    for (int j = 0; j < n_together; ++j) distances[i + j] = of_points[j];
+  }
+  float nearest[n];
+  least_lanes(distances, nearest);
+  int32_t n_found = 0;
+  for (int i = 0; i < n && lanes[i] >= 0; ++i) {
+    float &best = leaf.best[lanes[i]];
+    best = nearest[i] < best ? nearest[i] : best;
+    const uint32_t close = bits_at_most(distances[i], Floats::all(best + task.tolerance)) & in_use;
+    found[n_found] = {nearest[i], k, close, lanes[i]};
+    n_found += close != 0;
+  }
+  return n_found;
+}
+
+int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room) {
   Floats3 p[halves];
-  alignas(64) float x[nodes_per_leaf], y[nodes_per_leaf], z[nodes_per_leaf];
+  alignas(64) float xyz[3][nodes_per_leaf];
   const Floats ratio = Floats::all(task.ratio);
   for (int h = 0; h < halves; ++h) {
     p[h] = {multiply_add(Floats::load(leaf.leaf->x + 16 * h), ratio, Floats::all(task.shift[0])),
             multiply_add(Floats::load(leaf.leaf->y + 16 * h), ratio, Floats::all(task.shift[1])),
             multiply_add(Floats::load(leaf.leaf->z + 16 * h), ratio, Floats::all(task.shift[2]))};
-    p[h].x.store(x + 16 * h);
-    p[h].y.store(y + 16 * h);
-    p[h].z.store(z + 16 * h);
+    p[h].x.store(xyz[0] + 16 * h);
+    p[h].y.store(xyz[1] + 16 * h);
+    p[h].z.store(xyz[2] + 16 * h);
   }
   int32_t k = leaf.next_group;
   uint32_t rest = leaf.rest;
@@ -164,56 +212,31 @@ int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, 
     nearest_first(leaf);
     rest = leaf.n_groups > 0 ? nodes_near(task, leaf, 0) : 0;
   }
-  const Floats margin = Floats::all(task.margin);
-  int32_t n = 0;
+  constexpr int32_t most_at_once = 4, most = 256;
+  Close found[most];
+  const int32_t room_for_found = room / triangles_per_group < most ? room / triangles_per_group : most;
+  int32_t n_found = 0;
   while (k < leaf.n_groups) {
-    const GroupBounds &bounds = task.bounds[leaf.near_groups[k]];
-    const TriangleGroup &group = task.groups[leaf.near_groups[k]];
-    const uint32_t in_use = (1u << bounds.n) - 1;
-    while (rest && n + n_together * triangles_per_group <= room) {
-      int lanes[n_together];
-      Floats3 points[n_together];
-      int n_taken = 0;
-      for (int i = 0; i < n_together; ++i) {
-        // Where there are no more, the last again, of which nothing is used.
-        const int lane = rest ? __builtin_ctz(rest) : lanes[i - 1];
-        n_taken += rest != 0;
-        rest &= rest - 1;
-        lanes[i] = lane;
-        points[i] = {Floats::all(x[lane]), Floats::all(y[lane]), Floats::all(z[lane])};
-      }
-      Floats distances[n_together];
-      distances_to_group(group, points, margin, distances);
-      for (int i = 0; i < n_taken; ++i) {
-        const int lane = lanes[i];
-        const float nearest = least_lane(distances[i]);
-        const float best = nearest < leaf.best[lane] ? nearest : leaf.best[lane];
-        leaf.best[lane] = best;
-        const uint32_t close = bits_at_most(distances[i], Floats::all(best + task.tolerance)) & in_use;
-        fill(leaf.first_node + lane, pairs.node + n);
-        compress(close, bounds.triangle, pairs.triangle + n);
-        compress(close, distances[i], pairs.distance_sq + n);
-        n += __builtin_popcount(close);
-      }
-    }
+    while (rest && n_found + most_at_once <= room_for_found)
+      n_found += compare(task, leaf, xyz, k, &rest, found + n_found);
     if (rest) break;
     if (++k < leaf.n_groups) rest = nodes_near(task, leaf, k);
   }
   leaf.next_group = k;
   leaf.rest = rest;
-  // What was near before something nearer was found.
-  int32_t n_kept = 0;
-  uint32_t found = 0;
-  for (int32_t i = 0; i < n; ++i) {
-    const int32_t lane = pairs.node[i] - leaf.first_node;
-    const bool keep = pairs.distance_sq[i] <= leaf.best[lane] + task.tolerance;
-    pairs.node[n_kept] = pairs.node[i];
-    pairs.triangle[n_kept] = pairs.triangle[i];
-    n_kept += keep;
-    found |= static_cast<uint32_t>(keep) << lane;
+  // Less what was near before something nearer was found.
+  int32_t n = 0;
+  uint32_t nodes = 0;
+  for (int32_t i = 0; i < n_found; ++i) {
+    const Close &close = found[i];
+    if (!(close.nearest_sq <= leaf.best[close.lane] + task.tolerance)) continue;
+    fill(leaf.first_node + close.lane, pairs.node + n);
+    compress(close.triangles, task.bounds[leaf.near_groups[close.group]].triangle, pairs.triangle + n);
+    n += __builtin_popcount(close.triangles);
+    nodes |= 1u << close.lane;
   }
-  leaf.found = found;
-  return n_kept;
+  leaf.found = nodes;
+  return n;
 }
 
 void group_distances(const TriangleGroup &group, const float *point, float margin, float *distance_sq) {

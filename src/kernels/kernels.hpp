@@ -68,9 +68,8 @@ struct LeafTask {
 };
 
 // Pairs of a node, by its place in the cluster, and a triangle; with room for 16 more than are ever counted.
-struct Pairs {
+struct PairArrays {
   int32_t *node, *triangle;
-  float *distance_sq;
 };
 
 struct Kernels {
@@ -78,8 +77,8 @@ struct Kernels {
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Writes pairs of a node and a triangle such that for every node within the limit its closest triangles are among them; returns how
-  // many, at most room. Begins, or goes on where it stopped for want of room: 32 are enough to go on.
-  int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const Pairs &pairs, int32_t room);
+  // many, at most room. Begins, or goes on where it stopped for want of room: 64 are enough to go on.
+  int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
   // Squares of the distances, in single precision, of a point (in the surface's frame) to the triangles of a group.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
   // The frames of bounds.n triangles by their corners (9 doubles each), in the surface's frame, and where they are.

@@ -192,16 +192,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// The lanes whose bits are set, one after the other, of floats and of 16 integers; writes 16 lanes, whatever their number.
-RIIS_INLINE void compress(uint32_t lanes, Floats from, float *to) {
-#if defined(__AVX512F__)
-  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(lanes), (__m512)from.part[0]));
-#else
-  alignas(64) float all[16];
-  from.store(all);
-  for (; lanes; lanes &= lanes - 1) *to++ = all[__builtin_ctz(lanes)];
-#endif
-}
+// Those of 16 integers whose bits are set, one after the other; writes 16, whatever their number.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -220,27 +211,33 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
   return r != 0;
 }
 
-RIIS_INLINE float least_lane(Floats a) {
+// The least lane of each of four.
+RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
+#if defined(__SSE2__)
+  __m128 m[4];
+  for (int i = 0; i < 4; ++i) {
 #if defined(__AVX512F__)
-  return _mm512_reduce_min_ps((__m512)a.part[0]);
+    const __m512 whole = (__m512)of[i].part[0];
+    const __m256 half = _mm256_min_ps(_mm512_castps512_ps256(whole), _mm512_extractf32x8_ps(whole, 1));
+    m[i] = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
+#elif defined(__AVX2__)
+    const __m256 half = _mm256_min_ps((__m256)of[i].part[0], (__m256)of[i].part[1]);
+    m[i] = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
 #else
-  FloatRegister m = a.part[0];
-  for (int i = 1; i < Floats::n_registers; ++i) m = least(m, a.part[i]);
-  float r = m[0];
-  for (int i = 1; i < Floats::per_register; ++i) r = m[i] < r ? m[i] : r;
-  return r;
+    m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
-}
-
-RIIS_INLINE float sum_of_lanes(Floats a) {
-#if defined(__AVX512F__)
-  return _mm512_reduce_add_ps((__m512)a.part[0]);
+  }
+  // Halves next to each other, twice.
+  const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
+  const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
+  _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));
 #else
-  FloatRegister m = a.part[0];
-  for (int i = 1; i < Floats::n_registers; ++i) m = m + a.part[i];
-  float r = m[0];
-  for (int i = 1; i < Floats::per_register; ++i) r += m[i];
-  return r;
+  for (int i = 0; i < 4; ++i) {
+    least_lane[i] = of[i].part[0][0];
+    for (int k = 1; k < 16; ++k)
+      if (of[i].part[k / Floats::per_register][k % Floats::per_register] < least_lane[i])
+        least_lane[i] = of[i].part[k / Floats::per_register][k % Floats::per_register];
+  }
 #endif
 }
 

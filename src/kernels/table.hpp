@@ -15,7 +15,7 @@ namespace riis {
 
 struct FilterKernels {
   bool (*near_boxes)(const FilterTask &, const Boxes &, const int32_t *, int32_t, uint16_t *);
-  int32_t (*filter_leaf)(const FilterTask &, LeafTask &, const Pairs &, int32_t);
+  int32_t (*filter_leaf)(const FilterTask &, LeafTask &, const PairArrays &, int32_t);
   void (*group_distances)(const TriangleGroup &, const float *, float, float *);
 };
 struct DecisionKernels {

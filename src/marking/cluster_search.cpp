@@ -28,7 +28,6 @@ class ClusterSearch {
  public:
   ClusterSearch(const SearchRequest &request, Collection &collection)
       : request_(request),
-        nodes_(request.mesh.nodes()),
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
         clusters_(request.mesh.clusters(request.n_threads)),
@@ -134,10 +133,10 @@ class ClusterSearch {
   }
 
   // The pairs of a cluster that the filter leaves, until they are decided.
-  struct Undecided {
-    std::int32_t n_pairs = 0;
-    std::uint32_t nodes[leaves_per_cluster] = {};    // that have pairs, a bit a node
-    std::uint32_t decided[leaves_per_cluster] = {};  // and that had some that were decided before
+  struct Pairs {
+    std::int64_t first_leaf;
+    std::int32_t n = 0;
+    std::uint32_t nodes[leaves_per_cluster] = {};  // that have, or had, some: a bit a node
   };
 
   void search_cluster(const Clustered::Item &item, Clustered::Thread &own, std::vector<FoundNode> &found) {
@@ -147,41 +146,46 @@ class ClusterSearch {
     const Range leaves = clusters_.leaves_of(item.cluster);
     std::uint32_t near = 0;  // leaves, a bit each
     for (std::size_t k = 0; k < item.n; ++k) near |= leaf_bits[k];
-    Undecided undecided;
+    Pairs pairs{leaves.begin};
     for (; near; near &= near - 1) {
       const int bit = __builtin_ctz(near);
       const std::uint32_t after = near & (near - 1);
-      if (after) prefetch(clusters_.leaves[static_cast<std::size_t>(leaves.begin + __builtin_ctz(after))]);
+      if (after) prefetch(leaves.begin + __builtin_ctz(after));
       own.leaf_groups.clear();
       for (std::size_t k = 0; k < item.n; ++k)
         if (leaf_bits[k] >> bit & 1) own.leaf_groups.push_back(candidates[k]);
-      filter_leaf(leaves.begin + bit, leaves.begin, own, undecided);
+      std::fill_n(own.closest.begin() + nodes_per_leaf * bit, nodes_per_leaf, nothing);
+      filter_leaf(leaves.begin + bit, own, pairs);
     }
-    decide(leaves.begin, own, undecided);
+    decide(own, pairs);
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
-      for (std::uint32_t rest = undecided.decided[i]; rest; rest &= rest - 1) {
+      for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         const ClosestTriangle &closest = own.closest[static_cast<std::size_t>(nodes_per_leaf * i + lane)];
         const double distance = std::sqrt(closest.distance_sq);
         if (distance <= request_.distance_limit)
-          found.push_back({clusters_.leaves[static_cast<std::size_t>(leaf)].node[lane], distance, closest.triangle});
+          found.emplace_back(clusters_.leaves[static_cast<std::size_t>(leaf)].node[lane], distance, closest.triangle);
       }
     }
   }
 
-  static void prefetch(const Leaf &leaf) {
-    constexpr std::size_t line = 64;
-    for (std::size_t at = 0; at < sizeof leaf; at += line)
-      __builtin_prefetch(reinterpret_cast<const char *>(&leaf) + at);
+  void prefetch(std::int64_t leaf) const {
+    const auto bytes = [](const auto &of) {
+      constexpr std::size_t line = 64;
+      for (std::size_t at = 0; at < sizeof of; at += line)
+        __builtin_prefetch(reinterpret_cast<const char *>(&of) + at);
+    };
+    bytes(clusters_.leaves[static_cast<std::size_t>(leaf)]);
+    bytes(clusters_.points[static_cast<std::size_t>(leaf)]);
   }
 
-  void filter_leaf(std::int64_t number, std::int64_t first_leaf, Clustered::Thread &own, Undecided &undecided) {
+  void filter_leaf(std::int64_t number, Clustered::Thread &own, Pairs &pairs) {
     const Leaf &leaf = clusters_.leaves[static_cast<std::size_t>(number)];
     const int n_nodes = clusters_.n_nodes_of(number);
     LeafTask task;
     task.leaf = &leaf;
-    task.first_node = static_cast<std::int32_t>((number - first_leaf) * nodes_per_leaf);
+    task.first_node = static_cast<std::int32_t>((number - pairs.first_leaf) * nodes_per_leaf);
     task.wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
     if (request_.node_mask)
       for (int lane = 0; lane < n_nodes; ++lane)
@@ -192,46 +196,29 @@ class ClusterSearch {
     task.next_group = 0;
     task.rest = 0;
     while (task.next_group < task.n_groups) {
-      constexpr std::int32_t room = Clustered::room_for_pairs, enough = 512;
-      if (room - undecided.n_pairs < enough) decide(first_leaf, own, undecided);
-      const std::int32_t n = undecided.n_pairs;
-      undecided.n_pairs += kernels_.filter_leaf(
-          task_, task, {own.pair_nodes.data() + n, own.pair_triangles.data() + n, own.pair_filtered.data() + n},
-          room - n);
-      undecided.nodes[number - first_leaf] |= task.found;
-      // The coordinates as they are lie anywhere: on their way while the filter goes on.
-      for (std::uint32_t rest = task.found; rest; rest &= rest - 1) {
-        const std::int64_t at = leaf.node[__builtin_ctz(rest)] * nodes_.stride;
-        __builtin_prefetch(nodes_.x + at);
-        __builtin_prefetch(nodes_.z + at);
-      }
+      constexpr std::int32_t room = Clustered::room_for_pairs, enough = 1024;
+      if (room - pairs.n < enough) decide(own, pairs);
+      pairs.n += kernels_.filter_leaf(task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n},
+                                      room - pairs.n);
+      pairs.nodes[number - pairs.first_leaf] |= task.found;
     }
   }
 
-  void decide(std::int64_t first_leaf, Clustered::Thread &own, Undecided &undecided) {
-    for (std::int64_t i = 0; i < leaves_per_cluster; ++i) {
-      for (std::uint32_t rest = undecided.nodes[i] & ~undecided.decided[i]; rest; rest &= rest - 1) {
-        const int lane = __builtin_ctz(rest);
-        const std::int64_t node = clusters_.leaves[static_cast<std::size_t>(first_leaf + i)].node[lane];
-        const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
-        const auto at = static_cast<std::size_t>(nodes_per_leaf * i + lane);
-        own.points[3 * at] = p.x, own.points[3 * at + 1] = p.y, own.points[3 * at + 2] = p.z;
-        own.closest[at] = {std::numeric_limits<double>::infinity(), -1};
-      }
-      undecided.decided[i] |= undecided.nodes[i];
-    }
-    kernels_.decide(undecided.n_pairs, own.pair_nodes.data(), own.pair_triangles.data(), own.points.data(),
-                    groups_.corners.data(), own.pair_decided.data());
-    for (std::size_t i = 0; i < static_cast<std::size_t>(undecided.n_pairs); ++i) {
+  void decide(Clustered::Thread &own, Pairs &pairs) {
+    kernels_.decide(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(),
+                    clusters_.points[static_cast<std::size_t>(pairs.first_leaf)].xyz, groups_.corners.data(),
+                    own.pair_decided.data());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pairs.n); ++i) {
       ClosestTriangle &best = own.closest[static_cast<std::size_t>(own.pair_nodes[i])];
       if (is_closer(own.pair_decided[i], own.pair_triangles[i], best))
         best = {own.pair_decided[i], own.pair_triangles[i]};
     }
-    undecided.n_pairs = 0;
+    pairs.n = 0;
   }
 
+  static constexpr ClosestTriangle nothing{std::numeric_limits<double>::infinity(), -1};
+
   const SearchRequest &request_;
-  const StridedPoints &nodes_;
   const TriangleScene &scene_;
   const TriangleGroups &groups_;
   const Clusters &clusters_;

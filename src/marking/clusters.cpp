@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -224,13 +223,24 @@ Boxes no_boxes() {
 
 std::int64_t n_of(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
 
-// Fills leaves by item_of(position), which says node and coordinates in the mesh's frame; then the boxes. Clusters of no nodes stay that
-// if there is no memory.
-template <class ItemOf>
-void fill(std::int64_t n_nodes, Clusters &clusters, int n_threads, const ItemOf &item_of) {
-  const auto n_leaves = static_cast<std::size_t>(n_of(n_nodes, nodes_per_leaf));
+Item item_at(Vec3 p, std::uint32_t node, const Clusters &clusters) {
+  const Vec3 q = clusters.scale * (p - clusters.centre);
+  return {{static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)}, node};
+}
+
+// Fills leaves with the nodes node_of(position), then the boxes. Clusters of no nodes stay that if there is no memory.
+template <class NodeOf>
+void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NodeOf &node_of) {
+  const std::int64_t n_nodes = nodes.n;
+  const std::int64_t n_leaves = n_of(n_nodes, nodes_per_leaf);
   const auto n_clusters = static_cast<std::size_t>(n_of(n_nodes, nodes_per_cluster));
-  clusters.leaves.resize(n_leaves);
+  if (n_leaves != clusters.n_leaves) {
+    clusters.n_leaves = 0;
+    // Not filled with zeros: whoever writes a page first should be who has it.
+    clusters.leaves.reset(new Leaf[static_cast<std::size_t>(n_leaves)]);
+    clusters.points.reset(new LeafPoints[static_cast<std::size_t>(n_leaves)]);
+    clusters.n_leaves = n_leaves;
+  }
   clusters.clusters.resize(n_clusters);
   clusters.regions.resize(
       static_cast<std::size_t>(n_of(static_cast<std::int64_t>(n_clusters), Clusters::clusters_per_region)));
@@ -246,12 +256,16 @@ void fill(std::int64_t n_nodes, Clusters &clusters, int n_threads, const ItemOf 
       const Range of_cluster = clusters.leaves_of(c);
       for (std::int64_t l = of_cluster.begin; l < of_cluster.end; ++l) {
         Leaf &leaf = clusters.leaves[static_cast<std::size_t>(l)];
+        double *xyz = clusters.points[static_cast<std::size_t>(l)].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
         Box box;
         for (int i = 0; i < nodes_per_leaf; ++i) {
-          const Item item = item_of(std::min(first + i, last));
+          const std::uint32_t node = node_of(std::min(first + i, last));
+          const Vec3 p = node_at(nodes, node);
+          const Item item = item_at(p, node, clusters);
           leaf.x[i] = item.x[0], leaf.y[i] = item.x[1], leaf.z[i] = item.x[2];
-          leaf.node[i] = item.node;
+          leaf.node[i] = node;
+          xyz[3 * i] = p.x, xyz[3 * i + 1] = p.y, xyz[3 * i + 2] = p.z;
           box.add(item.x);
         }
         put_box(box, cluster, l - of_cluster.begin);
@@ -265,17 +279,11 @@ void fill(std::int64_t n_nodes, Clusters &clusters, int n_threads, const ItemOf 
   });
 }
 
-Item item_at(const StridedPoints &nodes, const Clusters &clusters, std::int64_t node) {
-  const Vec3 p = clusters.scale * (node_at(nodes, node) - clusters.centre);
-  return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-          static_cast<std::uint32_t>(node)};
-}
-
 }  // namespace
 
 Range Clusters::leaves_of(std::int64_t cluster) const {
   const std::int64_t begin = cluster * leaves_per_cluster;
-  return {begin, std::min(begin + leaves_per_cluster, static_cast<std::int64_t>(leaves.size()))};
+  return {begin, std::min(begin + leaves_per_cluster, n_leaves)};
 }
 
 Range Clusters::clusters_of(std::int64_t region) const {
@@ -292,20 +300,19 @@ void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clu
   std::vector<Item> items(static_cast<std::size_t>(nodes.n));
   parallel_for_ranges(nodes.n, nodes_per_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i)
-      items[static_cast<std::size_t>(i)] = item_at(nodes, clusters, i);
+      items[static_cast<std::size_t>(i)] = item_at(node_at(nodes, i), static_cast<std::uint32_t>(i), clusters);
   });
   Sorter sorter(std::move(items), n_threads);
   const std::vector<Item> &sorted = sorter.sort();
-  fill(nodes.n, clusters, n_threads, [&](std::int64_t i) { return sorted[static_cast<std::size_t>(i)]; });
+  fill(nodes, clusters, n_threads, [&](std::int64_t i) { return sorted[static_cast<std::size_t>(i)].node; });
 }
 
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
   frame_nodes(nodes, n_threads, clusters);
-  const std::vector<Leaf> &leaves = clusters.leaves;
-  fill(nodes.n, clusters, n_threads, [&](std::int64_t i) {
-    const Leaf &leaf = leaves[static_cast<std::size_t>(i / nodes_per_leaf)];
-    return item_at(nodes, clusters, leaf.node[i % nodes_per_leaf]);
-  });
+  // A leaf's nodes are read where they are written: each before its place is.
+  const Leaf *leaves = clusters.leaves.get();
+  fill(nodes, clusters, n_threads,
+       [leaves](std::int64_t i) { return leaves[i / nodes_per_leaf].node[i % nodes_per_leaf]; });
 }
 
 }  // namespace riis

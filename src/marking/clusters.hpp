@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/strided.hpp"
@@ -12,6 +13,11 @@
 
 namespace riis {
 
+// The coordinates of a leaf's nodes as they are: the caller's lie anywhere, and what is decided wants them together.
+struct LeafPoints {
+  double xyz[3 * nodes_per_leaf];
+};
+
 struct Clusters {
   static constexpr std::int64_t clusters_per_region = 16;
 
@@ -19,7 +25,9 @@ struct Clusters {
   // Coordinates in leaves and boxes are (x - centre) * scale, scale a power of two that brings them between -1 and 1.
   Vec3 centre{0, 0, 0};
   double scale = 1;
-  std::vector<Leaf> leaves;
+  std::int64_t n_leaves = 0;
+  std::unique_ptr<Leaf[]> leaves;
+  std::unique_ptr<LeafPoints[]> points;  // of leaves
   std::vector<Boxes> clusters;  // the boxes of its leaves
   std::vector<Boxes> regions;   // the boxes of its clusters
   struct Box {

@@ -68,10 +68,8 @@ void Collection::Clustered::prepare(int n_threads) {
     constexpr std::size_t room = static_cast<std::size_t>(room_for_pairs) + 16;
     thread.pair_nodes.resize(room);
     thread.pair_triangles.resize(room);
-    thread.pair_filtered.resize(room);
     thread.pair_decided.resize(room);
     thread.closest.resize(static_cast<std::size_t>(nodes_per_cluster));
-    thread.points.resize(3 * static_cast<std::size_t>(nodes_per_cluster));
     thread.n_queries = 0;
   }
 }
@@ -111,12 +109,12 @@ class Ranks {
     std::uint32_t n = 0;
     for (std::size_t i = 0; i < n_words; ++i) {
       before_[i] = n;
-      n += static_cast<std::uint32_t>(__builtin_popcountll(bits_[i]));
+      n += n_bits(bits_[i]);
     }
   }
   std::size_t operator()(std::int64_t node) const {
     const std::size_t i = word(node);
-    return before_[i] + static_cast<std::size_t>(__builtin_popcountll(bits_[i] & (bit(node) - 1)));
+    return before_[i] + n_bits(bits_[i] & (bit(node) - 1));
   }
 
  private:
@@ -124,6 +122,12 @@ class Ranks {
     return static_cast<std::size_t>(node % nodes_per_stretch / bits_per_word);
   }
   static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
+  // Of an x86-64 without the instruction for it the compiler would call a function.
+  static std::uint32_t n_bits(std::uint64_t x) {
+    x -= x >> 1 & 0x5555555555555555;
+    x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
+    return static_cast<std::uint32_t>(((x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
+  }
 
   std::array<std::uint64_t, n_words> bits_;
   std::array<std::uint32_t, n_words> before_;
@@ -187,18 +191,19 @@ void put_in_order(const TriangleSet &triangles, double half_thickness, bool limi
     Ranks ranks;
     const auto put = [&](NodeList &list, std::size_t first, const FoundNode &found) {
       const auto triangle = static_cast<std::size_t>(found.triangle);
-      list.set(first + ranks(found.node), found.node, found.distance, triangles.triangle_id[triangle],
+      const auto node = static_cast<std::int64_t>(found.node);
+      list.set(first + ranks(node), node, found.distance, triangles.triangle_id[triangle],
                triangles.leaflet_id[triangle]);
     };
     ranks.clear();
-    for_each([&](const FoundNode &found) { ranks.add(found.node); });
+    for_each([&](const FoundNode &found) { ranks.add(static_cast<std::int64_t>(found.node)); });
     ranks.count();
     for_each([&](const FoundNode &found) { put(result.within, static_cast<std::size_t>(begin), found); });
     if (!limit_is_wider) return;
     const auto is_marked = [&](const FoundNode &found) { return found.distance <= half_thickness; };
     ranks.clear();
     for_each([&](const FoundNode &found) {
-      if (is_marked(found)) ranks.add(found.node);
+      if (is_marked(found)) ranks.add(static_cast<std::int64_t>(found.node));
     });
     ranks.count();
     for_each([&](const FoundNode &found) {

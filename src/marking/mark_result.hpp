@@ -17,12 +17,21 @@
 
 namespace riis {
 
+// More than any memory holds the coordinates of.
+inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
+
 // A node within the distance limit, while it is being collected.
 struct FoundNode {
-  std::int64_t node;
+  std::uint64_t node : 40, triangle : 24;  // the latter a position in the surface's set
   double distance;
-  std::int64_t triangle;  // position in the surface's set
+
+  FoundNode() = default;
+  FoundNode(std::int64_t node_id, double node_distance, std::int64_t position)
+      : node(static_cast<std::uint64_t>(node_id) & (max_nodes - 1)),
+        triangle(static_cast<std::uint64_t>(position) & (max_triangles - 1)),
+        distance(node_distance) {}
 };
+static_assert(sizeof(FoundNode) == 16);
 
 // Arrays of one entry a node, ascending by node.
 struct NodeList {
@@ -116,10 +125,8 @@ struct Collection {
       };
       std::vector<NodeBounds> lower_bounds;  // of a leaf's nodes, for each of its groups
       std::vector<std::int32_t> pair_nodes, pair_triangles;
-      std::vector<float> pair_filtered;      // squares of distances, in single
-      std::vector<double> pair_decided;      // and in double precision
+      std::vector<double> pair_decided;      // squares of distances
       std::vector<ClosestTriangle> closest;  // of a cluster's nodes
-      std::vector<double> points;            // and where they are
       std::int64_t n_queries = 0;
 
       float *room_for_bounds(std::size_t n_groups) {
