@@ -10,6 +10,7 @@
 #include "api/handles.hpp"
 #include "api/log.hpp"
 #include "api/structs.hpp"
+#include "parallel/parallel_for.hpp"
 #include "surface/triangulate.hpp"
 #include "surface/user_arrays.hpp"
 #include "valve/patches.hpp"
@@ -89,17 +90,23 @@ void check_precision(const riis_surface_options &options) {
                riis::Number(largest).text, riis::Number(wanted).text);
 }
 
+// Above this many triangles, of some 300 bytes each, memory is worth more than the time to get it again.
+constexpr std::size_t max_triangles_kept = 1'000'000;
+
 // Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
 template <class MakeTriangles>
 void fill(riis_surface &surface, const riis_surface_options &options, const MakeTriangles &make_triangles) {
   Stopwatch stopwatch;
-  riis::TriangleSet triangles = make_triangles(placement_of(options));
+  std::unique_ptr<riis::Surface> made = std::move(surface.before);
+  if (!made) made = std::make_unique<riis::Surface>();
+  riis::TriangleSet triangles = make_triangles(placement_of(options), made->take_triangles());
   const double seconds_triangles = stopwatch.lap();
-  auto made = std::make_unique<const riis::Surface>(std::move(triangles), half_thickness_of(options));
+  made->make(std::move(triangles), half_thickness_of(options), riis::default_thread_count());
   const double seconds_scene = stopwatch.lap();
   riis::log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s",
                     made->triangles().n_triangles(), seconds_triangles, seconds_scene);
-  surface.surface = std::move(made);
+  surface.before = std::exchange(surface.surface, std::move(made));
+  if (surface.before && surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
   surface.options = options;
   surface.seconds_triangles = seconds_triangles;
   surface.seconds_scene = seconds_scene;
@@ -108,11 +115,12 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options) {
   require_handle(valve, "valve");
   check_options(options);
-  fill(surface, options, [&](const riis::Placement &placement) {
+  fill(surface, options, [&](const riis::Placement &placement, riis::TriangleSet memory) {
     const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
     check_precision(options);
     riis::TriangleSet triangles =
-        riis::triangulate(valve->valve.make_patches(), max_error, placement, options.flip_normals != 0);
+        riis::triangulate(valve->valve.make_patches(), max_error, placement, options.flip_normals != 0,
+                          riis::default_thread_count(), std::move(memory));
     if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve has no area");
     return triangles;
   });
@@ -121,9 +129,9 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
   const riis_surface_arrays whole = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
   check_options(options);
-  fill(surface, options, [&](const riis::Placement &placement) {
+  fill(surface, options, [&](const riis::Placement &placement, riis::TriangleSet memory) {
     return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP,
-                                       options.flip_normals != 0);
+                                       options.flip_normals != 0, std::move(memory));
   });
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "api/errors.hpp"
+#include "parallel/parallel_for.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -22,9 +23,10 @@ constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 class GridMaker {
  public:
-  GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness)
+  GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness, int n_threads)
       : set_(set),
         max_error_(max_error),
+        n_threads_(n_threads),
         errors_(set.curves.size(), infinity),
         polylines_(set.curves.size()),
         reversed_(set.curves.size()) {
@@ -40,24 +42,29 @@ class GridMaker {
 
   // All is counted, as it goes on, before anything large is made.
   std::vector<QuadGrid> make() {
+    make_polylines();
+    const std::size_t n_patches = set_.patches.size();
+    for (const Patch &patch : set_.patches) sides_.push_back(sides_of(patch));
+    lines_.resize(n_patches);
     double n_at_least = 0;
-    for (const Patch &patch : set_.patches) {
-      sides_.push_back(sides_of(patch));
-      lines_.push_back(patch.bulge != 0 ? arc_lines(patch, sides_.back()) : ArcLines{});
-      n_at_least += n_triangles(sides_.size() - 1, 1);
-      check_count(n_at_least, max_error_);
-    }
+    for (std::size_t i = 0; i < n_patches; ++i)
+      if (set_.patches[i].bulge == 0) n_at_least += n_triangles(i, 1);
+    check_count(n_at_least, max_error_);
+    for_each_patch([&](std::size_t i) {
+      if (set_.patches[i].bulge != 0) lines_[i] = arc_lines(set_.patches[i], sides_[i]);
+    });
     // Patches of arcs meet along arcs: all have the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = std::max(1.0, rows_for(offset));
     double n = 0;
-    for (std::size_t i = 0; i < sides_.size(); ++i) n += n_triangles(i, n_rows);
+    for (std::size_t i = 0; i < n_patches; ++i) n += n_triangles(i, n_rows);
     check_count(n, max_error_);
-    std::vector<QuadGrid> grids;
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      grids.push_back(set_.patches[i].bulge != 0 ? make_arc_grid(sides_[i], lines_[i], static_cast<std::size_t>(n_rows))
-                                                 : make_quad_grid(sides_[i], merge_share * max_error_));
+    std::vector<QuadGrid> grids(n_patches);
+    for_each_patch([&](std::size_t i) {
+      grids[i] = set_.patches[i].bulge != 0 ? make_arc_grid(sides_[i], lines_[i], static_cast<std::size_t>(n_rows))
+                                            : make_quad_grid(sides_[i], merge_share * max_error_);
+    });
     return grids;
   }
 
@@ -68,15 +75,27 @@ class GridMaker {
     errors_[side.curve] = std::min(errors_[side.curve], share * max_error_);
   }
 
-  const Polyline *polyline(const Side &side) {
-    Polyline &forward = polylines_[side.curve], &backward = reversed_[side.curve];
-    if (forward.points.empty()) forward = make_polyline(set_.curves[side.curve], errors_[side.curve]);
-    if (!side.reversed) return &forward;
-    if (backward.points.empty()) backward = reversed(forward);
-    return &backward;
+  template <class Visit>
+  void for_each_patch(const Visit &visit) const {
+    parallel_for(static_cast<std::int64_t>(set_.patches.size()), n_threads_,
+                 [&](std::int64_t i, int) { visit(static_cast<std::size_t>(i)); });
   }
 
-  PatchSides sides_of(const Patch &patch) {
+  // Of the curves that patches ask something of.
+  void make_polylines() {
+    parallel_for(static_cast<std::int64_t>(set_.curves.size()), n_threads_, [&](std::int64_t i, int) {
+      const auto at = static_cast<std::size_t>(i);
+      if (errors_[at] == infinity) return;
+      polylines_[at] = make_polyline(set_.curves[at], errors_[at]);
+      reversed_[at] = reversed(polylines_[at]);
+    });
+  }
+
+  const Polyline *polyline(const Side &side) const {
+    return side.reversed ? &reversed_[side.curve] : &polylines_[side.curve];
+  }
+
+  PatchSides sides_of(const Patch &patch) const {
     // The arcs at the sides of a patch of arcs are no polylines: rows are cut from all its arcs alike.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
@@ -140,16 +159,18 @@ class GridMaker {
 
   const PatchSet &set_;
   double max_error_;
-  std::vector<double> errors_;                  // what each curve is allowed
-  std::vector<Polyline> polylines_, reversed_;  // made when a patch asks for them
+  int n_threads_;
+  std::vector<double> errors_;  // what each curve is allowed
+  std::vector<Polyline> polylines_, reversed_;
   std::vector<PatchSides> sides_;
   std::vector<ArcLines> lines_;
 };
 
 }  // namespace
 
-std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness) {
-  return GridMaker(set, max_error, tightness).make();
+std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness,
+                                 int n_threads) {
+  return GridMaker(set, max_error, tightness, n_threads).make();
 }
 
 void check_count(double n_triangles, double max_error) {

@@ -20,11 +20,14 @@ double area_of(const TriangleSet &set) {
 
 }  // namespace
 
-Surface::Surface(TriangleSet triangles, double half_thickness)
-    : triangles_(std::move(triangles)),
-      scene_(triangles_, triangles_.n_triangles() > 8192 ? default_thread_count() : 1),
-      half_thickness_(half_thickness),
-      area_(area_of(triangles_)) {}
+void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
+  triangles_ = std::move(triangles);
+  half_thickness_ = half_thickness;
+  area_ = area_of(triangles_);
+  pseudonormals_.store(nullptr, std::memory_order_relaxed);
+  pseudonormals_owner_.reset();
+  scene_.make(triangles_, n_threads);
+}
 
 const Pseudonormals &Surface::pseudonormals() const {
   if (const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire)) return *made;

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
@@ -15,7 +16,10 @@ namespace riis {
 
 class Surface {
  public:
-  Surface(TriangleSet triangles, double half_thickness);
+  // Again for a surface that moved, with the memory of what was there. Of no use if it fails.
+  void make(TriangleSet triangles, double half_thickness, int n_threads);
+  // For their memory.
+  TriangleSet take_triangles() { return std::move(triangles_); }
 
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
@@ -34,8 +38,8 @@ class Surface {
 
   TriangleSet triangles_;
   TriangleScene scene_;
-  double half_thickness_;
-  double area_;
+  double half_thickness_ = 0;
+  double area_ = 0;
   // Made when a side is first asked for: marking never needs it.
   mutable std::mutex pseudonormals_mutex_;
   mutable std::unique_ptr<const Pseudonormals> pseudonormals_owner_;

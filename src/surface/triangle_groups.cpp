@@ -93,8 +93,9 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
   });
 }
 
-TriangleGroups::TriangleGroups(const TriangleSet &set, const Frame &surface_frame, int n_threads)
-    : frame(surface_frame), corners(9 * set.n_triangles()) {
+void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
+  frame = surface_frame;
+  corners.resize(9 * set.n_triangles());
   Grouping by_place;
   if (set.grouping.end.empty()) group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), by_place);
   const Grouping &grouping = set.grouping.end.empty() ? by_place : set.grouping;
@@ -102,7 +103,7 @@ TriangleGroups::TriangleGroups(const TriangleSet &set, const Frame &surface_fram
   groups.resize(end.size());
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
-  constexpr std::int64_t groups_per_block = 64;
+  constexpr std::int64_t groups_per_block = 16;
   parallel_for_ranges(static_cast<std::int64_t>(end.size()), groups_per_block, n_threads, [&](const Range &range, int) {
     for (auto g = static_cast<std::size_t>(range.begin); g < static_cast<std::size_t>(range.end); ++g) {
       const std::int32_t first = g == 0 ? 0 : end[g - 1];

@@ -17,9 +17,10 @@ struct Bounds {
 // Coordinates relative to the surface: (x - centre) * scale, scale a power of two that makes the surface's half extent
 // from 1/2 to 1. Both operations are right to rounding of their result.
 struct Frame {
-  Vec3 centre;
-  double scale;
+  Vec3 centre{0, 0, 0};
+  double scale = 1;
 
+  Frame() = default;
   explicit Frame(const Bounds &bounds);
   Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
 };
@@ -46,7 +47,8 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
 
-  TriangleGroups(const TriangleSet &set, const Frame &frame, int n_threads);
+  // Keeps the memory of what was there.
+  void make(const TriangleSet &set, const Frame &surface_frame, int n_threads);
 };
 
 }  // namespace riis

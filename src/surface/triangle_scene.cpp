@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <tbb/task_arena.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,9 +66,11 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 
 struct TriangleScene::Implementation {
   TriangleGroups groups;
-  double rounding;  // the scene's rounding_ in the frame's units
-  std::shared_ptr<std::remove_pointer_t<RTCDevice>> device;
+  double rounding = 0;  // the scene's rounding_ in the frame's units
+  std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   Scene scene;
+  Geometry geometry;
+  std::size_t n_groups = 0;  // that the geometry was last built of
 };
 
 namespace {
@@ -149,12 +152,15 @@ double rounding_of_distances(const Bounds &bounds) {
 
 }  // namespace
 
-TriangleScene::TriangleScene(const TriangleSet &set, int n_threads)
-    : bounds_(bounds_of(set)), rounding_(rounding_of_distances(bounds_)) {
-  const Frame frame(bounds_);
-  implementation_ = std::make_unique<Implementation>(
-      Implementation{TriangleGroups(set, frame, n_threads), rounding_ * frame.scale, shared_device(), nullptr});
+TriangleScene::TriangleScene() : implementation_(std::make_unique<Implementation>()) {}
+
+void TriangleScene::make(const TriangleSet &set, int n_threads) {
+  bounds_ = bounds_of(set);
+  rounding_ = rounding_of_distances(bounds_);
   Implementation &in = *implementation_;
+  const Frame frame(bounds_);
+  in.groups.make(set, frame, n_threads);
+  in.rounding = rounding_ * frame.scale;
 
   const RTCDevice device = in.device.get();
   const auto check = [device](const char *what) {
@@ -162,18 +168,30 @@ TriangleScene::TriangleScene(const TriangleSet &set, int n_threads)
     if (error != RTC_ERROR_NONE) fail_embree(error, what);
   };
   rtcGetDeviceError(device);  // forgets what an earlier failure of this thread may have left
-  in.scene.reset(rtcNewScene(device));
-  check("create a scene");
-  const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
-  check("create a geometry");
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
-  rtcSetGeometryUserData(geometry.get(), &in);
-  rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_group, nullptr);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(in.scene.get(), geometry.get());
+  const std::size_t n_groups = in.groups.groups.size();
+  if (!in.scene) {
+    in.scene.reset(rtcNewScene(device));
+    check("create a scene");
+    in.geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+    check("create a geometry");
+    rtcSetGeometryUserData(in.geometry.get(), &in);
+    rtcSetGeometryBoundsFunction(in.geometry.get(), bounds_of_group, nullptr);
+    rtcAttachGeometry(in.scene.get(), in.geometry.get());
+  } else {
+    // What moves is built more often, and asked less each time: as many groups as before keep their tree, with other boxes.
+    rtcSetSceneFlags(in.scene.get(), RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(in.scene.get(), RTC_BUILD_QUALITY_LOW);
+    rtcSetGeometryBuildQuality(in.geometry.get(),
+                               n_groups == in.n_groups ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
+  }
+  rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(n_groups));
+  rtcCommitGeometry(in.geometry.get());
   check("take the triangles");
+  { tbb::task_arena arena(1,1); arena.execute([&]{ 
   rtcCommitScene(in.scene.get());
+  }); }
   check("build the scene");
+  in.n_groups = n_groups;
 }
 
 TriangleScene::~TriangleScene() = default;

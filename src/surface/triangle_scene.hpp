@@ -17,11 +17,14 @@ namespace riis {
 
 class TriangleScene {
  public:
-  // Keeps a copy of the corners; the set may go. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY as Embree says.
-  TriangleScene(const TriangleSet &set, int n_threads);
+  TriangleScene();
   ~TriangleScene();
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
+
+  // Keeps a copy of the corners; the set may go. Again for triangles that moved, with the memory of those before. Fails with
+  // RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY as Embree says, and is of no use then.
+  void make(const TriangleSet &set, int n_threads);
 
   // The closest triangle to p, if its distance is at most limit (>= 0, may be infinite); triangle -1 if there is none.
   // p is finite with coordinates up to max_coordinate. May be called by several threads at once.
@@ -44,8 +47,8 @@ class TriangleScene {
   struct Implementation;  // public for Embree's callbacks
 
  private:
-  Bounds bounds_;
-  double rounding_;  // of any distance to any point of the surface, beyond what is relative to the distance
+  Bounds bounds_{};
+  double rounding_ = 0;  // of any distance to any point of the surface, beyond what is relative to the distance
   std::unique_ptr<Implementation> implementation_;
 };
 

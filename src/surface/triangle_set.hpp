@@ -2,6 +2,7 @@
 // Triangles in space as every later stage sees them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -25,6 +26,13 @@ struct TriangleSet {
   std::int64_t n_zero_area = 0;           // left out
   Grouping grouping;                      // empty where whoever made the triangles knows nothing of it
 
+  // Of nothing, with the memory of what was there.
+  void clear() {
+    for (auto *numbers : {&xyz, &uv}) numbers->clear();
+    for (auto *ids : {&vertex_id, &triangle_id}) ids->clear();
+    for (auto *ids : {&leaflet_id, &patch_id, &grouping.order, &grouping.end}) ids->clear();
+    n_zero_area = 0;
+  }
   std::size_t n_vertices() const { return xyz.size() / 3; }
   std::size_t n_triangles() const { return triangle_id.size(); }
   Vec3 vertex(std::int64_t id) const {
@@ -42,11 +50,12 @@ inline constexpr std::int64_t max_triangles = 16'777'216;
 
 // Height over the longest edge at most 1e-12 of that edge, or nothing longer than min_edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
-  const double longest = std::sqrt(std::fmax(dot(b - a, b - a), std::fmax(dot(c - b, c - b), dot(a - c, a - c))));
-  if (!(longest >= min_edge)) return true;
-  // Scaled to a longest edge of 1, so that small triangles do not underflow.
-  const Vec3 ab = (1.0 / longest) * (b - a), ac = (1.0 / longest) * (c - a);
-  return !(length(cross(ab, ac)) > 1e-12);
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  if (!(longest_sq >= min_edge * min_edge)) return true;
+  // From edges of 1e-60 to 1e60 nothing here under- or overflows.
+  const Vec3 twice_area = cross(ab, ac);
+  return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }
 
 }  // namespace riis

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "api/errors.hpp"
+#include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/triangle_groups.hpp"
 
@@ -68,54 +70,45 @@ LevelledGrid with_levels(QuadGrid grid, double max_error) {
   return made;
 }
 
-class Builder {
- public:
-  Builder(std::int64_t n_triangles, std::int64_t n_vertices, const Placement &placement, bool flip_normals)
-      : placement_(placement), flip_normals_(flip_normals) {
-    const auto n = static_cast<std::size_t>(n_triangles);
-    set_.xyz.reserve(3 * static_cast<std::size_t>(n_vertices));
-    set_.uv.reserve(2 * static_cast<std::size_t>(n_vertices));
-    set_.grouping.order.reserve(n);
-    set_.vertex_id.reserve(3 * n);
-    set_.leaflet_id.reserve(n);
-    set_.patch_id.reserve(n);
-  }
+// An image of a patch, and which of a set's vertices and triangles are its; its threads write no others.
+struct Piece {
+  const LevelledGrid *levelled;
+  const PatchImage *image;
+  std::int64_t first_vertex, first_triangle;
+  std::int64_t n_triangles = 0;  // without those that turned out to have no area: fewer than there is room for
+  std::int64_t n_zero_area = 0;
+  bool is_whole = true;  // false if more was left out, for want of area, than the triangles kept stand for
+  Grouping grouping{};
+};
 
-  // False if more was left out, for want of area, than the triangles kept stand for.
-  bool add_image(const LevelledGrid &levelled, const PatchImage &image) {
-    is_whole_ = true;
-    const QuadGrid &grid = levelled.grid;
-    auto level_of_next = levelled.levels.begin();
-    const std::size_t n_u = grid.u.size(), n_v = grid.v.size();
-    const std::int64_t first = n_vertices();
+class PieceBuilder {
+ public:
+  PieceBuilder(Piece &piece, const Placement &placement, bool flip_normals, TriangleSet &set)
+      : piece_(piece), grid_(piece.levelled->grid), placement_(placement), flip_normals_(flip_normals), set_(set) {}
+
+  void build() {
+    auto level_of_next = piece_.levelled->levels.begin();
+    const std::size_t n_u = grid_.u.size(), n_v = grid_.v.size();
     for (std::size_t j = 0; j < n_v; ++j)
-      for (std::size_t i = 0; i < n_u; ++i) add_vertex(grid.point(i, j), grid.u[i], grid.v[j], image);
+      for (std::size_t i = 0; i < n_u; ++i) add_vertex(grid_.point(i, j), grid_.u[i], grid_.v[j]);
     const auto grid_vertex = [&](std::size_t i, std::size_t j) {
-      return first + static_cast<std::int64_t>(j * n_u + i);
+      return piece_.first_vertex + static_cast<std::int64_t>(j * n_u + i);
     };
-    first_of_quad_.clear();
-    for_each_quad(grid, [&](std::size_t i, std::size_t j) {
-      first_of_quad_.push_back(n_triangles());
+    first_of_quad_.reserve(piece_.levelled->levels.size() + 1);
+    for_each_quad(grid_, [&](std::size_t i, std::size_t j) {
+      first_of_quad_.push_back(next_triangle());
       const int level = *level_of_next++;
       if (level == 0)
-        add_quad({grid_vertex(i, j), grid_vertex(i + 1, j), grid_vertex(i + 1, j + 1), grid_vertex(i, j + 1)}, image);
+        add_quad({grid_vertex(i, j), grid_vertex(i + 1, j), grid_vertex(i + 1, j + 1), grid_vertex(i, j + 1)});
       else
-        add_subdivided_quad(grid, i, j, level, image);
+        add_subdivided_quad(i, j, level);
     });
-    first_of_quad_.push_back(n_triangles());
-    group(grid, {0, n_u - 1, 0, n_v - 1});
-    return is_whole_;
-  }
-
-  TriangleSet take() {
-    set_.triangle_id.resize(set_.leaflet_id.size());
-    for (std::size_t i = 0; i < set_.triangle_id.size(); ++i) set_.triangle_id[i] = static_cast<std::int64_t>(i);
-    return std::move(set_);
+    first_of_quad_.push_back(next_triangle());
+    group({0, n_u - 1, 0, n_v - 1});
   }
 
  private:
-  std::int64_t n_vertices() const { return static_cast<std::int64_t>(set_.n_vertices()); }
-  std::int32_t n_triangles() const { return static_cast<std::int32_t>(set_.leaflet_id.size()); }
+  std::int32_t next_triangle() const { return static_cast<std::int32_t>(piece_.first_triangle + piece_.n_triangles); }
 
   // Quads of the grid from i0 to i1 - 1 and j0 to j1 - 1.
   struct Quads {
@@ -123,9 +116,9 @@ class Builder {
   };
 
   // Halves quads along their longer side until their triangles are a group.
-  void group(const QuadGrid &grid, const Quads &quads) {
+  void group(const Quads &quads) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
-    const std::size_t n_u = grid.u.size() - 1;
+    const std::size_t n_u = grid_.u.size() - 1;
     // Quads of a row follow each other, and so do their triangles.
     const auto triangles_of_row = [&](std::size_t j) {
       return std::pair(first_of_quad_[j * n_u + i0], first_of_quad_[j * n_u + i1]);
@@ -133,7 +126,7 @@ class Builder {
     std::int32_t n = 0;
     for (std::size_t j = j0; j < j1; ++j) n += triangles_of_row(j).second - triangles_of_row(j).first;
     if (n == 0) return;
-    Grouping &grouping = set_.grouping;
+    Grouping &grouping = piece_.grouping;
     if (n <= triangles_per_group) {
       for (std::size_t j = j0; j < j1; ++j)
         for (std::int32_t t = triangles_of_row(j).first; t < triangles_of_row(j).second; ++t)
@@ -146,47 +139,46 @@ class Builder {
       return;
     }
     const std::size_t i = (i0 + i1) / 2, j = (j0 + j1) / 2;
-    const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid.point(i0, j), grid.point(i1, j)) >
-                                                             distance(grid.point(i, j0), grid.point(i, j1)));
+    const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
+                                                             distance(grid_.point(i, j0), grid_.point(i, j1)));
     if (along_u) {
-      group(grid, {i0, i, j0, j1});
-      group(grid, {i, i1, j0, j1});
+      group({i0, i, j0, j1});
+      group({i, i1, j0, j1});
     } else {
-      group(grid, {i0, i1, j0, j});
-      group(grid, {i0, i1, j, j1});
+      group({i0, i1, j0, j});
+      group({i0, i1, j, j1});
     }
   }
 
-  std::int64_t add_vertex(Vec3 p, double u, double v, const PatchImage &image) {
-    const Vec3 placed = place(placement_, place(image, p));
-    for (const double x : {placed.x, placed.y, placed.z}) set_.xyz.push_back(x);
-    for (const double t : {u, v}) set_.uv.push_back(t);
-    return n_vertices() - 1;
+  void add_vertex(Vec3 p, double u, double v) {
+    const auto at = static_cast<std::size_t>(piece_.first_vertex + n_vertices_++);
+    const Vec3 placed = place(placement_, place(*piece_.image, p));
+    double *xyz = set_.xyz.data() + 3 * at, *uv = set_.uv.data() + 2 * at;
+    xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
+    uv[0] = u, uv[1] = v;
   }
 
   // Recursive halving of a bilinear quad ends in equal parts, since all parts of a level have the same flatness: made in
   // one go.
-  void add_subdivided_quad(const QuadGrid &grid, std::size_t i, std::size_t j, int level, const PatchImage &image) {
+  void add_subdivided_quad(std::size_t i, std::size_t j, int level) {
     const int n = 1 << level;
-    const Quad quad = quad_of(grid, i, j);
-    const std::int64_t first = n_vertices();
+    const Quad quad = quad_of(grid_, i, j);
+    const std::int64_t first = piece_.first_vertex + n_vertices_;
     for (int row = 0; row <= n; ++row) {
       for (int column = 0; column <= n; ++column) {
         const double s = static_cast<double>(column) / n, t = static_cast<double>(row) / n;
-        add_vertex(quad.at(s, t), (1 - s) * grid.u[i] + s * grid.u[i + 1], (1 - t) * grid.v[j] + t * grid.v[j + 1],
-                   image);
+        add_vertex(quad.at(s, t), (1 - s) * grid_.u[i] + s * grid_.u[i + 1], (1 - t) * grid_.v[j] + t * grid_.v[j + 1]);
       }
     }
     const auto vertex = [&](int column, int row) { return first + row * (n + 1) + column; };
     for (int row = 0; row < n; ++row)
       for (int column = 0; column < n; ++column)
-        add_quad({vertex(column, row), vertex(column + 1, row), vertex(column + 1, row + 1), vertex(column, row + 1)},
-                 image);
+        add_quad({vertex(column, row), vertex(column + 1, row), vertex(column + 1, row + 1), vertex(column, row + 1)});
   }
 
-  void add_quad(const std::array<std::int64_t, 4> &corner, const PatchImage &image) {
-    const bool first = add_triangle(corner[0], corner[1], corner[2], image);
-    const bool second = add_triangle(corner[0], corner[2], corner[3], image);
+  void add_quad(const std::array<std::int64_t, 4> &corner) {
+    const bool first = add_triangle(corner[0], corner[1], corner[2]);
+    const bool second = add_triangle(corner[0], corner[2], corner[3]);
     if (!first) check_left_out(corner[1], corner[0], corner[2], second);
     if (!second) check_left_out(corner[3], corner[0], corner[2], first);
   }
@@ -198,27 +190,82 @@ class Builder {
     const double other =
         std::max(distance(set_.vertex(corner), set_.vertex(a)), distance(set_.vertex(corner), set_.vertex(b)));
     const bool is_on_diagonal = other_was_kept && other <= (1 + 1e-9) * diagonal;
-    if (!is_on_diagonal && std::max(diagonal, other) > min_edge) is_whole_ = false;
+    if (!is_on_diagonal && std::max(diagonal, other) > min_edge) piece_.is_whole = false;
   }
 
-  bool add_triangle(std::int64_t a, std::int64_t b, std::int64_t c, const PatchImage &image) {
+  bool add_triangle(std::int64_t a, std::int64_t b, std::int64_t c) {
     if (has_zero_area(set_.vertex(a), set_.vertex(b), set_.vertex(c))) {
-      ++set_.n_zero_area;
+      ++piece_.n_zero_area;
       return false;
     }
-    if ((image.mirror != Mirror::none) != flip_normals_) std::swap(b, c);
-    for (const std::int64_t id : {a, b, c}) set_.vertex_id.push_back(id);
-    set_.leaflet_id.push_back(image.leaflet_id);
-    set_.patch_id.push_back(image.patch_id);
+    if ((piece_.image->mirror != Mirror::none) != flip_normals_) std::swap(b, c);
+    const auto at = static_cast<std::size_t>(next_triangle());
+    std::int64_t *id = set_.vertex_id.data() + 3 * at;
+    id[0] = a, id[1] = b, id[2] = c;
+    set_.leaflet_id[at] = piece_.image->leaflet_id;
+    set_.patch_id[at] = piece_.image->patch_id;
+    ++piece_.n_triangles;
     return true;
   }
 
-  bool is_whole_ = true;
-  std::vector<std::int32_t> first_of_quad_;  // of the image's triangles
+  Piece &piece_;
+  const QuadGrid &grid_;
   const Placement &placement_;
   bool flip_normals_;
-  TriangleSet set_;
+  TriangleSet &set_;
+  std::int64_t n_vertices_ = 0;
+  std::vector<std::int32_t> first_of_quad_;
 };
+
+// For all pieces, with whatever is in it: they write everything.
+void make_room(std::int64_t n_vertices, std::int64_t n_triangles, TriangleSet &set) {
+  set.xyz.resize(3 * static_cast<std::size_t>(n_vertices));
+  set.uv.resize(2 * static_cast<std::size_t>(n_vertices));
+  set.vertex_id.resize(3 * static_cast<std::size_t>(n_triangles));
+  set.leaflet_id.resize(static_cast<std::size_t>(n_triangles));
+  set.patch_id.resize(static_cast<std::size_t>(n_triangles));
+  set.n_zero_area = 0;
+}
+
+// One after the other, where pieces have fewer triangles than there was room for.
+void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
+  set.grouping.order.clear();
+  set.grouping.end.clear();
+  std::int64_t n = 0;
+  for (const Piece &piece : pieces) {
+    const auto move_down = [&](auto &numbers, std::int64_t per_triangle) {
+      if (n == piece.first_triangle) return;
+      const auto from = numbers.begin() + per_triangle * piece.first_triangle;
+      std::copy(from, from + per_triangle * piece.n_triangles, numbers.begin() + per_triangle * n);
+    };
+    move_down(set.vertex_id, 3);
+    move_down(set.leaflet_id, 1);
+    move_down(set.patch_id, 1);
+    const auto n_grouped = static_cast<std::int32_t>(set.grouping.order.size());
+    for (const std::int32_t triangle : piece.grouping.order)
+      set.grouping.order.push_back(static_cast<std::int32_t>(triangle - piece.first_triangle + n));
+    for (const std::int32_t end : piece.grouping.end) set.grouping.end.push_back(n_grouped + end);
+    set.n_zero_area += piece.n_zero_area;
+    n += piece.n_triangles;
+  }
+  const auto n_triangles = static_cast<std::size_t>(n);
+  set.vertex_id.resize(3 * n_triangles);
+  set.leaflet_id.resize(n_triangles);
+  set.patch_id.resize(n_triangles);
+  set.triangle_id.resize(n_triangles);
+  std::iota(set.triangle_id.begin(), set.triangle_id.end(), std::int64_t{0});
+}
+
+std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error,
+                                              const std::vector<double> &tightness, int n_threads) {
+  std::vector<QuadGrid> grids = make_grids(set, max_error, tightness, n_threads);
+  std::vector<LevelledGrid> levelled(grids.size());
+  parallel_for(static_cast<std::int64_t>(grids.size()), n_threads, [&](std::int64_t i, int) {
+    const auto at = static_cast<std::size_t>(i);
+    levelled[at] = with_levels(std::move(grids[at]), max_error);
+  });
+  return levelled;
+}
 
 }  // namespace
 
@@ -236,26 +283,34 @@ double split_error(const Quad &q) {
   return std::min(at_equal_uv, 0.5 * std::abs(dot(twist, normal)) / size);
 }
 
-TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {
+TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals,
+                        int n_threads, TriangleSet memory) {
   std::vector<double> tightness(set.curves.size(), 1);
+  TriangleSet triangles = std::move(memory);
   for (int attempt = 0;; ++attempt) {
-    std::vector<LevelledGrid> grids;
+    const std::vector<LevelledGrid> grids = make_levelled_grids(set, max_error, tightness, n_threads);
+    std::vector<Piece> pieces;
     std::int64_t n_triangles = 0, n_vertices = 0;
-    for (QuadGrid &grid : make_grids(set, max_error, tightness)) {
-      const std::size_t n_images = set.patches[grids.size()].images.size();
-      grids.push_back(with_levels(std::move(grid), max_error));
-      n_triangles += grids.back().n_triangles * static_cast<std::int64_t>(n_images);
-      n_vertices += grids.back().n_vertices * static_cast<std::int64_t>(n_images);
-      check_count(static_cast<double>(n_triangles), max_error);
-    }
-    Builder builder(n_triangles, n_vertices, placement, flip_normals);
+    for (std::size_t i = 0; i < grids.size(); ++i)
+      for (const PatchImage &image : set.patches[i].images) {
+        pieces.push_back({&grids[i], &image, n_vertices, n_triangles});
+        n_triangles += grids[i].n_triangles;
+        n_vertices += grids[i].n_vertices;
+        check_count(static_cast<double>(n_triangles), max_error);
+      }
+    make_room(n_vertices, n_triangles, triangles);
+    parallel_for(static_cast<std::int64_t>(pieces.size()), n_threads, [&](std::int64_t i, int) {
+      PieceBuilder(pieces[static_cast<std::size_t>(i)], placement, flip_normals, triangles).build();
+    });
     std::vector<std::size_t> vanished;
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-      bool is_whole = true;
-      for (const PatchImage &image : set.patches[i].images) is_whole = builder.add_image(grids[i], image) && is_whole;
-      if (!is_whole) vanished.push_back(i);
+    for (const Piece &piece : pieces) {
+      const auto i = static_cast<std::size_t>(piece.levelled - grids.data());
+      if (!piece.is_whole && (vanished.empty() || vanished.back() != i)) vanished.push_back(i);
     }
-    if (vanished.empty()) return builder.take();
+    if (vanished.empty()) {
+      close_gaps(pieces, triangles);
+      return triangles;
+    }
     // Patches thinner than the tolerance lose their area where their sides become the same chords: these have to be finer.
     constexpr int max_attempts = 12;
     if (attempt == max_attempts)

@@ -11,8 +11,9 @@
 namespace riis {
 
 // max_error bounds the distance between the triangles and the smooth surface, in the patches' units (before placement).
-// Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
-TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals);
+// In the memory of triangles that are no longer wanted. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals,
+                        int n_threads, TriangleSet memory = {});
 
 // A quad by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1), bilinear in between; split into triangles along p00 p11.
 struct Quad {

@@ -2,6 +2,7 @@
 #include "surface/user_arrays.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "api/integer_array.hpp"
 #include "api/log.hpp"
@@ -71,9 +72,10 @@ void place_vertices(const riis_surface_arrays &arrays, const Placement &placemen
 }  // namespace
 
 TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Placement &placement, bool skip_zero_area,
-                                  bool flip_normals) {
+                                  bool flip_normals, TriangleSet memory) {
   check_fields(arrays);
-  TriangleSet set;
+  TriangleSet set = std::move(memory);
+  set.clear();
   place_vertices(arrays, placement, set);
   const std::int64_t corners = arrays.corners_per_face, halves = corners - 2;
   const auto n_triangles = static_cast<std::size_t>(arrays.n_faces * halves);

@@ -268,7 +268,8 @@ int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t 
   for (int64_t i = 0; i < 3 * n_triangles; ++i) set.vertex_id.push_back(i);
   for (int64_t i = 0; i < n_triangles; ++i) set.triangle_id.push_back(i);
   set.leaflet_id.assign(static_cast<std::size_t>(n_triangles), 0);
-  const TriangleScene scene(set, 1);
+  TriangleScene scene;
+  scene.make(set, 1);
   int64_t n_different = 0;
   for (int64_t i = 0; i < n_points; ++i) {
     const Vec3 p = vec(points + 3 * i);
