@@ -70,16 +70,6 @@ void add(Contest &contest, const std::string &name, TimeSteps &steps) {
 
 std::string of_threads(int n_threads) { return n_threads == 1 ? ", 1 thread" : ", 2 threads"; }
 
-bool has_avx512(const riis_mesh *mesh) {
-  const TimeSteps steps(mesh, step_options(1));
-  riis_mark_options options;
-  check(riis_mark_options_init(&options, sizeof options));
-  options.instructions = RIIS_INSTRUCTIONS_AVX512;
-  const riis_status status = riis_mark_nodes(steps.surface(), mesh, &options, make_result().get());
-  if (status != RIIS_UNAVAILABLE) check(status);
-  return status == RIIS_OK;
-}
-
 #if defined(RIIS_WITH_CGAL)
 // Whether CGAL marks the same nodes: all but those whose distance is the half thickness but for rounding.
 bool is_same(const std::vector<double> &distance, const Marked &marked) {
@@ -126,7 +116,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   add(contest, "step, 2 threads, d_min 0.3", thick);
   TimeSteps avx2(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_AVX2)),
       baseline(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_BASELINE));
-  if (has_avx512(mesh.get())) {
+  if (TimeSteps(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_AVX512)).can_mark()) {
     add(contest, "step, 1 thread, AVX2", avx2);
     add(contest, "step, 1 thread, baseline", baseline);
   } else {

@@ -68,7 +68,15 @@ class TimeSteps {
     return marked_in(result_.get());
   }
 
+  // Whether the processor has the instructions that are asked for.
+  bool can_mark() const {
+    const riis_status status = riis_mark_nodes(surface_.get(), mesh_, &marking_, make_result().get());
+    if (status != RIIS_UNAVAILABLE) check(status);
+    return status == RIIS_OK;
+  }
+
   const riis_surface *surface() const { return surface_.get(); }
+  const riis_mark_result *result() const { return result_.get(); }
   riis_mark_stats stats() const {
     riis_mark_stats stats;
     check(riis_mark_result_stats(result_.get(), &stats, sizeof stats));
