@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench marking: what a time step costs, beside what it is compared with, in one run. A step is the surface of a valve that
-// moved, its scene, the marking, and the list of marked nodes with distances and triangles (time_steps.hpp). Prints the measured
-// times and the bars; argv[1], if given, is a file for them as JSON. argv[2]: thousands of nodes in the place of a million, for a
-// quick look. Fails if what is compared does not mark the same nodes.
+// ./run bench marking: what a time step costs, beside what it is compared with, in one run. A step is the surface of a valve
+// that moved, its scene, the marking, and the list of marked nodes with distances and triangles (time_steps.hpp). Prints the
+// measured times and the bars; argv[1], if given, is a file for them as JSON. argv[2]: thousands of nodes in the place of a
+// million, for a quick look. Fails if what is compared does not mark the same nodes.
 #include <riis/riis.h>
 
 #include <algorithm>

@@ -37,8 +37,8 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
   return x * x + y * y + z * z;
 }
 
-// What CGAL's traversal asks: into which boxes, and what to do with a triangle. As its own for closest points, but it begins with
-// a radius.
+// What CGAL's traversal asks: into which boxes, and what to do with a triangle. As its own for closest points, but it begins
+// with a radius.
 struct WithinLimit {
   double radius_sq;
   bool has_found = false;

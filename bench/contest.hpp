@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of several pieces of work that take turns, so that what else the machine does falls on all alike; and the bars that ratios
-// of them are held against. As tables in markdown and as JSON.
+// Times of several pieces of work that take turns, so that what else the machine does falls on all alike; and the bars that
+// ratios of them are held against. As tables in markdown and as JSON.
 #pragma once
 
 #include <functional>

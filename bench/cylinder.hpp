@@ -14,11 +14,12 @@ struct Cylinder {
   double centre_y;
 };
 
-// Of the aortic and of the mitral valve: somewhat larger than the demo's round the one, the same round the other. About 4 % of the
-// nodes are marked, as many as the paper's ratio of 18 to 26 lets suppose.
+// Of the aortic and of the mitral valve: somewhat larger than the demo's round the one, the same round the other. About 4 %
+// of the nodes are marked, as many as the paper's ratio of 18 to 26 lets suppose.
 inline constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
 
-// Wider, round the aortic valve: about 3 % of the nodes are within 0.1 cm of it, as in the paper's meshes by the ratio of its searches.
+// Wider, round the aortic valve: about 3 % of the nodes are within 0.1 cm of it, as in the paper's meshes by the ratio of
+// its searches.
 inline constexpr Cylinder wide_cylinder{2.0, -2.1, 1.3, 0};
 
 // A structured grid bent to a cylinder.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its first half: on a million nodes, both valves, three positions, three half thicknesses, the search over
-// clusters, with every instruction set of the processor and 1 to 4 threads, marks what a loop over triangles marks, with the same
-// distances to the last bit and the same triangles. The loop asks the library's decision kernel in its scalar form about every
-// triangle whose box is near to the node, by a grid of its own; on a sample of nodes about every triangle. Prints a table; fails on any
-// difference. argv[1]: thousands of nodes in the place of a million.
+// ./run bench proof, its first half: on a million nodes, both valves, three positions, three half thicknesses, the search
+// over clusters, with every instruction set of the processor and 1 to 4 threads, marks what a loop over triangles marks,
+// with the same distances to the last bit and the same triangles. The loop asks the library's decision kernel in its scalar
+// form about every triangle whose box is near to the node, by a grid of its own; on a sample of nodes about every triangle.
+// Prints a table; fails on any difference. argv[1]: thousands of nodes in the place of a million.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

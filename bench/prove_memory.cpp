@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its second half: 10,000 time steps of a valve that opens and closes, both valves, 100,000 nodes, 2 threads: the
-// process' memory is that of step 100 at the end, to 1 MB. A marking asks malloc for nothing once the valve has been through all
-// its positions: with one thread. Prints a table; fails otherwise. argv[1]: another number of steps, a multiple of 100.
+// ./run bench proof, its second half: 10,000 time steps of a valve that opens and closes, both valves, 100,000 nodes, 2
+// threads: the process' memory is that of step 100 at the end, to 1 MB. A marking asks malloc for nothing once the valve has
+// been through all its positions: with one thread. Prints a table; fails otherwise. argv[1]: another number of steps, a
+// multiple of 100.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -24,7 +25,8 @@ void count() {
 
 }  // namespace
 
-// An executable's functions go before those of the libraries: all that the process allocates comes by here, operator new included.
+// An executable's functions go before those of the libraries: all that the process allocates comes by here, operator new
+// included.
 extern "C" {
 void *__libc_malloc(std::size_t size);
 void *__libc_calloc(std::size_t n, std::size_t size);
@@ -78,8 +80,8 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // Of all markings after the warm steps. Threads share the work as it comes: the room of one that gets more than ever before
-  // doubles, which is a matter of chance, and over soon.
+  // Of all markings after the warm steps. Threads share the work as it comes: the room of one that gets more than ever
+  // before doubles, which is a matter of chance, and over soon.
   std::int64_t most_allocations;
 };
 
