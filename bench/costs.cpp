@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each call costs, as the table in the README: the shortest of repeated calls, and the memory that stays with the handle. On
 // cylinders of a million nodes that the valves fit, tolerance 5 %. argv[1], if there is one: thousands of nodes.
-#include <malloc.h>
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "cylinder.hpp"
+#include "memory.hpp"
 
 namespace {
 
@@ -33,11 +33,6 @@ double shortest(
     sum += seconds;
   }
   return least;
-}
-
-double allocated() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
 std::string time_text(double seconds) {
@@ -152,9 +147,9 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   table.add("`riis_surface_update`",
             shortest([&] { check(riis_surface_update(surface.get(), valve.get(), nullptr)); }));
 
-  const CylinderMesh cylinder_mesh(cylinder, about_n_nodes);
-  const double *xyz = cylinder_mesh.xyz().data();
-  const std::int64_t n = cylinder_mesh.n_nodes();
+  const CylinderNodes nodes(cylinder, about_n_nodes);
+  const double *xyz = nodes.xyz().data();
+  const std::int64_t n = nodes.n_nodes();
   riis_mesh *new_mesh = nullptr;
   add_making<riis_mesh>(
       table, "`riis_mesh_create`, `riis_mesh_update`",
@@ -166,7 +161,7 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   add_marking(table, "clusters", surface, mesh.get(), RIIS_SEARCH_CLUSTERS);
   add_marking(table, "exhaustive search", surface, mesh.get(), RIIS_SEARCH_EXHAUSTIVE);
 
-  const std::vector<std::int32_t> tetrahedra = cylinder_mesh.tetrahedra();
+  const std::vector<std::int32_t> tetrahedra = nodes.tetrahedra();
   Adjacency adjacency = adjacency_of(n, tetrahedra, 1);
   const double seconds = shortest([&] { adjacency = adjacency_of(n, tetrahedra, 1); }, [&] { adjacency.reset(); });
   adjacency.reset();

@@ -5,12 +5,13 @@
 
 namespace bench {
 
-CylinderMesh::CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes) {
+CylinderNodes::CylinderNodes(const Cylinder &cylinder, std::int64_t about_n_nodes) {
   // Equal edges along the axis and, on average, across it.
   const double width = std::sqrt(M_PI) * cylinder.radius, length = cylinder.upper - cylinder.lower;
   const double edge = std::cbrt(width * width * length / static_cast<double>(about_n_nodes));
   n_across_ = std::lround(width / edge) + 1;
   n_along_ = std::lround(static_cast<double>(about_n_nodes) / static_cast<double>(n_across_ * n_across_));
+  xyz_.reserve(static_cast<std::size_t>(3 * n_nodes()));
   for (std::int64_t k = 0; k < n_along_; ++k) {
     for (std::int64_t j = 0; j < n_across_; ++j) {
       for (std::int64_t i = 0; i < n_across_; ++i) {
@@ -23,10 +24,19 @@ CylinderMesh::CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes)
       }
     }
   }
-  adjacency_ = adjacency_of(n_nodes(), tetrahedra(), 0);
+}
+
+Mesh mesh_over(const CylinderNodes &nodes) {
+  const double *xyz = nodes.xyz().data();
   riis_mesh *mesh = nullptr;
-  check(riis_mesh_create(n_nodes(), xyz_.data(), xyz_.data() + 1, xyz_.data() + 2, 3, &mesh));
-  mesh_.reset(mesh);
+  check(riis_mesh_create(nodes.n_nodes(), xyz, xyz + 1, xyz + 2, 3, &mesh));
+  return Mesh(mesh);
+}
+
+CylinderMesh::CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes)
+    : CylinderNodes(cylinder, about_n_nodes),
+      adjacency_(adjacency_of(n_nodes(), tetrahedra(), 0)),
+      mesh_(mesh_over(*this)) {
   const riis_csr of_tetrahedra = rows();
   check(riis_mesh_set_adjacency(mesh_.get(), &of_tetrahedra));
 }
@@ -37,7 +47,7 @@ riis_csr CylinderMesh::rows() const {
   return rows;
 }
 
-std::vector<std::int32_t> CylinderMesh::tetrahedra() const {
+std::vector<std::int32_t> CylinderNodes::tetrahedra() const {
   // The six paths along the edges of a box from one corner to the opposite one.
   constexpr int paths[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const std::int64_t step[3] = {1, n_across_, n_across_ * n_across_};

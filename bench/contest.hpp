@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times of several pieces of work that take turns, so that what else the machine does falls on all alike; and the bars that
+// ratios of them are held against. As tables in markdown and as JSON.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+class Contest {
+ public:
+  using Work = std::function<void()>;
+
+  // before() prepares a turn, outside its time. At least 5 turns: a ratio is the median of five parts of the run.
+  void add(
+      const std::string &name, int n_turns, Work work, Work before = [] {});
+  // A contender that cannot take part here; bars with it are left out, and the reason is said.
+  void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
+  // All that were added since the last run. Each works once, untimed, before the first turn.
+  void run();
+
+  double least(const std::string &name) const;
+  // Of the two least times in each fifth of the run, the median ratio.
+  double ratio(const std::string &above, const std::string &below) const;
+  // Why a contender was left out; empty if it was not.
+  std::string why_left_out(const std::string &name) const;
+
+  void print() const;
+  nlohmann::json json() const;
+
+ private:
+  struct Contender {
+    std::string name;
+    int n_turns;
+    Work work, before;
+  };
+  std::vector<Contender> contenders_;
+  std::map<std::string, std::vector<double>> times_;  // milliseconds
+  std::map<std::string, std::string> left_out_;
+};
+
+enum class Wanted { at_least, at_most };
+
+// What is wanted of the ratio of two contenders.
+struct RatioBar {
+  const char *name, *above, *below;
+  Wanted wanted;
+  double bar;
+};
+
+class Bars {
+ public:
+  void add(const std::string &name, double value, Wanted wanted, double bar);
+  void add(const Contest &contest, const RatioBar &ratio);
+
+  void print() const;
+  nlohmann::json json() const;
+
+ private:
+  struct Bar {
+    std::string name;
+    double value;
+    Wanted wanted;
+    double bar;
+    bool is_met() const { return wanted == Wanted::at_most ? value <= bar : value >= bar; }
+  };
+  std::vector<Bar> bars_;
+  std::vector<std::string> left_out_;
+};
+
+}  // namespace bench

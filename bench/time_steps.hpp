@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a solver does in a time step: the valve moves, its surface is made again, nodes are marked, their list is read.
+#pragma once
+
+#include <string>
+
+#include "handles.hpp"
+
+namespace bench {
+
+// The marked nodes, as the result lends them.
+struct Marked {
+  std::int64_t n;
+  const std::int64_t *node_id, *triangle_id;
+  const double *distance;
+};
+
+inline Marked marked_in(const riis_mark_result *result) {
+  Marked marked;
+  check(riis_mark_result_marked(result, &marked.n, &marked.node_id, &marked.distance, &marked.triangle_id, nullptr));
+  return marked;
+}
+
+struct StepOptions {
+  const char *kind = "aortic";  // of the valve
+  double half_thickness = 0.1;
+  double tolerance = 0.05;
+  int n_threads = 1;
+  std::int32_t instructions = RIIS_INSTRUCTIONS_AUTO;
+};
+
+// Marks by clusters. The mesh is borrowed.
+class TimeSteps {
+ public:
+  TimeSteps(const riis_mesh *mesh, const StepOptions &options)
+      : mesh_(mesh), is_mitral_(std::string(options.kind) == "mitral"), valve_(make_valve(options.kind)) {
+    move_to(0.5);
+    riis_surface_options of_surface;
+    check(riis_surface_options_init(&of_surface, sizeof of_surface));
+    of_surface.tolerance = options.tolerance;
+    of_surface.half_thickness = options.half_thickness;
+    riis_surface *surface = nullptr;
+    check(riis_surface_create(valve_.get(), &of_surface, &surface));
+    surface_.reset(surface);
+    check(riis_mark_options_init(&marking_, sizeof marking_));
+    marking_.search = RIIS_SEARCH_CLUSTERS;
+    marking_.n_threads = options.n_threads;
+    marking_.instructions = options.instructions;
+  }
+
+  // From 0 to 1: the mitral valve opens; the free edges of the aortic valve's cusps turn by 30 degrees.
+  void move_to(double position) {
+    if (is_mitral_)
+      check(riis_valve_set_scalar(valve_.get(), "opening", position));
+    else
+      check(riis_valve_set_scalar(valve_.get(), "leaflet_angle", 30 + 30 * position));
+  }
+  // A sixtieth of that, there and back within a twelfth.
+  void move() {
+    step_ = (step_ + 1) % 10;
+    move_to(0.5 + (step_ < 5 ? step_ : 10 - step_) / 60.0);
+  }
+  void update() { check(riis_surface_update(surface_.get(), valve_.get(), nullptr)); }
+  void mark() { check(riis_mark_nodes(surface_.get(), mesh_, &marking_, result_.get())); }
+  Marked step() {
+    update();
+    mark();
+    return marked_in(result_.get());
+  }
+
+  // Whether the processor has the instructions that are asked for.
+  bool can_mark() const {
+    const riis_status status = riis_mark_nodes(surface_.get(), mesh_, &marking_, make_result().get());
+    if (status != RIIS_UNAVAILABLE) check(status);
+    return status == RIIS_OK;
+  }
+
+  const riis_surface *surface() const { return surface_.get(); }
+  const riis_mark_result *result() const { return result_.get(); }
+  riis_mark_stats stats() const {
+    riis_mark_stats stats;
+    check(riis_mark_result_stats(result_.get(), &stats, sizeof stats));
+    return stats;
+  }
+
+ private:
+  const riis_mesh *mesh_;
+  bool is_mitral_;
+  Valve valve_;
+  Surface surface_;
+  Result result_ = make_result();
+  riis_mark_options marking_;
+  int step_ = 0;
+};
+
+}  // namespace bench
