@@ -378,7 +378,7 @@ static void first_bounds_and_boxes_lose_nothing(void **state) {
  * with so little that the filter stops and goes on. */
 static void no_pair_that_matters_is_lost(void **state) {
   (void)state;
-  static const int32_t rooms[] = {100000, 32, 33, 47, 200};
+  static const int32_t rooms[] = {100000, 64, 65, 79, 200};
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     int64_t n_closest = 0, n_ties = 0, n_left = 0, n_all = 0, n_resumed = 0;
@@ -394,7 +394,7 @@ static void no_pair_that_matters_is_lost(void **state) {
           fail_msg("%s, trial %d: writes beyond its room, or names other nodes than it has pairs of", kernels_name(set),
                    trial);
         n_resumed += n_calls > 1;
-        if (k == 0) assert_int_equal(n_calls, 1);
+        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200); /* it stops for want of its own room, too */
         memset(has, 0, sizeof has);
         for (int64_t i = 0; i < n; ++i) {
           if (!(c.filter.wanted >> pairs[i].node & 1)) fail_msg("a pair of a node that is not wanted");

@@ -412,14 +412,14 @@ typedef struct riis_mesh riis_mesh;
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
                                       riis_mesh **mesh);
 /* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Arguments and errors as above.
- * To be called after any change of coordinates: the neighbour search knows where groups of nodes are, and without it seeks them
- * where they were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also groups them anew. */
+ * To be called after any change of coordinates: clusters have copies of them, and the neighbour search knows where groups of nodes are;
+ * without it both seek nodes where they were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also groups them anew. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride);
 /* Destroys the handle; the coordinates are the caller's and stay, and so do results. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does: the order of its nodes in clusters,
- * about 17 bytes a node while the handle lives, about 32 more while they are made. After riis_mesh_update with as many nodes the order
+ * and copies of their coordinates, about 41 bytes a node while the handle lives, about 32 more while they are made. After riis_mesh_update with as many nodes the order
  * stays, and only places are made again. Nothing if it is there already.
  *   n_threads  1 to 1024, or 0: the processors the calling thread may use
  * Errors: RIIS_INVALID_MESH for a coordinate that was made non-finite since it was given. */

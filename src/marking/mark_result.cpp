@@ -35,12 +35,12 @@ void NodeList::set(std::size_t i, std::int64_t node, double node_distance, std::
 
 void Collection::prepare(int n_threads) {
   if (by_thread.size() < static_cast<std::size_t>(n_threads)) by_thread.resize(static_cast<std::size_t>(n_threads));
-  // Which thread finds how much differs from step to step: each gets room for what any had.
+  // Which thread finds how much differs from step to step: each gets room for twice what any had.
   std::size_t largest = 0;
-  for (const auto &found : by_thread) largest = std::max(largest, found.capacity());
+  for (const auto &found : by_thread) largest = std::max(largest, found.size());
   for (auto &found : by_thread) {
     found.clear();
-    found.reserve(largest);
+    found.reserve(2 * largest);
   }
 }
 
@@ -50,8 +50,8 @@ void Collection::Clustered::prepare(int n_threads) {
   // As above.
   const auto make_room = [this](auto member) {
     std::size_t largest = 0;
-    for (const Thread &thread : threads) largest = std::max(largest, (thread.*member).capacity());
-    for (Thread &thread : threads) (thread.*member).reserve(largest);
+    for (const Thread &thread : threads) largest = std::max(largest, (thread.*member).size());
+    for (Thread &thread : threads) (thread.*member).reserve(2 * largest);
   };
   make_room(&Thread::candidates);
   make_room(&Thread::bits);

@@ -94,12 +94,39 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 }
 
 void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
+  constexpr double much = 2;
   frame = surface_frame;
   corners.resize(9 * set.n_triangles());
-  Grouping by_place;
-  if (set.grouping.end.empty()) group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), by_place);
-  const Grouping &grouping = set.grouping.end.empty() ? by_place : set.grouping;
-  const std::vector<std::int32_t> &end = grouping.end;
+  const bool is_by_place = set.grouping.end.empty();
+  // Groups by place stay as long as they do not fall apart: triangles in the order of the last time's have mostly moved only.
+  const bool are_known = is_by_place ? is_by_place_ && grouping_.order.size() == set.n_triangles()
+                                     : !is_by_place_ && grouping_ == set.grouping;
+  const auto group_anew = [&] {
+    grouping_ = set.grouping;
+    if (is_by_place) group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), grouping_);
+    is_by_place_ = is_by_place;
+  };
+  if (!are_known) group_anew();
+  enclose(set, n_threads);
+  are_as_before = are_known && size() <= much * size_at_first_;
+  if (are_as_before) return;
+  if (are_known && is_by_place) {
+    group_anew();
+    enclose(set, n_threads);
+  }
+  size_at_first_ = size();
+}
+
+// Of all boxes, in the units of the frame: how much they overlap, or miss, shows in it.
+double TriangleGroups::size() const {
+  double sum = 0;
+  for (const GroupBounds &group : bounds)
+    for (int i = 0; i < 3; ++i) sum += static_cast<double>(group.upper[i]) - static_cast<double>(group.lower[i]);
+  return sum;
+}
+
+void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
+  const std::vector<std::int32_t> &order = grouping_.order, &end = grouping_.end;
   groups.resize(end.size());
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
@@ -111,7 +138,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
       of_group.n = end[g] - first;
       double framed[9 * triangles_per_group];
       for (int i = 0; i < of_group.n; ++i) {
-        const std::int32_t triangle = grouping.order[static_cast<std::size_t>(first + i)];
+        const std::int32_t triangle = order[static_cast<std::size_t>(first + i)];
         of_group.triangle[i] = triangle;
         double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle), *to = framed + 9 * i;
         for (const Vec3 p : set.corners(static_cast<std::size_t>(triangle))) {

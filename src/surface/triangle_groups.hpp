@@ -46,9 +46,19 @@ struct TriangleGroups {
   std::vector<double> corners;  // (3, 3, n_triangles), as they are
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
+  // As when they were last made, by the same positions in the set, and not much larger: what was built over them still fits.
+  bool are_as_before = false;
 
   // Keeps the memory of what was there.
   void make(const TriangleSet &set, const Frame &surface_frame, int n_threads);
+
+ private:
+  void enclose(const TriangleSet &set, int n_threads);
+  double size() const;
+
+  Grouping grouping_;
+  bool is_by_place_ = false;
+  double size_at_first_ = 0;  // when they were last made otherwise than before
 };
 
 }  // namespace riis

@@ -7,7 +7,6 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <tbb/task_arena.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,7 +69,6 @@ struct TriangleScene::Implementation {
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   Scene scene;
   Geometry geometry;
-  std::size_t n_groups = 0;  // that the geometry was last built of
 };
 
 namespace {
@@ -168,7 +166,6 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
     if (error != RTC_ERROR_NONE) fail_embree(error, what);
   };
   rtcGetDeviceError(device);  // forgets what an earlier failure of this thread may have left
-  const std::size_t n_groups = in.groups.groups.size();
   if (!in.scene) {
     in.scene.reset(rtcNewScene(device));
     check("create a scene");
@@ -178,20 +175,17 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
     rtcSetGeometryBoundsFunction(in.geometry.get(), bounds_of_group, nullptr);
     rtcAttachGeometry(in.scene.get(), in.geometry.get());
   } else {
-    // What moves is built more often, and asked less each time: as many groups as before keep their tree, with other boxes.
+    // What moves is built more often, and asked less each time. The same groups keep their tree, with other boxes.
     rtcSetSceneFlags(in.scene.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(in.scene.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(in.geometry.get(),
-                               n_groups == in.n_groups ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
+                               in.groups.are_as_before ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
   }
-  rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(n_groups));
+  rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
   rtcCommitGeometry(in.geometry.get());
   check("take the triangles");
-  { tbb::task_arena arena(1,1); arena.execute([&]{ 
   rtcCommitScene(in.scene.get());
-  }); }
   check("build the scene");
-  in.n_groups = n_groups;
 }
 
 TriangleScene::~TriangleScene() = default;

@@ -14,6 +14,8 @@ namespace riis {
 // Triangles by groups of neighbours, for searches: positions in the set, group after group, and where each group ends.
 struct Grouping {
   std::vector<std::int32_t> order, end;
+
+  bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
 };
 
 struct TriangleSet {

@@ -107,9 +107,8 @@ int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kerne
   const auto size = static_cast<std::size_t>(room) + 16;
   for (*n_calls = 0; *n_calls == 0 || of_filter.of_leaf.next_group < filter->n_groups; ++*n_calls) {
     std::vector<std::int32_t> node(size + 16, untouched), triangle(size + 16, untouched);
-    std::vector<float> distance_sq(size + 16, untouched);
-    const std::int32_t n = of(set).filter_leaf(of_filter.task, of_filter.of_leaf,
-                                               {node.data(), triangle.data(), distance_sq.data()}, room);
+    const std::int32_t n =
+        of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {node.data(), triangle.data()}, room);
     std::uint32_t nodes = 0;
     bool is_right = n <= room;
     for (std::size_t i = 0; is_right && i < static_cast<std::size_t>(n); ++i) {
@@ -117,7 +116,7 @@ int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kerne
       found.push_back({node[i], triangle[i]});
     }
     for (std::size_t i = size; i < node.size(); ++i)
-      is_right = is_right && node[i] == untouched && triangle[i] == untouched && distance_sq[i] == untouched;
+      is_right = is_right && node[i] == untouched && triangle[i] == untouched;
     if (!is_right || nodes != of_filter.of_leaf.found) return -1;
   }
   *pairs = static_cast<kernel_pair *>(std::malloc((found.size() + 1) * sizeof(kernel_pair)));
@@ -127,7 +126,7 @@ int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kerne
 
 void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq) {
   Filter of_filter(*filter);
-  of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {nullptr, nullptr, nullptr}, 0);
+  of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {nullptr, nullptr}, 0);
   for (int k = 0; k < filter->n_groups; ++k)
     std::copy_n(of_filter.of_leaf.lower_bounds + nodes_per_leaf * k, nodes_per_leaf,
                 lower_sq + nodes_per_leaf * of_filter.near_groups[static_cast<std::size_t>(k)]);
