@@ -37,6 +37,16 @@ static void random_frame(double (*axis)[3]) {
 static void place(const double *origin, double (*axis)[3], double e, double f, double g, double *p) {
   for (int c = 0; c < 3; ++c) p[c] = origin[c] + e * axis[0][c] + f * axis[1][c] + g * axis[2][c];
 }
+static double longest_edge_of(int n, const double *corners) {
+  double longest = 0;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double *a = corners + 9 * i + 3 * k, *b = corners + 9 * i + 3 * ((k + 1) % 3);
+      longest = fmax(longest, sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                                   (a[2] - b[2]) * (a[2] - b[2])));
+    }
+  return longest;
+}
 static double largest_of(const double *x, int n) {
   double largest = 0;
   for (int i = 0; i < n; ++i) largest = fmax(largest, fabs(x[i]));
@@ -190,7 +200,7 @@ static void single_precision_is_right_to_its_error(void **state) {
         float stored[3], as_float[3];
         random_point_near(corners + 9 * (random_bits(&rng) % (uint64_t)n), limit, p);
         if (!store(&f, p, stored, as_float)) continue;
-        const double error = kernels_error(f.ratio, f.largest_shift, limit);
+        const double error = kernels_error(f.ratio, f.largest_shift, limit, longest_edge_of(n, corners));
         static const int32_t zeros[n_lanes];
         int32_t triangle[n_lanes];
         for (int i = 0; i < n_lanes; ++i) triangle[i] = i < n ? i : 0;
@@ -301,7 +311,9 @@ static void make_case(int set, int trial, leaf_case *c) {
   c->filter = (kernel_filter){f.ratio,     {f.shift[0], f.shift[1], f.shift[2]},   limit,      there,
                               c->n_groups, (const kernel_group *const *)c->groups, c->n_nodes, c->nodes};
   if (trial % 3 == 0) c->filter.wanted &= (uint32_t)random_bits(&rng);
-  c->error = kernels_error(f.ratio, f.largest_shift, limit);
+  double longest_edge = 0;
+  for (int g = 0; g < c->n_groups; ++g) longest_edge = fmax(longest_edge, longest_edge_of(c->n[g], c->corners[g]));
+  c->error = kernels_error(f.ratio, f.largest_shift, limit, longest_edge);
 }
 
 static void free_case(leaf_case *c) {

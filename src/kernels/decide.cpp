@@ -263,6 +263,7 @@ RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const double *first, 
 void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   Doubles3 all_corners[halves][3];
+  Doubles lengths[halves][3];
   for (int half = 0; half < halves; ++half) {
     const int from = half * Doubles::n;
     const double *triangle[Doubles::n];
@@ -290,6 +291,9 @@ void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds
     put(e.unit, group.e, from);
     put(f, group.f, from);
     put(cross(e.unit, f), group.g, from);
+    lengths[half][0] = e.length;
+    lengths[half][1] = along_ac.length;
+    lengths[half][2] = along_bc.length;
     put(e.length, group.ab + from);
     put(along_ac.length, group.ac + from);
     put(along_bc.length, group.bc + from);
@@ -299,6 +303,7 @@ void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds
     put(along_bc.unit.y, group.bc_f + from);
   }
   bound_group(all_corners, corners, bounds);
+  bounds.longest_edge = round_up(extent_of(lengths).to);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct GroupBounds {
   float lower[3], upper[3];
   float axis[3][3], from[3], to[3];
   float corner[3];
+  float longest_edge;
   int32_t n;                              // triangles
   int32_t triangle[triangles_per_group];  // their positions in the surface's set
 };

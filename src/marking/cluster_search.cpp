@@ -38,15 +38,15 @@ class ClusterSearch {
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
     // With the rounding of the decision's distances.
-    const double error =
-        filter_error(placing.ratio, placing.largest_shift, limit) + 4 * scene_.rounding() * frame.scale;
+    const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
+                         4 * scene_.rounding() * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
     task_.ratio = static_cast<float>(placing.ratio);
     task_.shift[0] = static_cast<float>(placing.shift.x);
     task_.shift[1] = static_cast<float>(placing.shift.y);
     task_.shift[2] = static_cast<float>(placing.shift.z);
     task_.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
-    task_.tolerance = static_cast<float>(8 * error * (limit + 2 * error));
+    task_.tolerance = filter_tolerance(error, limit + 2 * error);
     task_.margin = static_cast<float>(0.5 * error);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
@@ -79,7 +79,6 @@ class ClusterSearch {
         own.candidates.clear();
         scene_.collect_groups(centre, 0.5f * std::sqrt(sum) + reach_, own.candidates);
         if (own.candidates.empty()) continue;
-        std::sort(own.candidates.begin(), own.candidates.end());
         own.bits.resize(own.candidates.size());
         if (!kernels_.near_boxes(task_, clusters_.regions[static_cast<std::size_t>(region)], own.candidates.data(),
                                  static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
@@ -115,11 +114,25 @@ class ClusterSearch {
   }
 
  private:
+  // Adds those of n numbers that have the bit; returns how many.
+  static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
+                                std::vector<std::int32_t> &to) {
+    const std::size_t first = to.size();
+    to.resize(first + n);
+    std::int32_t *next = to.data() + first;
+    // Written whether or not it stays: nobody can guess which do.
+    for (std::size_t k = 0; k < n; ++k) {
+      *next = numbers[k];
+      next += bits[k] >> bit & 1;
+    }
+    const auto n_added = static_cast<std::size_t>(next - (to.data() + first));
+    to.resize(first + n_added);
+    return n_added;
+  }
+
   void add_cluster(std::int64_t cluster, std::int64_t bit, Clustered::Thread &own) {
     const std::size_t first = own.near_groups.size();
-    for (std::size_t k = 0; k < own.candidates.size(); ++k)
-      if (own.bits[k] >> bit & 1) own.near_groups.push_back(own.candidates[k]);
-    const std::size_t n = own.near_groups.size() - first;
+    const std::size_t n = add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
     if (n == 0) return;
     own.leaf_bits.resize(first + n);
     if (kernels_.near_boxes(task_, clusters_.clusters[static_cast<std::size_t>(cluster)],
@@ -152,8 +165,7 @@ class ClusterSearch {
       const std::uint32_t after = near & (near - 1);
       if (after) prefetch(leaves.begin + __builtin_ctz(after));
       own.leaf_groups.clear();
-      for (std::size_t k = 0; k < item.n; ++k)
-        if (leaf_bits[k] >> bit & 1) own.leaf_groups.push_back(candidates[k]);
+      add_marked(candidates, leaf_bits, item.n, bit, own.leaf_groups);
       std::fill_n(own.closest.begin() + nodes_per_leaf * bit, nodes_per_leaf, nothing);
       filter_leaf(leaves.begin + bit, own, pairs);
     }

@@ -108,6 +108,9 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   };
   if (!are_known) group_anew();
   enclose(set, n_threads);
+  // Of the longest edge of all, whichever groups it is in.
+  longest_edge = 0;
+  for (const GroupBounds &group : bounds) longest_edge = std::max(longest_edge, group.longest_edge);
   are_as_before = are_known && size() <= much * size_at_first_;
   if (are_as_before) return;
   if (are_known && is_by_place) {

@@ -33,10 +33,13 @@ float round_up(double x);
 Bounds bounds_of(const TriangleSet &set);
 
 // What the filters' distances in the surface's frame may be off by (docs/theory.md, section 8): for points that were in a frame
-// `ratio` times as large and moved by `shift`, up to `reach` from the surface.
-inline float filter_error(double ratio, double shift, double reach) {
-  return static_cast<float>(0x1p-18 * (ratio + shift + 4 + reach));
+// `ratio` times as large and moved by `shift`, up to `reach` from triangles of edges up to `longest_edge`.
+inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
+  return static_cast<float>(0x1p-21 * (ratio + shift + 4 * reach + 7 * longest_edge + 6));
 }
+
+// What squares of filtered distances up to `reach`, which the error is part of, may differ by though the distances are the same.
+inline float filter_tolerance(double error, double reach) { return static_cast<float>(5 * error * (reach + error)); }
 
 // Groups the triangles from begin to end - 1 of a set by where they are, and adds the groups.
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
@@ -46,6 +49,7 @@ struct TriangleGroups {
   std::vector<double> corners;  // (3, 3, n_triangles), as they are
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
+  float longest_edge = 0;
   // As when they were last made, by the same positions in the set, and not much larger: what was built over them still fits.
   bool are_as_before = false;
 

@@ -102,7 +102,7 @@ void kernels_group_free(kernel_group *group);
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 
 /* What the library allows for: points scaled by a ratio, moved by a shift, up to a reach from the surface. */
-double kernels_error(double ratio, double shift, double reach);
+double kernels_error(double ratio, double shift, double reach, double longest_edge);
 
 /* What a search does with up to 32 nodes (3, n_nodes) of the mesh's frame and groups that they are near to, with a limit in the
  * surface's frame. */

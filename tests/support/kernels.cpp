@@ -49,10 +49,12 @@ struct Filter {
       shift = std::max(shift, std::abs(filter.shift[i]));
       task.shift[i] = static_cast<float>(filter.shift[i]);
     }
-    const double error = filter_error(filter.ratio, shift, filter.limit), reach = filter.limit + 2 * error;
+    double longest_edge = 0;
+    for (const GroupBounds &group : bounds) longest_edge = std::max<double>(longest_edge, group.longest_edge);
+    const double error = filter_error(filter.ratio, shift, filter.limit, longest_edge), reach = filter.limit + 2 * error;
     task.ratio = static_cast<float>(filter.ratio);
     task.reach_sq = static_cast<float>(reach * reach);
-    task.tolerance = static_cast<float>(8 * error * reach);
+    task.tolerance = filter_tolerance(error, reach);
     task.margin = static_cast<float>(0.5 * error);
     task.groups = groups.data();
     task.bounds = bounds.data();
@@ -99,7 +101,9 @@ void kernels_group_distances(int set, const kernel_group *group, const float *po
   of(set).group_distances(group->group, point, static_cast<float>(margin), distance_sq);
 }
 
-double kernels_error(double ratio, double shift, double reach) { return filter_error(ratio, shift, reach); }
+double kernels_error(double ratio, double shift, double reach, double longest_edge) {
+  return filter_error(ratio, shift, reach, longest_edge);
+}
 
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls) {
   Filter of_filter(*filter);
