@@ -249,15 +249,26 @@ RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const double *first, 
     bounds.from[i] = round_down(extent.from);
     bounds.to[i] = round_up(extent.to);
   }
-  double nearest = __builtin_inf();
-  for (int i = 0; i < 3 * bounds.n; ++i) {
-    const double *corner = first + 3 * i;
-    double sum = 0;
-    for (int j = 0; j < 3; ++j) sum += (corner[j] - middle[j]) * (corner[j] - middle[j]);
-    if (!(sum < nearest)) continue;
-    nearest = sum;
-    for (int j = 0; j < 3; ++j) bounds.corner[j] = static_cast<float>(corner[j]);
-  }
+  // The corner that is nearest to the middle; lanes without a triangle have the first one's.
+  const Doubles3 to = {Doubles::all(middle[0]), Doubles::all(middle[1]), Doubles::all(middle[2])};
+  Doubles nearest = Doubles::all(__builtin_inf());
+  Doubles3 nearest_corner = to;
+  for (int h = 0; h < halves; ++h)
+    for (int k = 0; k < 3; ++k) {
+      const Doubles3 from_middle = corners[h][k] - to;
+      const Doubles distance_sq = dot(from_middle, from_middle);
+      const Doubles::Mask is_nearer = distance_sq < nearest;
+      nearest = choose(is_nearer, distance_sq, nearest);
+      nearest_corner = choose(is_nearer, corners[h][k], nearest_corner);
+    }
+  alignas(64) double of_lane[Doubles::n], corner[3][Doubles::n];
+  nearest.store(of_lane);
+  nearest_corner.x.store(corner[0]);
+  nearest_corner.y.store(corner[1]);
+  nearest_corner.z.store(corner[2]);
+  int lane = 0;
+  for (int i = 1; i < Doubles::n; ++i) lane = of_lane[i] < of_lane[lane] ? i : lane;
+  for (int j = 0; j < 3; ++j) bounds.corner[j] = static_cast<float>(corner[j][lane]);
 }
 
 void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds) {
@@ -277,11 +288,15 @@ void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds
     const Direction e = direction(q[1] - q[0], {one, zero, zero});
     // What of a-c is across e, twice: the second time takes away what rounding left of e in a needle's.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    const Doubles::Mask steep = magnitude(e.unit.x) < Doubles::all(0.6);
-    const Doubles3 any_other = {choose(steep, one, zero), choose(steep, zero, one), zero};
     // Where rounding has left nothing of the triangle's height, what is across e is noise, and may be along e again.
-    const Doubles3 over = across(ac), other = direction(across(any_other), {zero, zero, one}).unit;
+    const Doubles3 over = across(ac);
     const Doubles::Mask has_height = dot(over, over) > Doubles::all(0x1p-88) * dot(ac, ac);
+    Doubles3 other = {zero, zero, one};
+    if (any(opposite(has_height))) {
+      const Doubles::Mask steep = magnitude(e.unit.x) < Doubles::all(0.6);
+      const Doubles3 any_other = {choose(steep, one, zero), choose(steep, zero, one), zero};
+      other = direction(across(any_other), {zero, zero, one}).unit;
+    }
     const Doubles3 roughly = choose(has_height, direction(over, other).unit, other);
     const Doubles3 f = direction(across(roughly), {zero, zero, one}).unit;
     const Doubles c_e = dot(ac, e.unit), c_f = dot(ac, f);

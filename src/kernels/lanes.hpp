@@ -148,6 +148,13 @@ RIIS_INLINE Mask both(Mask a, Mask b) {
   return r;
 }
 
+template <class Mask>
+RIIS_INLINE Mask opposite(Mask a) {
+  Mask r;
+  for (unsigned i = 0; i < sizeof r.part / sizeof r.part[0]; ++i) r.part[i] = ~a.part[i];
+  return r;
+}
+
 RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R, n> yes, Lanes<S, R, n> no) {
   typedef Lanes<S, R, n> L;
   RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
