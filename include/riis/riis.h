@@ -419,8 +419,8 @@ RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const do
 /* Destroys the handle; the coordinates are the caller's and stay, and so do results. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does: the order of its nodes in clusters,
- * and copies of their coordinates, about 41 bytes a node while the handle lives, about 32 more while they are made. After riis_mesh_update with as many nodes the order
- * stays, and only places are made again. Nothing if it is there already.
+ * and copies of their coordinates, about 41 bytes a node while the handle lives, about 32 more while they are made. After
+ * riis_mesh_update with as many nodes the order stays, and only places are made again. Nothing if it is there already.
  *   n_threads  1 to 1024, or 0: the processors the calling thread may use
  * Errors: RIIS_INVALID_MESH for a coordinate that was made non-finite since it was given. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
