@@ -186,7 +186,7 @@ RIIS_INLINE double sum_of(Doubles x) {
 }
 
 // Unit vectors across the triangles, along an edge, and across both. Any three at right angles are right; these make a small box.
-RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const double *first, float (*axis)[3]) {
+RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const GroupCorners &as_given, float (*axis)[3]) {
   double across[3] = {0, 0, 0};
   for (int h = 0; h < halves; ++h) {
     const Doubles3 normal = cross(corners[h][1] - corners[h][0], corners[h][2] - corners[h][0]);
@@ -207,7 +207,8 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const double *first, 
   for (int i = 0; i < 3; ++i) largest = __builtin_fmax(largest, __builtin_fabs(across[i]));
   for (int i = 0; i < 3; ++i) across[i] = largest > 0 ? across[i] / largest : i == 2;
   normalize(across);
-  double along[3] = {first[3] - first[0], first[4] - first[1], first[5] - first[2]};
+  double along[3];
+  for (int i = 0; i < 3; ++i) along[i] = as_given.xyz[3 + i][0] - as_given.xyz[i][0];
   const auto take_across_away = [&] {
     const double share = dot3(along, across);
     for (int i = 0; i < 3; ++i) along[i] -= share * across[i];
@@ -226,8 +227,7 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const double *first, 
   }
 }
 
-// first: the first triangle's corners.
-RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const double *first, GroupBounds &bounds) {
+RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const GroupCorners &as_given, GroupBounds &bounds) {
   Doubles coordinates[halves][3];
   double middle[3];
   for (int i = 0; i < 3; ++i) {
@@ -239,7 +239,7 @@ RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const double *first, 
     bounds.upper[i] = round_up(extent.to);
     middle[i] = 0.5 * (extent.from + extent.to);
   }
-  choose_axes(corners, first, bounds.axis);
+  choose_axes(corners, as_given, bounds.axis);
   for (int i = 0; i < 3; ++i) {
     const float *axis = bounds.axis[i];
     const Doubles3 direction = {Doubles::all(axis[0]), Doubles::all(axis[1]), Doubles::all(axis[2])};
@@ -271,19 +271,16 @@ RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const double *first, 
   for (int j = 0; j < 3; ++j) bounds.corner[j] = static_cast<float>(corner[j][lane]);
 }
 
-void make_group(const double *corners, TriangleGroup &group, GroupBounds &bounds) {
+void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   Doubles3 all_corners[halves][3];
   Doubles lengths[halves][3];
   for (int half = 0; half < halves; ++half) {
     const int from = half * Doubles::n;
-    const double *triangle[Doubles::n];
-    for (int lane = 0; lane < Doubles::n; ++lane)
-      triangle[lane] = corners + 9 * (from + lane < bounds.n ? from + lane : 0);
     Doubles3 *q = all_corners[half];
     for (int i = 0; i < 3; ++i)
-      q[i] = {Doubles::gather(triangle, 3 * i), Doubles::gather(triangle, 3 * i + 1),
-              Doubles::gather(triangle, 3 * i + 2)};
+      q[i] = {Doubles::load(corners.xyz[3 * i] + from), Doubles::load(corners.xyz[3 * i + 1] + from),
+              Doubles::load(corners.xyz[3 * i + 2] + from)};
     const Doubles3 ac = q[2] - q[0];
     const Direction e = direction(q[1] - q[0], {one, zero, zero});
     // What of a-c is across e, twice: the second time takes away what rounding left of e in a needle's.

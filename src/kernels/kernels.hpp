@@ -23,6 +23,11 @@ struct alignas(64) TriangleGroup {
   float ac_e[triangles_per_group], ac_f[triangles_per_group], bc_e[triangles_per_group], bc_f[triangles_per_group];
 };
 
+// The coordinates of a group's corners: x, y and z of the first, the second and the third.
+struct alignas(64) GroupCorners {
+  double xyz[9][triangles_per_group];
+};
+
 // Where its triangles are: a box along the axes, a box along its own, and one of its corners.
 struct GroupBounds {
   float lower[3], upper[3];
@@ -82,8 +87,8 @@ struct Kernels {
   int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
   // Squares of the distances, in single precision, of a point (in the surface's frame) to the triangles of a group.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
-  // The frames of bounds.n triangles by their corners (9 doubles each), in the surface's frame, and where they are.
-  void (*make_group)(const double *corners, TriangleGroup &group, GroupBounds &bounds);
+  // The frames of triangles in the surface's frame, and where they are.
+  void (*make_group)(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds);
   // Squares of the distances of pairs of a point (x, y, z) and a triangle (9 doubles), both by index; n + 7 are written.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);

@@ -19,7 +19,7 @@ struct FilterKernels {
   void (*group_distances)(const TriangleGroup &, const float *, float, float *);
 };
 struct DecisionKernels {
-  void (*make_group)(const double *, TriangleGroup &, GroupBounds &);
+  void (*make_group)(const GroupCorners &, TriangleGroup &, GroupBounds &);
   void (*decide)(int32_t, const int32_t *, const int32_t *, const double *, const double *, double *);
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/surface.hpp"
 
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "distance/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
@@ -9,13 +11,20 @@
 namespace riis {
 namespace {
 
-double area_of(const TriangleSet &set) {
-  double area = 0;
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
-    const auto [a, b, c] = set.corners(i);
-    area += 0.5 * length(cross(b - a, c - a));
-  }
-  return area;
+// Summed block by block, so that it does not depend on who summed which.
+double area_of(const TriangleSet &set, int n_threads) {
+  const auto n = static_cast<std::int64_t>(set.n_triangles());
+  constexpr std::int64_t triangles_per_block = 4096;
+  std::vector<double> areas(static_cast<std::size_t>((n + triangles_per_block - 1) / triangles_per_block));
+  parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &range, int) {
+    double area = 0;
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const auto [a, b, c] = set.corners(static_cast<std::size_t>(i));
+      area += 0.5 * length(cross(b - a, c - a));
+    }
+    areas[static_cast<std::size_t>(range.begin / triangles_per_block)] = area;
+  });
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 }  // namespace
@@ -23,7 +32,7 @@ double area_of(const TriangleSet &set) {
 void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
   triangles_ = std::move(triangles);
   half_thickness_ = half_thickness;
-  area_ = area_of(triangles_);
+  area_ = area_of(triangles_, n_threads);
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
   scene_.make(triangles_, n_threads);

@@ -59,13 +59,25 @@ float round_down(double x) {
 }
 float round_up(double x) { return -round_down(-x); }
 
-Bounds bounds_of(const TriangleSet &set) {
-  Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for (const std::int64_t id : set.vertex_id) {
-    const Vec3 p = set.vertex(id);
-    bounds.lower = {std::min(bounds.lower.x, p.x), std::min(bounds.lower.y, p.y), std::min(bounds.lower.z, p.z)};
-    bounds.upper = {std::max(bounds.upper.x, p.x), std::max(bounds.upper.y, p.y), std::max(bounds.upper.z, p.z)};
-  }
+Bounds bounds_of(const TriangleSet &set, int n_threads) {
+  const auto n = static_cast<std::int64_t>(set.vertex_id.size());
+  constexpr std::int64_t corners_per_block = 12288;
+  std::vector<Bounds> blocks(static_cast<std::size_t>((n + corners_per_block - 1) / corners_per_block));
+  const auto enclose = [](Bounds &bounds, Vec3 lower, Vec3 upper) {
+    bounds.lower = {std::min(bounds.lower.x, lower.x), std::min(bounds.lower.y, lower.y), std::min(bounds.lower.z, lower.z)};
+    bounds.upper = {std::max(bounds.upper.x, upper.x), std::max(bounds.upper.y, upper.y), std::max(bounds.upper.z, upper.z)};
+  };
+  const Bounds none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  parallel_for_ranges(n, corners_per_block, n_threads, [&](const Range &range, int) {
+    Bounds bounds = none;
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const Vec3 p = set.vertex(set.vertex_id[static_cast<std::size_t>(i)]);
+      enclose(bounds, p, p);
+    }
+    blocks[static_cast<std::size_t>(range.begin / corners_per_block)] = bounds;
+  });
+  Bounds bounds = none;
+  for (const Bounds &block : blocks) enclose(bounds, block.lower, block.upper);
   return bounds;
 }
 
@@ -139,16 +151,21 @@ void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
       const std::int32_t first = g == 0 ? 0 : end[g - 1];
       GroupBounds &of_group = bounds[g];
       of_group.n = end[g] - first;
-      double framed[9 * triangles_per_group];
-      for (int i = 0; i < of_group.n; ++i) {
+      GroupCorners framed;
+      for (int i = 0; i < triangles_per_group; ++i) {
+        if (i >= of_group.n) {  // the first again
+          for (auto &coordinate : framed.xyz) coordinate[i] = coordinate[0];
+          continue;
+        }
         const std::int32_t triangle = order[static_cast<std::size_t>(first + i)];
         of_group.triangle[i] = triangle;
-        double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle), *to = framed + 9 * i;
+        double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle);
+        int to = 0;
         for (const Vec3 p : set.corners(static_cast<std::size_t>(triangle))) {
           const Vec3 q = frame(p);
-          as_is[0] = p.x, as_is[1] = p.y, as_is[2] = p.z;
-          to[0] = q.x, to[1] = q.y, to[2] = q.z;
-          as_is += 3, to += 3;
+          as_is[to] = p.x, as_is[to + 1] = p.y, as_is[to + 2] = p.z;
+          framed.xyz[to][i] = q.x, framed.xyz[to + 1][i] = q.y, framed.xyz[to + 2][i] = q.z;
+          to += 3;
         }
       }
       simd.make_group(framed, groups[g], of_group);

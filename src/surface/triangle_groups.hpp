@@ -30,7 +30,7 @@ float round_down(double x);
 float round_up(double x);
 
 // The bounds of the corners that triangles use.
-Bounds bounds_of(const TriangleSet &set);
+Bounds bounds_of(const TriangleSet &set, int n_threads);
 
 // What the filters' distances in the surface's frame may be off by (docs/theory.md, section 8): for points that were in a frame
 // `ratio` times as large and moved by `shift`, up to `reach` from triangles of edges up to `longest_edge`.

@@ -153,7 +153,7 @@ double rounding_of_distances(const Bounds &bounds) {
 TriangleScene::TriangleScene() : implementation_(std::make_unique<Implementation>()) {}
 
 void TriangleScene::make(const TriangleSet &set, int n_threads) {
-  bounds_ = bounds_of(set);
+  bounds_ = bounds_of(set, n_threads);
   rounding_ = rounding_of_distances(bounds_);
   Implementation &in = *implementation_;
   const Frame frame(bounds_);

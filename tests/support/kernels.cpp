@@ -90,7 +90,10 @@ void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *tri
 kernel_group *kernels_group(int set, int n, const double *corners) {
   auto *group = new kernel_group{};
   group->bounds.n = n;
-  of(set).make_group(corners, group->group, group->bounds);
+  GroupCorners of_group;
+  for (int i = 0; i < triangles_per_group; ++i)
+    for (int c = 0; c < 9; ++c) of_group.xyz[c][i] = corners[9 * (i < n ? i : 0) + c];
+  of(set).make_group(of_group, group->group, group->bounds);
   return group;
 }
 
