@@ -109,30 +109,24 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats
   for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
 }
 
-RIIS_INLINE void swap_groups(const LeafTask &leaf, int32_t i, int32_t k) {
-  const int32_t group = leaf.near_groups[i];
-  leaf.near_groups[i] = leaf.near_groups[k];
-  leaf.near_groups[k] = group;
+// The group that is nearest to two of the leaf's nodes to the front: what is near is found before what need not be looked at then.
+RIIS_INLINE void nearest_first(const LeafTask &leaf) {
+  int32_t nearest = 0;
+  float least_sum = __builtin_inff();
+  for (int32_t k = 0; k < leaf.n_groups; ++k) {
+    const float *bounds = leaf.lower_bounds + nodes_per_leaf * k;
+    const float sum = bounds[nodes_per_leaf / 3] + bounds[2 * nodes_per_leaf / 3];
+    if (sum < least_sum) least_sum = sum, nearest = k;
+  }
+  if (nearest == 0) return;
+  const int32_t group = leaf.near_groups[0];
+  leaf.near_groups[0] = leaf.near_groups[nearest];
+  leaf.near_groups[nearest] = group;
   for (int h = 0; h < halves; ++h) {
-    float *a = leaf.lower_bounds + nodes_per_leaf * i + 16 * h, *b = leaf.lower_bounds + nodes_per_leaf * k + 16 * h;
+    float *a = leaf.lower_bounds + 16 * h, *b = leaf.lower_bounds + nodes_per_leaf * nearest + 16 * h;
     const Floats of_a = Floats::load(a);
     Floats::load(b).store(a);
     of_a.store(b);
-  }
-}
-
-// The groups that are nearest to two of the leaf's nodes to the front: what is near is found before what need not be looked at then.
-RIIS_INLINE void nearest_first(const LeafTask &leaf) {
-  constexpr int32_t n_first = 4;
-  for (int32_t i = 0; i < n_first && i + 1 < leaf.n_groups; ++i) {
-    int32_t nearest = i;
-    float least_sum = __builtin_inff();
-    for (int32_t k = i; k < leaf.n_groups; ++k) {
-      const float *bounds = leaf.lower_bounds + nodes_per_leaf * k;
-      const float sum = bounds[nodes_per_leaf / 3] + bounds[2 * nodes_per_leaf / 3];
-      if (sum < least_sum) least_sum = sum, nearest = k;
-    }
-    if (nearest != i) swap_groups(leaf, i, nearest);
   }
 }
 
