@@ -40,7 +40,7 @@ struct Box {
   }
 };
 
-// Nodes in an order by counting along one axis, cut where the parts are multiples of a unit.
+// Nodes in an order by counting along one axis, cut where the parts are multiples of a unit. From one array to the other and back.
 class Sorter {
  public:
   Sorter(std::vector<Item> items, int n_threads)
@@ -48,23 +48,27 @@ class Sorter {
 
   const std::vector<Item> &sort() {
     // While parts are fewer than threads want, threads share a part; then each takes whole ones.
+    Item *at = items_.data(), *other = buffer_.data();
     std::vector<Part> parts{{0, static_cast<std::int64_t>(items_.size())}}, next;
     const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
     while (static_cast<std::int64_t>(parts.size()) < enough && parts.front().size() > 8 * nodes_per_block) {
       next.clear();
       for (const Part &part : parts) {
-        sort_together(part);
+        ManyBlocks blocks(part, n_threads_);
+        sort_once(part, at, other, blocks);
         for_each_cut(part, [&](const Part &cut) { next.push_back(cut); });
       }
       std::swap(parts, next);
+      std::swap(at, other);
     }
     parallel_for(static_cast<std::int64_t>(parts.size()), n_threads_,
-                 [&](std::int64_t i, int) { sort_alone(parts[static_cast<std::size_t>(i)]); });
+                 [&](std::int64_t i, int) { sort_alone(parts[static_cast<std::size_t>(i)], at, other); });
     return items_;
   }
 
  private:
   static constexpr int n_bins = 256;
+  typedef std::array<std::uint32_t, n_bins> Counts;
   struct Part {
     std::int64_t begin, end;
     std::int64_t size() const { return end - begin; }
@@ -78,9 +82,41 @@ class Sorter {
       per_unit = extent > 0 ? n_bins / extent : 0;
       if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
     }
-    int operator()(const Item &item) const {
+    std::size_t operator()(const Item &item) const {
       const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
-      return bin < n_bins ? bin : n_bins - 1;
+      return static_cast<std::size_t>(bin < n_bins ? bin : n_bins - 1);
+    }
+  };
+
+  // A part in blocks that threads share, and what is known of each; or in one, by one thread.
+  struct ManyBlocks {
+    const Part &part;
+    int n_threads;
+    std::vector<Box> boxes;
+    std::vector<Counts> at;
+
+    ManyBlocks(const Part &of, int threads)
+        : part(of),
+          n_threads(threads),
+          boxes(static_cast<std::size_t>((of.size() + nodes_per_block - 1) / nodes_per_block)),
+          at(boxes.size()) {}
+    template <class Visit>
+    void for_each(const Visit &visit) const {
+      parallel_for_ranges(part.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
+        visit(static_cast<std::size_t>(range.begin / nodes_per_block),
+              Part{part.begin + range.begin, part.begin + range.end});
+      });
+    }
+  };
+  struct OneBlock {
+    const Part &part;
+    std::array<Box, 1> boxes;
+    std::array<Counts, 1> at;
+
+    explicit OneBlock(const Part &of) : part(of) {}
+    template <class Visit>
+    void for_each(const Visit &visit) const {
+      visit(0, part);
     }
   };
 
@@ -98,68 +134,44 @@ class Sorter {
     }
   }
 
-  // A small part by one thread, down to leaves.
-  void sort_alone(const Part &part) {
-    if (part.size() <= nodes_per_leaf) return;
-    Box box;
-    for (std::int64_t i = part.begin; i < part.end; ++i) box.add(items_[static_cast<std::size_t>(i)].x);
-    const Bins bins(box);
-    std::array<std::uint32_t, n_bins> at{};
-    for (std::int64_t i = part.begin; i < part.end; ++i)
-      ++at[static_cast<std::size_t>(bins(items_[static_cast<std::size_t>(i)]))];
-    std::uint32_t n = 0;
-    for (std::uint32_t &count : at) {
-      const std::uint32_t begin = n;
-      n += count;
-      count = begin;
-    }
-    Item *sorted = buffer_.data() + part.begin;
-    for (std::int64_t i = part.begin; i < part.end; ++i) {
-      const Item &item = items_[static_cast<std::size_t>(i)];
-      sorted[at[static_cast<std::size_t>(bins(item))]++] = item;
-    }
-    std::copy(sorted, sorted + part.size(), items_.begin() + part.begin);
-    for_each_cut(part, [&](const Part &cut) { sort_alone(cut); });
-  }
-
-  // A large part by all threads, in the same order as one would.
-  void sort_together(const Part &part) {
-    const auto n_blocks = static_cast<std::size_t>((part.size() + nodes_per_block - 1) / nodes_per_block);
-    std::vector<Box> boxes(n_blocks);
-    std::vector<std::array<std::uint32_t, n_bins>> at(n_blocks);
-    const auto for_each_block = [&](const auto &visit) {
-      parallel_for_ranges(part.size(), nodes_per_block, n_threads_, [&](const Range &range, int) {
-        visit(static_cast<std::size_t>(range.begin / nodes_per_block), part.begin + range.begin,
-              part.begin + range.end);
-      });
-    };
-    for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) boxes[block].add(items_[static_cast<std::size_t>(i)].x);
+  // By bins of the longest axis; within a bin they stay as they were, however many the blocks.
+  template <class Blocks>
+  static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
+    blocks.for_each([&](std::size_t block, const Part &of_block) {
+      Box box;
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) box.add(from[i].x);
+      blocks.boxes[block] = box;
     });
     Box box;
-    for (const Box &of_block : boxes) box.add(of_block);
+    for (const Box &of_block : blocks.boxes) box.add(of_block);
     const Bins bins(box);
-    for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
-      at[block].fill(0);
-      for (std::int64_t i = begin; i < end; ++i)
-        ++at[block][static_cast<std::size_t>(bins(items_[static_cast<std::size_t>(i)]))];
+    blocks.for_each([&](std::size_t block, const Part &of_block) {
+      Counts &counts = blocks.at[block];
+      counts.fill(0);
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) ++counts[bins(from[i])];
     });
     std::uint32_t n = 0;
     for (std::size_t bin = 0; bin < n_bins; ++bin)
-      for (std::size_t block = 0; block < n_blocks; ++block) {
-        const std::uint32_t count = at[block][bin];
-        at[block][bin] = n;
+      for (Counts &counts : blocks.at) {
+        const std::uint32_t count = counts[bin];
+        counts[bin] = n;
         n += count;
       }
-    for_each_block([&](std::size_t block, std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        const Item &item = items_[static_cast<std::size_t>(i)];
-        buffer_[static_cast<std::size_t>(part.begin) + at[block][static_cast<std::size_t>(bins(item))]++] = item;
-      }
+    blocks.for_each([&](std::size_t block, const Part &of_block) {
+      Counts &next = blocks.at[block];
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) to[part.begin + next[bins(from[i])]++] = from[i];
     });
-    for_each_block([&](std::size_t, std::int64_t begin, std::int64_t end) {
-      std::copy(buffer_.begin() + begin, buffer_.begin() + end, items_.begin() + begin);
-    });
+  }
+
+  // By one thread, down to leaves.
+  void sort_alone(const Part &part, Item *at, Item *other) {
+    if (part.size() <= nodes_per_leaf) {
+      if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);
+      return;
+    }
+    OneBlock block(part);
+    sort_once(part, at, other, block);
+    for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
   }
 
   std::vector<Item> items_, buffer_;
