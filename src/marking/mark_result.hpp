@@ -13,7 +13,7 @@
 #include "distance/point_triangle.hpp"
 #include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
-#include "surface/triangle_set.hpp"
+#include "surface/surface.hpp"
 
 namespace riis {
 
@@ -21,7 +21,7 @@ namespace riis {
 struct FoundNode {
   std::int64_t node;
   double distance;
-  std::int64_t triangle;  // position in the surface's set
+  std::int64_t triangle;  // position in the surface's set; of a patch where distances are not the triangles'
 };
 
 // Arrays of one entry a node, ascending by node.
@@ -49,7 +49,7 @@ struct Collection {
   std::vector<Stretch> stretches;
   std::vector<FoundNode> by_stretch;
 
-  // A group of nodes that may have some within the limit, and the distance of its centre.
+  // A group of nodes that may have some within the limit, and the distance of its centre, or less.
   struct NearGroup {
     std::int64_t group;
     double distance;
@@ -151,7 +151,6 @@ struct MarkResult {
 
 // Makes the lists of a result from what its collection found, ascending by node, on up to n_threads threads. The list of marked nodes is
 // only made where the limit is wider. All memory is reserved before a list is overwritten.
-void put_in_order(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, std::int64_t n_nodes,
-                  int n_threads, MarkResult &result);
+void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads, MarkResult &result);
 
 }  // namespace riis

@@ -20,11 +20,14 @@ double area_of(const TriangleSet &set) {
 
 }  // namespace
 
-Surface::Surface(TriangleSet triangles, double half_thickness)
+Surface::Surface(TriangleSet triangles, double half_thickness, std::unique_ptr<const PatchDistance> other_distance,
+                 double triangle_error)
     : triangles_(std::move(triangles)),
       scene_(triangles_, triangles_.n_triangles() > 8192 ? default_thread_count() : 1),
       half_thickness_(half_thickness),
-      area_(area_of(triangles_)) {}
+      area_(area_of(triangles_)),
+      other_distance_(std::move(other_distance)),
+      triangle_error_(triangle_error) {}
 
 const Pseudonormals &Surface::pseudonormals() const {
   if (const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire)) return *made;

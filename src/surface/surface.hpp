@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that can be asked: triangles, their scene, the half thickness.
+// A surface that can be asked: triangles, their scene, the half thickness, and another method for distances where one is wanted.
 // In: triangles. Out: closest triangles, sides.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 
+#include "distance/patch_distance.hpp"
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
@@ -15,12 +16,19 @@ namespace riis {
 
 class Surface {
  public:
-  Surface(TriangleSet triangles, double half_thickness);
+  // Distances are those of the triangles, unless there is another method.
+  Surface(TriangleSet triangles, double half_thickness, std::unique_ptr<const PatchDistance> other_distance = nullptr,
+          double triangle_error = 0);
 
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
   double half_thickness() const { return half_thickness_; }
   double area() const { return area_; }
+
+  // The method that distances are measured by; null: the triangles' scene.
+  const PatchDistance *other_distance() const { return other_distance_.get(); }
+  // The distance to the triangles is at most this above the distance to any point of the patches that the method works on.
+  double triangle_error() const { return triangle_error_; }
 
   // +1, -1 or 0: the side of the surface that p is on, seen from its closest point, which lies on that triangle. May be asked by
   // several threads at once.
@@ -36,6 +44,8 @@ class Surface {
   TriangleScene scene_;
   double half_thickness_;
   double area_;
+  std::unique_ptr<const PatchDistance> other_distance_;
+  double triangle_error_;
   // Made when a side is first asked for: marking never needs it.
   mutable std::mutex pseudonormals_mutex_;
   mutable std::unique_ptr<const Pseudonormals> pseudonormals_owner_;
