@@ -20,7 +20,7 @@ PlacedPatches make_patches(const PatchSet &set, double max_error, const Placemen
   try {
     return PlacedPatches(set, patch_share * max_error / placement.scale, placement, flip_normals);
   } catch (const Error &error) {
-    fail(error.status, "options.distance_tolerance: with a tenth of it for the patches themselves, %s", error.text);
+    fail(error.status, "with a tenth of distance_tolerance for the patches themselves, %s", error.text);
   }
 }
 

@@ -48,7 +48,7 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   }
   if (!(n <= static_cast<double>(max_samples)))
     fail(RIIS_LIMIT_EXCEEDED,
-         "options.distance: sampling needs more than %lld samples, about %s, to be right to %s, which is "
+         "sampling needs more than %lld samples, about %s, to be right to %s, which is "
          "distance_tolerance * half_thickness",
          static_cast<long long>(max_samples), Number(std::ceil(n)).text, Number(max_error).text);
   xyz_.reserve(3 * static_cast<std::size_t>(n));
