@@ -575,7 +575,8 @@ contains
 
   !> The surface's closest points to many points, in parallel. Only the arrays that are given are written; sections of them
   !! that are not contiguous are copied to and fro by the compiler. None may overlap another or the coordinates, which are
-  !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written.
+  !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side where distances are by
+  !! sampling or minimisation; nothing is then written.
   subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
       barycentric, normal, triangle_id, leaflet_id, side, status)
     class(riis_surface), intent(in) :: this                 !< Created.

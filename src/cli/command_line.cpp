@@ -152,17 +152,15 @@ void declare_marking(CLI::App &app, Texts &texts) {
   app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (1e30)")
       ->type_name("X")
       ->group(group);
-  CLI::Option *distance =
-      app.add_option("--distance", texts.distance, "By triangles (the default), sampling or minimization")
-          ->type_name("HOW")
-          ->check(CLI::IsMember(distance_names))
-          ->group(group)
-          ->excludes(app.get_option("--surface"));
+  app.add_option("--distance", texts.distance, "By triangles (the default), sampling or minimization")
+      ->type_name("HOW")
+      ->check(CLI::IsMember(distance_names))
+      ->group(group)
+      ->excludes(app.get_option("--surface"));
   app.add_option("--distance-tolerance", texts.distance_tolerance,
                  "Of --distance sampling or minimization: F half thicknesses (--tolerance)")
       ->type_name("F")
-      ->group(group)
-      ->needs(distance);
+      ->group(group);
   app.add_option("--search", texts.search, "auto (the default), exhaustive, neighbor, clusters or paper")
       ->type_name("HOW")
       ->check(CLI::IsMember(search_names))
