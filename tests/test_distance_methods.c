@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Distances by sampling and by minimisation: against flat and cylindrical patches of which the distance is known, against
  * triangles fifty times as fine, and against each other. */
-#include <riis/riis.h>
-
+#include "internals.h"
 #include "test_support.h"
 
 #include "handles.h"
@@ -224,6 +223,35 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   riis_valve_destroy(&valve);
 }
 
+/* The tree of boxes leaves out nothing: the nearest of all samples, the first of equally near ones. */
+static void nearest_samples_are_found(void **state) {
+  (void)state;
+  random_source rng = random_start("nearest_samples_are_found");
+  for (int of = 1; of < n_references; ++of) {
+    riis_surface *surface = measured(references[of].valve, RIIS_DISTANCE_SAMPLING, 0.5);
+    const double *xyz;
+    const int64_t n_samples = samples_of(surface, &xyz);
+    assert_true(n_samples > 500);
+    for (int n = 0; n < 300; ++n) {
+      double p[3];
+      random_point(&rng, surface, pow(10, random_between(&rng, -2, 4)), p);
+      if (n % 10 == 0) memcpy(p, xyz + 3 * (random_bits(&rng) % (uint64_t)n_samples), sizeof p);
+      if (of == 1 && n % 4 == 0) p[1] = 0.5; /* level with samples on both sides */
+      double least = INFINITY;
+      int64_t nearest = -1;
+      for (int64_t i = 0; i < n_samples; ++i) {
+        const double x = xyz[3 * i] - p[0], y = xyz[3 * i + 1] - p[1], z = xyz[3 * i + 2] - p[2];
+        const double distance_sq = x * x + y * y + z * z;
+        if (distance_sq < least) least = distance_sq, nearest = i;
+      }
+      const riis_closest answer = closest_to(surface, p[0], p[1], p[2]);
+      CHECK_SAME(answer.distance, sqrt(least));
+      for (int c = 0; c < 3; ++c) CHECK_SAME(answer.point[c], xyz[3 * nearest + c]);
+    }
+    riis_surface_destroy(&surface);
+  }
+}
+
 /* Distances to points differ by no more than the points that ask: what the neighbour search's proof is built on. */
 static void sampling_is_lipschitz(void **state) {
   (void)state;
@@ -238,6 +266,36 @@ static void sampling_is_lipschitz(void **state) {
     CHECK_AT_MOST(fabs(d - e), distance_between(p, q) + 1e-14);
   }
   riis_surface_destroy(&surface);
+}
+
+static double narrow_valley(double u, double v) {
+  const double a = u - 0.3, b = v - 0.8;
+  return 1 + a * a + b * b - 1.99 * a * b;
+}
+static double bent_valley(double u, double v) { return 1 + 100 * (v - u * u) * (v - u * u) + (0.9 - u) * (0.9 - u); }
+static double outside(double u, double v) { return (u + 1) * (u + 1) + (v - 2) * (v - 2) + (u + 1) * (2 - v); }
+static double on_a_side(double u, double v) { return 1 + (u - 2) * (u - 2) + 3 * (v - u / 4) * (v - u / 4); }
+static double flat(double u, double v) { return u * 0 + v * 0 + 2; }
+
+/* Minima inside, where the directions have to turn, at a corner and on a side, exactly. */
+static void powell_finds_minima(void **state) {
+  (void)state;
+  const struct {
+    double (*f)(double u, double v);
+    double u, v, value, tolerance;
+  } cases[] = {{narrow_valley, 0.3, 0.8, 1, 1e-5},
+               {bent_valley, 0.9, 0.81, 1, 1e-4},
+               {outside, 0, 1, 3, 0},
+               {on_a_side, 1, 0.25, 2, 1e-6},
+               {flat, 0.5, 0.5, 2, 0}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    double uv[2];
+    const double value = powell_minimum(cases[i].f, 1e-13, 1e-8, uv);
+    CHECK_SAME(value, cases[i].f(uv[0], uv[1]));
+    CHECK_NEAR(uv[0], cases[i].u, cases[i].tolerance);
+    CHECK_NEAR(uv[1], cases[i].v, cases[i].tolerance);
+    CHECK_NEAR(value, cases[i].value, 1e-9);
+  }
 }
 
 /* Never too near. On a rectangle, where the square of the distance has one minimum, right. Elsewhere it may end in a local
@@ -563,6 +621,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sampling_is_within_its_bound),
       cmocka_unit_test(samples_are_as_many_as_the_rule_says),
+      cmocka_unit_test(nearest_samples_are_found),
+      cmocka_unit_test(powell_finds_minima),
       cmocka_unit_test(sampling_is_lipschitz),
       cmocka_unit_test(minimisation_is_never_below),
       cmocka_unit_test(minimisation_ends_in_local_minima),

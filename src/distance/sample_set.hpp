@@ -39,6 +39,7 @@ class SampleSet final : public PatchDistance {
   bool is_of_fixed_points() const override { return true; }
   const char *name() const override { return "sampling"; }
 
+  const std::vector<double> &xyz() const { return xyz_; }
   std::int64_t n_samples() const { return static_cast<std::int64_t>(xyz_.size() / 3); }
 
  private:
