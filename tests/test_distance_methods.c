@@ -13,23 +13,32 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* One patch by the control points of its curves v = 0, v = 1, u = 0, u = 1; the last two are straight. */
-static riis_valve *one_patch(int32_t degree, const double *v0, const double *v1) {
-  const int32_t degrees[4] = {degree, degree, 1, 1}, sides[4] = {0, 1, 2, 3}, leaflet_id = 7;
-  double control[3 * 12];
+/* Patches by the control points of their curves v = 0 and v = 1, patch after patch; u = 0 and u = 1 are straight. */
+static riis_valve *patches_between(int32_t n_patches, int32_t degree, const double *v0_and_v1) {
+  enum { most = 2 };
+  int32_t degrees[4 * most], sides[4 * most], leaflet_ids[most];
+  double control[3 * 12 * most], *to = control;
   const size_t n = 3 * (size_t)(degree + 1), at_end = n - 3;
-  memcpy(control, v0, n * sizeof *control);
-  memcpy(control + n, v1, n * sizeof *control);
-  const double *straight[4] = {v0, v1, v0 + at_end, v1 + at_end};
-  for (int i = 0; i < 4; ++i) memcpy(control + 2 * n + 3 * i, straight[i], 3 * sizeof *control);
+  for (int32_t patch = 0; patch < n_patches; ++patch) {
+    const double *v0 = v0_and_v1 + 2 * n * (size_t)patch, *v1 = v0 + n;
+    const double *straight[4] = {v0, v1, v0 + at_end, v1 + at_end};
+    memcpy(to, v0, 2 * n * sizeof *to);
+    to += 2 * n;
+    for (int i = 0; i < 4; ++i, to += 3) memcpy(to, straight[i], 3 * sizeof *to);
+    for (int i = 0; i < 4; ++i) {
+      degrees[4 * patch + i] = i < 2 ? degree : 1;
+      sides[4 * patch + i] = 4 * patch + i;
+    }
+    leaflet_ids[patch] = 7 + patch;
+  }
   riis_patches patches;
   CHECK_OK(riis_patches_init(&patches, sizeof patches));
-  patches.n_curves = 4;
+  patches.n_curves = 4 * n_patches;
   patches.degree = degrees;
   patches.control = control;
-  patches.n_patches = 1;
+  patches.n_patches = n_patches;
   patches.curve_id = sides;
-  patches.leaflet_id = &leaflet_id;
+  patches.leaflet_id = leaflet_ids;
   riis_valve *valve = NULL;
   CHECK_OK(riis_valve_create_from_patches(&patches, &valve));
   return valve;
@@ -37,8 +46,8 @@ static riis_valve *one_patch(int32_t degree, const double *v0, const double *v1)
 
 /* [0,2] x [0,1] in z = 0. */
 static riis_valve *rectangle(void) {
-  const double v0[6] = {0, 0, 0, 2, 0, 0}, v1[6] = {0, 1, 0, 2, 1, 0};
-  return one_patch(1, v0, v1);
+  const double sides[12] = {0, 0, 0, 2, 0, 0, 0, 1, 0, 2, 1, 0};
+  return patches_between(1, 1, sides);
 }
 
 static double distance_to_rectangle(const double *p) {
@@ -50,10 +59,9 @@ static double distance_to_rectangle(const double *p) {
 static const double profile[12] = {-1, 0, 0, -0.4, 0, 0.8, 0.5, 0, 0.7, 1, 0, -0.1};
 
 static riis_valve *cylinder(void) {
-  double v1[12];
-  memcpy(v1, profile, sizeof v1);
-  for (int i = 0; i < 4; ++i) v1[3 * i + 1] = 1;
-  return one_patch(3, profile, v1);
+  double sides[24];
+  for (int i = 0; i < 24; ++i) sides[i] = i < 12 || i % 3 != 1 ? profile[i % 12] : 1;
+  return patches_between(1, 3, sides);
 }
 
 static double distance_to_profile(const double *p, double t) {
@@ -97,9 +105,8 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
 /* A hairpin that leans as v grows: in the middle of v the arm at x = 1 is nearest to the point, at v = 1 the other. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
-  const double v0[12] = {-1.8, 0, 1, -1.8, 0, -2, 1, 0, -2, 1, 0, 1};
-  const double v1[12] = {-0.2, 1, 1, -0.2, 1, -2, 1, 1, -2, 1, 1, 1};
-  return one_patch(3, v0, v1);
+  const double sides[24] = {-1.95, 0, 1, -1.95, 0, -2, 1, 0, -2, 1, 0, 1, -0.05, 1, 1, -0.05, 1, -2, 1, 1, -2, 1, 1, 1};
+  return patches_between(1, 3, sides);
 }
 
 static void random_point(random_source *rng, const riis_surface *surface, double margin, double *p) {
@@ -227,8 +234,8 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
 static void nearest_samples_are_found(void **state) {
   (void)state;
   random_source rng = random_start("nearest_samples_are_found");
-  for (int of = 1; of < n_references; ++of) {
-    riis_surface *surface = measured(references[of].valve, RIIS_DISTANCE_SAMPLING, 0.5);
+  for (int of = 0; of < n_references; ++of) {
+    riis_surface *surface = measured(references[of].valve, RIIS_DISTANCE_SAMPLING, of == 0 ? 0.4425 : 0.5);
     const double *xyz;
     const int64_t n_samples = samples_of(surface, &xyz);
     assert_true(n_samples > 500);
@@ -236,7 +243,8 @@ static void nearest_samples_are_found(void **state) {
       double p[3];
       random_point(&rng, surface, pow(10, random_between(&rng, -2, 4)), p);
       if (n % 10 == 0) memcpy(p, xyz + 3 * (random_bits(&rng) % (uint64_t)n_samples), sizeof p);
-      if (of == 1 && n % 4 == 0) p[1] = 0.5; /* level with samples on both sides */
+      /* Samples of the rectangle are 1/16 apart: as near to four of them. */
+      for (int c = 0; c < 2 && of == 0; ++c) p[c] = (double)(2 * (random_bits(&rng) % 16) + 1) / 32;
       double least = INFINITY;
       int64_t nearest = -1;
       for (int64_t i = 0; i < n_samples; ++i) {
@@ -356,12 +364,28 @@ static void minimisation_ends_in_local_minima(void **state) {
     riis_mesh_destroy(&mesh);
     riis_surface_destroy(&surface);
   }
-  CHECK_NEAR(distance[RIIS_DISTANCE_TRIANGLES], 0.4, 0.005);
-  CHECK_NEAR(distance[RIIS_DISTANCE_SAMPLING], 0.4, 0.005);
+  CHECK_NEAR(distance[RIIS_DISTANCE_TRIANGLES], 0.25, 0.005);
+  CHECK_NEAR(distance[RIIS_DISTANCE_SAMPLING], 0.25, 0.005);
   CHECK_NEAR(distance[RIIS_DISTANCE_MINIMIZATION], 0.8, 0.005);
   assert_int_equal(n_marked[RIIS_DISTANCE_TRIANGLES], 1);
   assert_int_equal(n_marked[RIIS_DISTANCE_SAMPLING], 1);
   assert_int_equal(n_marked[RIIS_DISTANCE_MINIMIZATION], 0);
+  riis_valve_destroy(&valve);
+}
+
+/* The patch whose box is nearest, here around the point, need not have the nearest point. */
+static void all_near_patches_are_asked(void **state) {
+  (void)state;
+  /* A slope through [0,1]^3, and a floor below it. */
+  const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
+  riis_valve *valve = patches_between(2, 1, sides);
+  riis_surface *surface = measured(valve, RIIS_DISTANCE_MINIMIZATION, 0.001);
+  const riis_closest below = closest_to(surface, 0.9, 0.5, 0.1), above = closest_to(surface, 0.1, 0.5, 0.3);
+  CHECK_NEAR(below.distance, 0.4, 1e-4);
+  assert_int_equal(below.leaflet_id, 8);
+  CHECK_NEAR(above.distance, 0.2 / sqrt(2), 1e-4);
+  assert_int_equal(above.leaflet_id, 7);
+  riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
 }
 
@@ -476,6 +500,32 @@ static void searches_agree(void **state) {
       riis_surface_destroy(&surface);
     }
   riis_valve_destroy(&hairpin_valve);
+}
+
+/* Two nodes in a ball from whose middle minimisation goes to the wrong arm, twice as far as the ball reaches: that must not dismiss
+ * the node that it finds near. */
+static void local_minima_dismiss_no_group(void **state) {
+  (void)state;
+  const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
+  const int32_t offsets[3] = {0, 0, 0};
+  riis_valve *valve = hairpin();
+  riis_surface *surface = measured(valve, RIIS_DISTANCE_MINIMIZATION, 0.01);
+  assert_true(closest_to(surface, 0.25, 1, 0.9).distance > 0.7 && closest_to(surface, -0.1, 1, 0.9).distance < 0.1);
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = new_result();
+  riis_csr csr;
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = 2;
+  csr.offsets = offsets;
+  CHECK_OK(riis_mesh_create(2, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, RIIS_AUTO, NULL, result);
+  const found_nodes marked = marked_in(result);
+  assert_true(marked.n == 1 && marked.node_id[0] == 0);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
 }
 
 /* Batches answer as single points do, for any number of threads, and know what is far. */
@@ -626,8 +676,10 @@ int main(void) {
       cmocka_unit_test(sampling_is_lipschitz),
       cmocka_unit_test(minimisation_is_never_below),
       cmocka_unit_test(minimisation_ends_in_local_minima),
+      cmocka_unit_test(all_near_patches_are_asked),
       cmocka_unit_test(placement_and_normals),
       cmocka_unit_test(searches_agree),
+      cmocka_unit_test(local_minima_dismiss_no_group),
       cmocka_unit_test(batches_agree),
       cmocka_unit_test(what_has_no_meaning_is_refused),
       cmocka_unit_test(options_stay_and_default),
