@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's three ways to measure a distance (4.1, "Performance evaluation"): a query each, of points on the surface, as in the
-// paper, and of points in a box around it, with what they are off there. Tolerances are shares of the half thickness, 0.1.
+// The paper's three ways to measure a distance (4.1, "Performance evaluation"): a query each, of points on the surface, as in
+// the paper, and of points in a box around it, with what they are off there. Tolerances are shares of the half thickness, 0.1.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 

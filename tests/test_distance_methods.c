@@ -502,8 +502,8 @@ static void searches_agree(void **state) {
   riis_valve_destroy(&hairpin_valve);
 }
 
-/* Two nodes in a ball from whose middle minimisation goes to the wrong arm, twice as far as the ball reaches: that must not dismiss
- * the node that it finds near. */
+/* Two nodes in a ball from whose middle minimisation goes to the wrong arm, twice as far as the ball reaches: that must not
+ * dismiss the node that it finds near. */
 static void local_minima_dismiss_no_group(void **state) {
   (void)state;
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};

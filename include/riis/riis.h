@@ -231,18 +231,20 @@ enum {
   RIIS_ZERO_AREA_SKIP = 1    /* leave them out, count them, log a warning; the ids of the others do not change */
 };
 
-/* How the distance of a point to the surface is measured (paper, 4.1). Triangles are what the library is for; the other two are the
- * paper's, for comparison, and only for surfaces of valves. They work on patches S(u,v), bilinear between grid lines that
- * are within a tenth of distance_tolerance * half_thickness of the smooth surface (docs/theory.md, section 9). */
+/* How the distance of a point to the surface is measured (paper, 4.1). Triangles are what the library is for; the other two
+ * are the paper's, for comparison, and only for surfaces of valves. They work on patches S(u,v), bilinear between grid
+ * lines, within a tenth of distance_tolerance * half_thickness of the smooth surface (docs/theory.md, section 9). */
 enum {
   RIIS_DISTANCE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
-  RIIS_DISTANCE_SAMPLING = 1,    /* the nearest of points S(u,v), evenly spaced in u and v on every patch, as many as its width and
-                                    height need for distances to be within distance_tolerance * half_thickness of those to the
-                                    smooth surface, never below by more than a tenth of that. At most 16,777,216 points */
-  RIIS_DISTANCE_MINIMIZATION = 2 /* Powell's method (1964) on every patch from u = v = 0.5, until an iteration lowers the distance by
-                                    no more than distance_tolerance * half_thickness; the paper has 0.001 and 0.01. It may
-                                    end in a local minimum: the distance is never below that to the smooth surface by more
-                                    than a tenth of that, but may be above by any amount, and nothing says where it is */
+  RIIS_DISTANCE_SAMPLING = 1,    /* the nearest of points S(u,v), evenly spaced in u and v on every patch, as many as its
+                                    width and height need for distances to be within distance_tolerance *
+                                    half_thickness of those to the smooth surface, never below by more than a tenth of
+                                    that. At most 16,777,216 points */
+  RIIS_DISTANCE_MINIMIZATION = 2 /* Powell's method (1964) on every patch from u = v = 0.5, until an iteration lowers the
+                                    distance by no more than distance_tolerance * half_thickness; the paper has 0.001
+                                    and 0.01. It may end in a local minimum: the distance is never below that to the
+                                    smooth surface by more than a tenth of that product, but may be above by any
+                                    amount, and nothing says where it is */
 };
 
 /* How a surface is made and where it stands: x -> scale * rotation * x + translation, the placement, is applied last, to
@@ -355,9 +357,9 @@ RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t
  * Closest points (paper, 4.1)
  * ------------------------------------------------------------------------------------------------------------------ */
 
-/* The closest point of the surface to one point. Where the surface's distances are by sampling or minimisation, the point is the
- * sample or S(u,v), leaflet_id that of its patch, normal that of S there, 0 0 0 where it has none, as at a collapsed side;
- * triangle_id is -1, barycentric and side are 0. */
+/* The closest point of the surface to one point. Where the surface's distances are by sampling or minimisation, the point is
+ * the sample or S(u,v), leaflet_id that of its patch, normal that of S there, 0 0 0 where it has none, as at a collapsed
+ * side; triangle_id is -1, barycentric and side are 0. */
 typedef struct riis_closest {
   double distance;        /* >= 0 */
   double point[3];        /* on the triangle */
@@ -390,8 +392,8 @@ typedef struct riis_closest_options {
 /* Fills *options with the defaults; struct_size is sizeof(riis_closest_options) of the caller. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
 
-/* Where the answers for many points go; NULL for what is not wanted. Fields as in riis_closest. Where the surface's distances are by
- * sampling or minimisation, barycentric and side must be NULL (RIIS_INVALID_ARGUMENT). */
+/* Where the answers for many points go; NULL for what is not wanted. Fields as in riis_closest. Where the surface's distances
+ * are by sampling or minimisation, barycentric and side must be NULL (RIIS_INVALID_ARGUMENT). */
 typedef struct riis_closest_arrays {
   int64_t struct_size;    /* sizeof(riis_closest_arrays) of the caller, as its init function had it */
   double *distance;       /* (n_points) */
@@ -541,9 +543,9 @@ RIIS_API riis_status riis_mark_result_create(riis_mark_result **result);
 /* Destroys the result; pointers got from it end. */
 RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 
-/* How nodes are sought. Where the surface's distances are by sampling or minimisation, RIIS_SEARCH_AUTO is the exhaustive search and
- * RIIS_SEARCH_CLUSTERS is refused. The neighbour search then is as complete: the proof goes by distances to the samples, or, since
- * local minima prove nothing of nodes nearby, to the triangles. */
+/* How nodes are sought. Where the surface's distances are by sampling or minimisation, RIIS_SEARCH_AUTO is the exhaustive
+ * search and RIIS_SEARCH_CLUSTERS is refused (RIIS_INVALID_ARGUMENT). The neighbour search then is as complete: the proof
+ * goes by distances to the samples, or, since local minima prove nothing of nodes nearby, to the triangles. */
 enum {
   RIIS_SEARCH_AUTO = 0,       /* the library's choice, never incomplete: clusters from the second marking of a mesh on, or once it is
                                  prepared; the exhaustive search for the first, which would not pay for them, and for limits

@@ -50,8 +50,8 @@ void Minimizer::ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const {
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
-  // The patch whose box is nearest first, so that most of the others need not be asked. Those that are cannot answer less than
-  // their boxes, so the answer is the same.
+  // The patch whose box is nearest first, so that most of the others need not be asked: none answers less than the distance
+  // of its box.
   std::size_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < measures_.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "distance/placed_patches.hpp"
 
@@ -21,14 +22,15 @@ class PatchDistance {
  public:
   virtual ~PatchDistance() = default;
 
-  // What the method finds closest to p, if its distance is at most limit (>= 0, may be infinite); patch -1 if not. The same bits
-  // whatever the limit, as long as it is not below the distance. May be called by several threads at once.
+  // What the method finds closest to p, if its distance is at most limit (>= 0, may be infinite); patch -1 if not. The same
+  // bits whatever the limit, as long as it is not below the distance. May be called by several threads at once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
   // False only where nothing is within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Whether the distance is that to a set of points, the same for every p: it then differs between two p by at most their distance.
+  // Whether the distance is that to a set of points, the same for every p: it then differs between two p by at most their
+  // distance.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;

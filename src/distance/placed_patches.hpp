@@ -22,8 +22,8 @@ struct PlacedPatch {
   bool is_turned_over;  // S_u x S_v is against the normal
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
-  // Unit normal by the right-hand rule of the triangles; 0 where S has none, as at a collapsed side. On a grid line it is that of
-  // the quad behind it.
+  // Unit normal by the right-hand rule of the triangles; 0 where S has none, as at a collapsed side. On a grid line it is
+  // that of the quad behind it.
   Vec3 normal_at(double u, double v) const;
 };
 
@@ -37,8 +37,8 @@ struct PlacedPatches {
   double largest_error() const;
 };
 
-// Visits the derivatives of S in every quad: visit(along_u, along_v), two each, at the quad's two ends. In between S_u is a mean of
-// the two along_u, at its lower and its upper v, and S_v of the two along_v.
+// Visits the derivatives of S in every quad: visit(along_u, along_v), two each, at the quad's two ends. In between S_u is a
+// mean of the two along_u, at its lower and its upper v, and S_v of the two along_v.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Powell's method for a function of (u,v) in [0,1]^2: M. J. D. Powell, "An efficient method for finding the minimum of a function of
-// several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162, with that paper's modified rule for
-// the direction to give up. The lines are searched by Brent's method: R. P. Brent, "Algorithms for Minimization without
-// Derivatives" (1973), chapter 5.
+// Powell's method for a function of (u,v) in [0,1]^2: M. J. D. Powell, "An efficient method for finding the minimum of a
+// function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162, with that paper's
+// modified rule for the direction to give up. The lines are searched by Brent's method: R. P. Brent, "Algorithms for
+// Minimization without Derivatives" (1973), chapter 5.
 // In: a function, a start, when to stop. Out: a local minimum, never above the start.
 #pragma once
 
@@ -42,8 +42,8 @@ inline Parameters step(Parameters from, double t, Parameters along) {
   return {std::clamp(from.u + t * along.u, 0.0, 1.0), std::clamp(from.v + t * along.v, 0.0, 1.0)};
 }
 
-// Brent's localmin: a minimum of f(t) on [low, high], t right to about 3 tolerance; the least of all values that it saw, so that f
-// need not have one minimum only. Parabolas through the last three points, golden sections where these do not help.
+// Brent's localmin: a minimum of f(t) on [low, high], t right to about 3 tolerance; the least of all values that it saw, so
+// that f need not have one minimum only. Parabolas through the last three points, golden sections where these do not help.
 template <class Function>
 std::array<double, 2> minimum_on_segment(const Function &f, double low, double high, double tolerance) {
   constexpr double golden = 0.3819660112501051;  // (3 - sqrt 5) / 2

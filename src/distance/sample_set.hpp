@@ -20,12 +20,12 @@ struct SampleCounts {
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
 };
 
-// The largest distance of any S(u,v) from the sample nearest to it in u and in v, or more: half the length of the longest diagonal of
-// parameter steps h_u, h_v in any tangent plane of S.
+// The largest distance of any S(u,v) from the sample nearest to it in u and in v, or more: half the length of the longest
+// diagonal of parameter steps h_u, h_v in any tangent plane of S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// The fewest, in the proportion of the patch's width to its height, that keep the covering radius within `radius`. May be too many
-// to have.
+// The fewest, in the proportion of the patch's width to its height, that keep the covering radius within `radius`. May be
+// too many to have.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What searches ask for distances, whichever way a surface measures them: its triangles, or another method. Searches are compiled for
-// either, so that the triangles pay nothing for there being others.
+// What searches ask for distances, whichever way a surface measures them: its triangles, or another method. Searches are
+// compiled for either, so that the triangles pay nothing for there being others.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ struct TriangleDistances {
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
   ClosestTriangle closest(Vec3 p, double limit) const { return scene.closest(p, limit, instructions); }
 
-  // A number that, less the way to p, no other point's distance is below: what proves that points near p are far. Infinity where it
-  // is above the limit.
+  // A number d such that no point q has a distance below d - |q - p|: what proves that points near p are far. Infinity where
+  // d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
