@@ -39,6 +39,7 @@ class TimeSteps {
     check(riis_surface_options_init(&of_surface, sizeof of_surface));
     of_surface.tolerance = options.tolerance;
     of_surface.half_thickness = options.half_thickness;
+    of_surface.n_threads = options.n_threads;
     riis_surface *surface = nullptr;
     check(riis_surface_create(valve_.get(), &of_surface, &surface));
     surface_.reset(surface);

@@ -66,6 +66,10 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
 
+  integer(c_int32_t), parameter :: RIIS_DISTANCE_TRIANGLES = 0
+  integer(c_int32_t), parameter :: RIIS_DISTANCE_SAMPLING = 1
+  integer(c_int32_t), parameter :: RIIS_DISTANCE_MINIMIZATION = 2
+
   integer(c_int32_t), parameter :: RIIS_SEARCH_AUTO = 0
   integer(c_int32_t), parameter :: RIIS_SEARCH_EXHAUSTIVE = 1
   integer(c_int32_t), parameter :: RIIS_SEARCH_NEIGHBOR = 2
@@ -117,6 +121,9 @@ module riis_c
     real(c_double) :: translation(3)
     integer(c_int32_t) :: zero_area
     integer(c_int32_t) :: flip_normals
+    integer(c_int32_t) :: distance
+    integer(c_int32_t) :: n_threads
+    real(c_double) :: distance_tolerance
   end type riis_surface_options
 
   type, bind(c) :: riis_surface_arrays

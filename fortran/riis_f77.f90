@@ -179,6 +179,41 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_place
 
+!> The same with another way of measuring distances, which later updates by riisf_surface_update keep.
+subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+    translation, distance, distance_tolerance, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update, riis_surface_options_init
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
+                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  integer(int32), intent(in) :: distance                  !< RIIS_DISTANCE_*.
+  real(c_double), intent(in) :: distance_tolerance        !< A share of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
+                                                          !! Not used for RIIS_DISTANCE_TRIANGLES.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  options%distance = distance
+  options%distance_tolerance = distance_tolerance
+  status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
+end subroutine riisf_surface_measure
+
 !> Frees what the surface holds and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr

@@ -61,7 +61,7 @@ contains
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
   !! RIIS_LIMIT_EXCEEDED where the tolerance asks for more than 16,777,216 triangles.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status)
+      flip_normals, status, distance, distance_tolerance, n_threads)
     class(riis_surface), intent(inout) :: this              !< Empty before.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
@@ -74,6 +74,12 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*: how distances are measured, from then on.
+                                                            !! Default RIIS_DISTANCE_TRIANGLES.
+    real(c_double), intent(in), optional :: distance_tolerance !< Of the other distances: a share of half_thickness, 1e-6 to
+                                                            !! 1. Default RIIS_AUTO: tolerance.
+    integer(int32), intent(in), optional :: n_threads       !< That make the surface, from then on: 1 to 1024; 0, the default:
+                                                            !! as many as pay.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = check_not_created(this%handle, 'the surface')
@@ -81,6 +87,9 @@ contains
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, code)
+    if (present(distance)) options%distance = distance
+    if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
+    if (present(n_threads)) options%n_threads = n_threads
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -90,7 +99,7 @@ contains
   !! replace them: a half_thickness of RIIS_AUTO, the default, goes with the scale. Pointers got from the surface before
   !! end. Errors as of %create; the surface is then as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status)
+      flip_normals, status, distance, distance_tolerance, n_threads)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -101,6 +110,9 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
+    real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = check_created(this%handle, 'the surface')
@@ -109,6 +121,9 @@ contains
       options = this%options
       call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
         flip_normals, code)
+      if (present(distance)) options%distance = distance
+      if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
+      if (present(n_threads)) options%n_threads = n_threads
       if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
       if (code == RIIS_OK) this%options = options
     end if
@@ -565,7 +580,8 @@ contains
 
   !> The surface's closest points to many points, in parallel. Only the arrays that are given are written; sections of them
   !! that are not contiguous are copied to and fro by the compiler. None may overlap another or the coordinates, which are
-  !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written.
+  !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side where distances are by
+  !! sampling or minimisation; nothing is then written.
   subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
       barycentric, normal, triangle_id, leaflet_id, side, status)
     class(riis_surface), intent(in) :: this                 !< Created.

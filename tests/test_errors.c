@@ -224,6 +224,13 @@ static void surface_options_are_refused_by_name(void **state) {
   OPTION_IS_REFUSED(translation[0], -INFINITY, "translation is -inf");
   OPTION_IS_REFUSED(zero_area, 2, "zero_area is 2");
   OPTION_IS_REFUSED(flip_normals, -1, "flip_normals is -1");
+  OPTION_IS_REFUSED(distance, -1, "options.distance is -1|RIIS_DISTANCE_*");
+  OPTION_IS_REFUSED(distance, 3, "options.distance is 3|RIIS_DISTANCE_*");
+  OPTION_IS_REFUSED(n_threads, -1, "options.n_threads is -1");
+  OPTION_IS_REFUSED(n_threads, 1025, "options.n_threads is 1025|1024");
+  OPTION_IS_REFUSED(distance_tolerance, 0, "distance_tolerance is 0|1e-06 to 1");
+  OPTION_IS_REFUSED(distance_tolerance, 1.5, "distance_tolerance is 1.5");
+  OPTION_IS_REFUSED(distance_tolerance, NAN, "distance_tolerance is nan");
   /* So far away that the valve would be flattened by rounding. */
   OPTION_IS_REFUSED(translation[1], 1e14, "translation moves the valve by 1e+14|tolerance * half_thickness, 0.005");
   options = surface_options();
@@ -368,7 +375,7 @@ static void struct_sizes_are_checked(void **state) {
   riis_surface_options options;
   memset(&options, 0x5a, sizeof options);
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 95|96", riis_surface_options_init(&options, 95));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 104|0.1.0", riis_surface_options_init(&options, 104));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 120|0.1.0", riis_surface_options_init(&options, 120));
   assert_int_equal(options.zero_area, 0x5a5a5a5a); /* untouched */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;

@@ -70,7 +70,8 @@ static void memory_that_runs_out_changes_nothing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(memory_that_runs_out_changes_nothing), /* first: OpenMP does not survive a fork once it has threads */
+      cmocka_unit_test(
+          memory_that_runs_out_changes_nothing), /* first: OpenMP does not survive a fork once it has threads */
       cmocka_unit_test(every_exception_becomes_a_status),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -42,8 +42,8 @@ static double longest_edge_of(int n, const double *corners) {
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k) {
       const double *a = corners + 9 * i + 3 * k, *b = corners + 9 * i + 3 * ((k + 1) % 3);
-      longest = fmax(longest, sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                                   (a[2] - b[2]) * (a[2] - b[2])));
+      longest = fmax(
+          longest, sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2])));
     }
   return longest;
 }

@@ -36,8 +36,8 @@
  * - Where a number of threads can be given, 0 stands for the processors that the calling thread may run on (its affinity
  *   mask); OMP_NUM_THREADS and omp_set_num_threads do not matter. More threads, or more memory for them, than the system
  *   grants end the process: that is how OpenMP's run-time answers, and TBB's threads, out of the library's reach
- *   (docs/building.md). With 1 no thread is started, which is also all that a child of fork() may ask for. Making a surface
- *   is Embree's, on the threads that TBB grants.
+ *   (docs/building.md). With 1 no thread is started, which is also all that a child of fork() may ask for. Making
+ *   Embree's scene of a surface is TBB's, on the threads that it grants.
  * - Each call runs with the default floating-point environment, a log function included, and puts the caller's back:
  *   traps, rounding mode and flush-to-zero of the caller neither change the result nor fire inside. The caller's OpenMP
  *   and TBB settings stay.
@@ -231,6 +231,22 @@ enum {
   RIIS_ZERO_AREA_SKIP = 1    /* leave them out, count them, log a warning; the ids of the others do not change */
 };
 
+/* How the distance of a point to the surface is measured (paper, 4.1). Triangles are what the library is for; the other two
+ * are the paper's, for comparison, and only for surfaces of valves. They work on patches S(u,v), bilinear between grid
+ * lines, within a tenth of distance_tolerance * half_thickness of the smooth surface (docs/theory.md, section 9). */
+enum {
+  RIIS_DISTANCE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
+  RIIS_DISTANCE_SAMPLING = 1,    /* the nearest of points S(u,v), evenly spaced in u and v on every patch, as many as its
+                                    width and height need for distances to be within distance_tolerance *
+                                    half_thickness of those to the smooth surface, never below by more than a tenth of
+                                    that. At most 16,777,216 points */
+  RIIS_DISTANCE_MINIMIZATION = 2 /* Powell's method (1964) on every patch from u = v = 0.5, until an iteration lowers the
+                                    distance by no more than distance_tolerance * half_thickness; the paper has 0.001
+                                    and 0.01. It may end in a local minimum: the distance is never below that to the
+                                    smooth surface by more than a tenth of that product, but may be above by any
+                                    amount, and nothing says where it is */
+};
+
 /* How a surface is made and where it stands: x -> scale * rotation * x + translation, the placement, is applied last, to
  * valves and to arrays alike. */
 typedef struct riis_surface_options {
@@ -247,6 +263,12 @@ typedef struct riis_surface_options {
                               of tolerance * half_thickness; default 0 */
   int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
   int32_t flip_normals;    /* 1 turns every triangle over, so that normal and side change sign; default 0 */
+  int32_t distance;        /* RIIS_DISTANCE_*, which closest points and marking then go by; default RIIS_DISTANCE_TRIANGLES, the
+                              only one for surfaces from arrays. The triangles are made with any: vertices, bounds, area
+                              and pictures are theirs */
+  int32_t n_threads;       /* that make the surface: 1 to 1024, or 0, the default: one for every 4096 triangles that it had before,
+                              at most the processors the calling thread may use. Embree's scene is made on what TBB grants */
+  double distance_tolerance; /* of the other two: a share of half_thickness, 1e-6 to 1. Default RIIS_AUTO: tolerance */
 } riis_surface_options;
 /* Fills *options with the defaults; struct_size is sizeof(riis_surface_options) of the caller. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
@@ -258,7 +280,8 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  *   valve    read during the call only
  *   options  NULL for defaults
  * Errors: RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together
- * or throw a curve far away; RIIS_LIMIT_EXCEEDED where the tolerance asks for more than 16,777,216 triangles. */
+ * or throw a curve far away; RIIS_LIMIT_EXCEEDED where the tolerance asks for more than 16,777,216 triangles, or
+ * distance_tolerance for as many quads or samples. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
@@ -309,7 +332,7 @@ typedef struct riis_surface_info {
   double area;               /* of all triangles, placed units squared */
   double lower[3], upper[3]; /* bounds of the triangles, placed units */
   double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
-  double seconds_scene;      /* and the Embree scene */
+  double seconds_scene;      /* and the Embree scene, with what another distance than the triangles' needs */
 } riis_surface_info;
 /* Tells what the surface is. struct_size is sizeof(riis_surface_info) of the caller; no more than that is written. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size);
@@ -335,7 +358,9 @@ RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t
  * Closest points (paper, 4.1)
  * ------------------------------------------------------------------------------------------------------------------ */
 
-/* The closest point of the surface to one point. */
+/* The closest point of the surface to one point. Where the surface's distances are by sampling or minimisation, the point is
+ * the sample or S(u,v), leaflet_id that of its patch, normal that of S there, 0 0 0 where it has none, as at a collapsed
+ * side; triangle_id is -1, barycentric and side are 0. */
 typedef struct riis_closest {
   double distance;        /* >= 0 */
   double point[3];        /* on the triangle */
@@ -368,7 +393,8 @@ typedef struct riis_closest_options {
 /* Fills *options with the defaults; struct_size is sizeof(riis_closest_options) of the caller. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
 
-/* Where the answers for many points go; NULL for what is not wanted. Fields as in riis_closest. */
+/* Where the answers for many points go; NULL for what is not wanted. Fields as in riis_closest. Where the surface's distances
+ * are by sampling or minimisation, barycentric and side must be NULL (RIIS_INVALID_ARGUMENT). */
 typedef struct riis_closest_arrays {
   int64_t struct_size;    /* sizeof(riis_closest_arrays) of the caller, as its init function had it */
   double *distance;       /* (n_points) */
@@ -518,7 +544,9 @@ RIIS_API riis_status riis_mark_result_create(riis_mark_result **result);
 /* Destroys the result; pointers got from it end. */
 RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 
-/* How nodes are sought. */
+/* How nodes are sought. Where the surface's distances are by sampling or minimisation, RIIS_SEARCH_AUTO is the exhaustive
+ * search and RIIS_SEARCH_CLUSTERS is refused (RIIS_INVALID_ARGUMENT). The neighbour search then is as complete: the proof
+ * goes by distances to the samples, or, since local minima prove nothing of nodes nearby, to the triangles. */
 enum {
   RIIS_SEARCH_AUTO = 0,       /* the library's choice, never incomplete: clusters from the second marking of a mesh on, or once it is
                                  prepared; the exhaustive search for the first, which would not pay for them, and for limits
@@ -557,7 +585,8 @@ typedef struct riis_mark_options {
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* 1 to 1024, or 0, the default: the processors the calling thread may use */
   int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default RIIS_INSTRUCTIONS_AUTO. Those that the
-                                processor has not are refused with RIIS_UNAVAILABLE */
+                                processor has not are refused with RIIS_UNAVAILABLE. Distances by sampling or minimisation
+                                use none but the baseline's */
   int32_t reserved;          /* 0 */
 } riis_mark_options;
 /* Fills *options with the defaults; struct_size is sizeof(riis_mark_options) of the caller. */
@@ -575,7 +604,7 @@ RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mes
 
 /* The marked nodes, ascending by node_id, all arrays (n_marked). Any pointer may be NULL; with n_marked = 0 the arrays
  * are NULL. Owned by the result, valid until the next riis_mark_nodes with it or its destruction. A result never marked
- * with has none. */
+ * with has none. A triangle_id is -1 where the surface's distances are by sampling or minimisation. */
 RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked, const int64_t **node_id,
                                              const double **distance, const int64_t **triangle_id,
                                              const int32_t **leaflet_id);

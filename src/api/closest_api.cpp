@@ -51,6 +51,31 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
   }
 }
 
+// The same for a point of the patches. There is no triangle to be told of, nor its sides.
+void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
+                   const riis::ClosestOnPatches &found) {
+  const riis::PlacedPatch &patch = method.patches().patches[static_cast<std::size_t>(found.patch)];
+  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
+  if (to.triangle_id) to.triangle_id[i] = -1;
+  if (to.leaflet_id) to.leaflet_id[i] = patch.leaflet_id;
+  if (to.side) to.side[i] = 0;
+  put_vector(to.point, i, found.point.x, found.point.y, found.point.z);
+  put_vector(to.barycentric, i, 0, 0, 0);
+  if (to.normal) {
+    const riis::Vec3 normal = patch.normal_at(found.u, found.v);
+    put_vector(to.normal, i, normal.x, normal.y, normal.z);
+  }
+}
+
+// Whoever asks for these in arrays means to use them.
+void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
+  for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
+    if (name)
+      riis::fail(RIIS_INVALID_ARGUMENT,
+                 "arrays.%s is given, but the surface's distances are by %s: that is of triangles", name,
+                 method.name());
+}
+
 void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
   if (to.distance) to.distance[i] = far_distance;
   if (to.triangle_id) to.triangle_id[i] = -1;
@@ -84,11 +109,14 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
     require(point, "point");
     riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
     const riis::Vec3 p{point[0], point[1], point[2]};
-    const riis::ClosestTriangle found = content.scene().closest(p, std::numeric_limits<double>::infinity());
+    const double no_limit = std::numeric_limits<double>::infinity();
     riis_closest answer{};
     const riis_closest_arrays to{sizeof to,     &answer.distance,    answer.point,       answer.barycentric,
                                  answer.normal, &answer.triangle_id, &answer.leaflet_id, &answer.side};
-    write_closest(to, 0, content, p, found);
+    if (const riis::PatchDistance *method = content.other_distance())
+      write_closest(to, 0, *method, method->closest(p, no_limit));
+    else
+      write_closest(to, 0, content, p, content.scene().closest(p, no_limit));
     riis::write_struct<closest_size>(closest, struct_size, "closest", answer);
   });
 }
@@ -113,13 +141,26 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const int n_threads = riis::threads_asked_for(whole.n_threads, "options.n_threads");
     if (whole.reserved != 0) riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is %d; it must be 0", whole.reserved);
     const double limit = limit_of(whole);
+    if (const riis::PatchDistance *method = content.other_distance()) refuse_what_is_of_triangles(to, *method);
     if (n_points == 0) return;
     const riis::StridedPoints points{n_points, x, y, z, stride};
     riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
 
+    constexpr std::int64_t points_per_block = 512;
+    if (const riis::PatchDistance *method = content.other_distance()) {
+      riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
+        for (std::int64_t i = range.begin; i < range.end; ++i) {
+          const riis::ClosestOnPatches found = method->closest(points[i], limit);
+          if (found.patch < 0)
+            write_far(to, i, whole.far_distance);
+          else
+            write_closest(to, i, *method, found);
+        }
+      });
+      return;
+    }
     // Here, so that memory that runs out leaves the arrays alone.
     if (to.side) content.prepare_sides();
-    constexpr std::int64_t points_per_block = 512;
     riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         const riis::ClosestTriangle found = content.scene().closest(points[i], limit);

@@ -57,7 +57,7 @@ struct riis_valve : riis::Handle<riis::HandleKind::valve> {
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   std::unique_ptr<riis::Surface> surface;
   std::unique_ptr<riis::Surface> before;  // the last content, for its memory
-  riis_surface_options options;  // as completed
+  riis_surface_options options;           // as completed
   double seconds_triangles, seconds_scene;
 };
 

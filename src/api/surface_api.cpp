@@ -10,6 +10,7 @@
 #include "api/handles.hpp"
 #include "api/log.hpp"
 #include "api/structs.hpp"
+#include "distance/make_distance.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/triangulate.hpp"
 #include "surface/user_arrays.hpp"
@@ -24,8 +25,9 @@ namespace {
 // Sizes of the first release.
 constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 
-const riis_surface_options default_options{sizeof(riis_surface_options), RIIS_AUTO, 0.05, 1.0, {0, 0, 1}, 0, {0, 0, 0},
-                                           RIIS_ZERO_AREA_REFUSE,        0};
+const riis_surface_options default_options{
+    sizeof(riis_surface_options), RIIS_AUTO, 0.05,     1.0, {0, 0, 1}, 0, {0, 0, 0}, RIIS_ZERO_AREA_REFUSE, 0,
+    RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO};
 const riis_surface_arrays default_arrays{
     sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr};
 
@@ -63,6 +65,10 @@ void check_options(const riis_surface_options &options) {
                riis::Number(axis[0]).text, riis::Number(axis[1]).text, riis::Number(axis[2]).text);
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
+  if (options.distance < RIIS_DISTANCE_TRIANGLES || options.distance > RIIS_DISTANCE_MINIMIZATION)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is %d; it must be one of RIIS_DISTANCE_*", options.distance);
+  riis::threads_asked_for(options.n_threads, "options.n_threads");
+  if (options.distance_tolerance != RIIS_AUTO) check_range("distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
 }
 
 riis::Placement placement_of(const riis_surface_options &options) {
@@ -78,61 +84,104 @@ double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
 
+// distance_tolerance * half_thickness.
+double distance_error_of(const riis_surface_options &options) {
+  return half_thickness_of(options) *
+         (options.distance_tolerance == RIIS_AUTO ? options.tolerance : options.distance_tolerance);
+}
+
 // A translation so far that coordinates round by what matters would flatten the valve.
-void check_precision(const riis_surface_options &options) {
+void check_precision(const riis_surface_options &options, const char *name, double wanted) {
   const double *t = options.translation;
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
-  const double wanted = options.tolerance * half_thickness_of(options);
   if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * wanted)
     riis::fail(RIIS_INVALID_ARGUMENT,
                "options.translation moves the valve by %s, where coordinates round by more than a thousandth of "
-               "tolerance * half_thickness, %s",
-               riis::Number(largest).text, riis::Number(wanted).text);
+               "%s * half_thickness, %s",
+               riis::Number(largest).text, name, riis::Number(wanted).text);
+}
+
+// Where it is not said: so many that starting them pays, going by the last content.
+int threads_for(const riis_surface &surface, const riis_surface_options &options) {
+  if (options.n_threads > 0) return options.n_threads;
+  constexpr std::size_t triangles_per_thread = 4096;
+  const std::size_t n_triangles = surface.surface ? surface.surface->triangles().n_triangles() : 0;
+  return static_cast<int>(std::min<std::size_t>(1 + n_triangles / triangles_per_thread,
+                                                static_cast<std::size_t>(riis::default_thread_count())));
 }
 
 // Above this many triangles, of some 300 bytes each, memory is worth more than the time to get it again.
 constexpr std::size_t max_triangles_kept = 1'000'000;
 
 // Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
-template <class MakeTriangles>
-void fill(riis_surface &surface, const riis_surface_options &options, const MakeTriangles &make_triangles) {
+template <class MakeTriangles, class MakeDistance>
+void fill(riis_surface &surface, const riis_surface_options &options, const MakeTriangles &make_triangles,
+          const MakeDistance &make_distance) {
   Stopwatch stopwatch;
+  const int n_threads = threads_for(surface, options);
+  const riis::Placement placement = placement_of(options);
   std::unique_ptr<riis::Surface> made = std::move(surface.before);
   if (!made) made = std::make_unique<riis::Surface>();
-  riis::TriangleSet triangles = make_triangles(placement_of(options), made->take_triangles());
+  riis::TriangleSet triangles = make_triangles(placement, n_threads, made->take_triangles());
   const double seconds_triangles = stopwatch.lap();
-  made->make(std::move(triangles), half_thickness_of(options), riis::default_thread_count());
+  std::unique_ptr<const riis::PatchDistance> distance = make_distance(placement);
+  // Either's distance to the smooth surface, and their rounding.
+  const double triangle_error =
+      distance ? (options.tolerance * half_thickness_of(options) + distance->patches().largest_error()) * (1 + 1e-6)
+               : 0;
+  made->make(std::move(triangles), half_thickness_of(options), n_threads);
+  made->measure_by(std::move(distance), triangle_error);
   const double seconds_scene = stopwatch.lap();
   riis::log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s",
                     made->triangles().n_triangles(), seconds_triangles, seconds_scene);
   surface.before = std::exchange(surface.surface, std::move(made));
-  if (surface.before && surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
   surface.options = options;
   surface.seconds_triangles = seconds_triangles;
   surface.seconds_scene = seconds_scene;
+  if (!surface.before) return;
+  surface.before->measure_by(nullptr, 0);
+  if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
 }
 
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options) {
   require_handle(valve, "valve");
   check_options(options);
-  fill(surface, options, [&](const riis::Placement &placement, riis::TriangleSet memory) {
-    const double max_error = options.tolerance * half_thickness_of(options) / options.scale;
-    check_precision(options);
-    riis::TriangleSet triangles =
-        riis::triangulate(valve->valve.make_patches(), max_error, placement, options.flip_normals != 0,
-                          riis::default_thread_count(), std::move(memory));
-    if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve has no area");
-    return triangles;
-  });
+  const double triangle_error = options.tolerance * half_thickness_of(options);
+  const double distance_error = distance_error_of(options);
+  check_precision(options, "tolerance", triangle_error);
+  if (options.distance != RIIS_DISTANCE_TRIANGLES) check_precision(options, "distance_tolerance", distance_error);
+  const bool flip_normals = options.flip_normals != 0;
+  riis::PatchSet patches;
+  fill(
+      surface, options,
+      [&](const riis::Placement &placement, int n_threads, riis::TriangleSet memory) {
+        patches = valve->valve.make_patches();
+        riis::TriangleSet triangles = riis::triangulate(patches, triangle_error / options.scale, placement,
+                                                        flip_normals, n_threads, std::move(memory));
+        if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve has no area");
+        return triangles;
+      },
+      [&](const riis::Placement &placement) -> std::unique_ptr<const riis::PatchDistance> {
+        if (options.distance == RIIS_DISTANCE_TRIANGLES) return nullptr;
+        return riis::make_distance(patches, {options.distance, distance_error}, placement, flip_normals);
+      });
 }
 
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
   const riis_surface_arrays whole = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
   check_options(options);
-  fill(surface, options, [&](const riis::Placement &placement, riis::TriangleSet memory) {
-    return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP,
-                                       options.flip_normals != 0, std::move(memory));
-  });
+  if (options.distance != RIIS_DISTANCE_TRIANGLES)
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "options.distance is %d, which works on patches, but a surface from arrays has triangles only: it must "
+               "be RIIS_DISTANCE_TRIANGLES, 0",
+               options.distance);
+  fill(
+      surface, options,
+      [&](const riis::Placement &placement, int, riis::TriangleSet memory) {
+        return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP,
+                                           options.flip_normals != 0, std::move(memory));
+      },
+      [](const riis::Placement &) { return std::unique_ptr<const riis::PatchDistance>(); });
 }
 
 template <class Fill>

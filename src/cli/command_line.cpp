@@ -55,6 +55,9 @@ auto is exhaustive. paper is the published search, for comparison: from one
 start, through marked nodes only. What is not connected to that is missed, so it is never complete, and a line on stderr
 says so. Neighbours are nodes joined by an edge of a tetrahedron, pyramid, wedge, hexahedron or voxel.
 
+--distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for; minimization
+Powell's method on every patch, which may miss the closest point. Both are the paper's, slow, and here for comparison.
+
 On a terminal, what takes longer than a second is announced on stderr, unless --quiet.
 While a file is written, Ctrl-C waits until it is whole; the second one does not wait.
 Exit status; one line on stderr says what was wrong:
@@ -68,10 +71,15 @@ const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at t
 // At the position of their RIIS_SEARCH_*.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 
+// At the position of their RIIS_DISTANCE_*.
+const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
+
 // What CLI11 collects, as text: numbers are parsed here, whatever the locale.
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening;
+  std::string distance_tolerance;
   std::string search = search_names[RIIS_SEARCH_AUTO];
+  std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
   std::vector<std::string> pictures, views;
   bool skip_zero_area = false;
   bool flip_normals = false;
@@ -144,6 +152,15 @@ void declare_marking(CLI::App &app, Texts &texts) {
   app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (1e30)")
       ->type_name("X")
       ->group(group);
+  app.add_option("--distance", texts.distance, "By triangles (the default), sampling or minimization")
+      ->type_name("HOW")
+      ->check(CLI::IsMember(distance_names))
+      ->group(group)
+      ->excludes(app.get_option("--surface"));
+  app.add_option("--distance-tolerance", texts.distance_tolerance,
+                 "Of --distance sampling or minimization: F half thicknesses (--tolerance)")
+      ->type_name("F")
+      ->group(group);
   app.add_option("--search", texts.search, "auto (the default), exhaustive, neighbor, clusters or paper")
       ->type_name("HOW")
       ->check(CLI::IsMember(search_names))
@@ -214,6 +231,12 @@ void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   }
   options.zero_area = texts.skip_zero_area ? RIIS_ZERO_AREA_SKIP : RIIS_ZERO_AREA_REFUSE;
   options.flip_normals = texts.flip_normals;
+  options.distance = position_of(texts.distance, distance_names);
+  if (!texts.distance_tolerance.empty()) {
+    if (options.distance == RIIS_DISTANCE_TRIANGLES)
+      throw Refusal{exit_wrong_usage, "--distance-tolerance has no effect with --distance triangles: see --tolerance"};
+    options.distance_tolerance = parse_length(texts.distance_tolerance, "--distance-tolerance");
+  }
 }
 
 void parse_mark_options(const Texts &texts, riis_mark_options &options) {
@@ -260,8 +283,9 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
   static const std::set<std::string> of_parameters = {"--print-params", "--valve",   "--params",
                                                       "--set",          "--opening", "--quiet"};
-  static const std::set<std::string> of_mesh = {"--output",  "--stats",          "--search",
-                                                "--threads", "--distance-limit", "--far-distance"};
+  static const std::set<std::string> of_mesh = {
+      "--output",         "--stats",        "--search",   "--threads",
+      "--distance-limit", "--far-distance", "--distance", "--distance-tolerance"};
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {
     const std::string name = option->get_name();

@@ -18,15 +18,18 @@ struct Refusal {
 
 // The library's text with the option of the command line in the place of the struct field that it begins with.
 inline std::string with_option_named(const std::string &text) {
-  static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
-                                                                {"options.rotation_axis ", "--rotate: the axis "},
-                                                                {"options.rotation_angle ", "--rotate: the angle "},
-                                                                {"options.translation ", "--translate "},
-                                                                {"options.half_thickness ", "--half-thickness "},
-                                                                {"options.tolerance ", "--tolerance "},
-                                                                {"options.distance_limit ", "--distance-limit "},
-                                                                {"options.n_threads ", "--threads "},
-                                                                {"far_distance ", "--far-distance "}};
+  static const std::pair<std::string, std::string> options[] = {
+      {"options.scale ", "--scale "},
+      {"options.rotation_axis ", "--rotate: the axis "},
+      {"options.rotation_angle ", "--rotate: the angle "},
+      {"options.translation ", "--translate "},
+      {"options.half_thickness ", "--half-thickness "},
+      {"options.tolerance ", "--tolerance "},
+      {"options.distance_limit ", "--distance-limit "},
+      {"options.distance_tolerance ", "--distance-tolerance "},
+      {"options.search ", "--search "},
+      {"options.n_threads ", "--threads "},
+      {"far_distance ", "--far-distance "}};
   for (const auto &[field, option] : options) {
     if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
   }

@@ -26,6 +26,17 @@ const char *search_name(int32_t search) {
   }
 }
 
+const char *distance_name(int32_t distance) {
+  switch (distance) {
+    case RIIS_DISTANCE_SAMPLING:
+      return "sampling";
+    case RIIS_DISTANCE_MINIMIZATION:
+      return "minimization";
+    default:
+      return "triangles";
+  }
+}
+
 std::string grouped(int64_t n) {
   std::string digits = std::to_string(n);
   for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
@@ -50,6 +61,7 @@ void add_marks(const Report &report, std::ostringstream &out) {
     out << ", " << grouped(marks.n_within_limit) << " within " << report.distance_limit;
   }
   out << "\nsearch    " << search_name(marks.search) << ", " << counted(marks.n_threads, "thread");
+  if (report.distance != RIIS_DISTANCE_TRIANGLES) out << ", distances by " << distance_name(report.distance);
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
   if (!marks.complete) out << "complete  unknown: what is not connected to the search's one start is missing\n";
@@ -86,6 +98,7 @@ std::string json_of(const Report &report) {
                {"half_thickness", report.surface.half_thickness},
                {"distance_limit", report.distance_limit},
                {"search", search_name(marks.search)},
+               {"distance", distance_name(report.distance)},
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
                {"n_unreached", marks.n_unreached},

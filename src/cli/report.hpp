@@ -27,6 +27,7 @@ struct Report {
   std::string mesh_name;          // "": no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;
+  int32_t distance = RIIS_DISTANCE_TRIANGLES;
   riis_surface_info surface{};
   riis_mark_stats marks{};
   Seconds seconds;

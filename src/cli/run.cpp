@@ -85,6 +85,8 @@ Surface surface_of_file(const Options &options, Seconds &seconds) {
   return Surface(surface);
 }
 
+bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
+
 // Marks a single node: what the library refuses of the options is then refused before a large mesh is read and marked.
 void rehearse_marking(const Options &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
@@ -95,7 +97,7 @@ void rehearse_marking(const Options &options, const riis_surface *surface) {
   check(riis_mark_result_create(&result_handle));
   const MarkResult result(result_handle);
   riis_mark_options mark_options = options.mark_options;
-  mark_options.search = RIIS_SEARCH_EXHAUSTIVE;  // the others need an adjacency
+  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
   check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
   check(riis_mark_result_dense(result.get(), 1, options.far_distance, nullptr, nullptr, nullptr, nullptr));
 }
@@ -118,8 +120,6 @@ Mesh borrow_nodes(const Options &options, const riis_vtk_mesh *file, Report &rep
   report.seconds.mesh = stage.seconds();
   return Mesh(mesh);
 }
-
-bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
 // The mesh borrows the adjacency.
 Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
@@ -177,6 +177,7 @@ void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *fi
   if (report.marks.n_marked == 0 && report.marks.complete && !options.quiet) explain_no_marks(report.surface, file);
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
+  report.distance = options.surface_options.distance;
   report.mesh_name = options.mesh;
 }
 

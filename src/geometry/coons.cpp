@@ -103,13 +103,6 @@ class ArcRefinement {
   ArcLines &lines_;
 };
 
-// Index of the interval of ascending values that holds x: the last one at the upper end.
-std::size_t interval(const std::vector<double> &values, double x) {
-  const auto after = std::upper_bound(values.begin(), values.end(), x);
-  const auto i = static_cast<std::size_t>(std::distance(values.begin(), after));
-  return std::clamp<std::size_t>(i, 1, values.size() - 1) - 1;
-}
-
 }  // namespace
 
 std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
@@ -222,8 +215,14 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
   return grid;
 }
 
+std::size_t interval_of(const std::vector<double> &values, double x) {
+  const auto after = std::upper_bound(values.begin(), values.end(), x);
+  const auto i = static_cast<std::size_t>(std::distance(values.begin(), after));
+  return std::clamp<std::size_t>(i, 1, values.size() - 1) - 1;
+}
+
 Vec3 evaluate(const QuadGrid &grid, double u, double v) {
-  const std::size_t i = interval(grid.u, u), j = interval(grid.v, v);
+  const std::size_t i = interval_of(grid.u, u), j = interval_of(grid.v, v);
   const double du = (u - grid.u[i]) / (grid.u[i + 1] - grid.u[i]);
   const double dv = (v - grid.v[j]) / (grid.v[j + 1] - grid.v[j]);
   return mix(mix(grid.point(i, j), grid.point(i + 1, j), du), mix(grid.point(i, j + 1), grid.point(i + 1, j + 1), du),

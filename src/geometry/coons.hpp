@@ -67,6 +67,9 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 // Rows of equal height: an arc is at most |O| / 2 times that height squared from its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
+// Index of the interval of ascending values that holds x: the one behind a value, the last one at the upper end.
+std::size_t interval_of(const std::vector<double> &values, double x);
+
 // S(u,v): bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for the
 // weight's numerator; it is u - u_{o-1}.)
 Vec3 evaluate(const QuadGrid &grid, double u, double v);

@@ -132,7 +132,8 @@ class ClusterSearch {
 
   void add_cluster(std::int64_t cluster, std::int64_t bit, Clustered::Thread &own) {
     const std::size_t first = own.near_groups.size();
-    const std::size_t n = add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
+    const std::size_t n =
+        add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
     if (n == 0) return;
     own.leaf_bits.resize(first + n);
     if (kernels_.near_boxes(task_, clusters_.clusters[static_cast<std::size_t>(cluster)],
@@ -185,8 +186,7 @@ class ClusterSearch {
   void prefetch(std::int64_t leaf) const {
     const auto bytes = [](const auto &of) {
       constexpr std::size_t line = 64;
-      for (std::size_t at = 0; at < sizeof of; at += line)
-        __builtin_prefetch(reinterpret_cast<const char *>(&of) + at);
+      for (std::size_t at = 0; at < sizeof of; at += line) __builtin_prefetch(reinterpret_cast<const char *>(&of) + at);
     };
     bytes(clusters_.leaves[static_cast<std::size_t>(leaf)]);
     bytes(clusters_.points[static_cast<std::size_t>(leaf)]);
@@ -210,8 +210,8 @@ class ClusterSearch {
     while (task.next_group < task.n_groups) {
       constexpr std::int32_t room = Clustered::room_for_pairs, enough = 1024;
       if (room - pairs.n < enough) decide(own, pairs);
-      pairs.n += kernels_.filter_leaf(task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n},
-                                      room - pairs.n);
+      pairs.n += kernels_.filter_leaf(
+          task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
       pairs.nodes[number - pairs.first_leaf] |= task.found;
     }
   }

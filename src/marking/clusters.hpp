@@ -28,8 +28,8 @@ struct Clusters {
   std::int64_t n_leaves = 0;
   std::unique_ptr<Leaf[]> leaves;
   std::unique_ptr<LeafPoints[]> points;  // of leaves
-  std::vector<Boxes> clusters;  // the boxes of its leaves
-  std::vector<Boxes> regions;   // the boxes of its clusters
+  std::vector<Boxes> clusters;           // the boxes of its leaves
+  std::vector<Boxes> regions;            // the boxes of its clusters
   struct Box {
     float lower[3], upper[3];
   };

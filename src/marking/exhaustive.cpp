@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "api/errors.hpp"
+#include "marking/distances.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -14,11 +15,9 @@ namespace {
 // Small enough that two threads share a band of a coarse mesh evenly, large enough that handing out costs nothing.
 constexpr std::int64_t nodes_per_block = 2048;
 
-}  // namespace
-
-SearchReport search_exhaustively(const SearchRequest &request, Collection &collection) {
+template <class Distances>
+SearchReport ask_every_node(const SearchRequest &request, const Distances &distances, Collection &collection) {
   const StridedPoints &nodes = request.mesh.nodes();
-  const TriangleScene &scene = request.surface.scene();
   const double limit = request.distance_limit;
 
   collection.prepare(request.n_threads);
@@ -31,14 +30,21 @@ SearchReport search_exhaustively(const SearchRequest &request, Collection &colle
         for (std::int64_t i = range.begin; i < range.end; ++i) {
           if (request.is_masked_out(i)) continue;
           const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
-          if (!scene.may_be_within(p, limit)) continue;
+          if (!distances.may_be_within(p, limit)) continue;
           ++n_queries_here;
-          const ClosestTriangle closest = scene.closest(p, limit, request.instructions);
+          const ClosestTriangle closest = distances.closest(p, limit);
           if (closest.triangle >= 0) found.push_back({i, std::sqrt(closest.distance_sq), closest.triangle});
         }
         n_queries.fetch_add(n_queries_here, std::memory_order_relaxed);
       });
   return {n_queries, n_ran, true, 0};
+}
+
+}  // namespace
+
+SearchReport search_exhaustively(const SearchRequest &request, Collection &collection) {
+  return with_distances(request.surface, request.instructions,
+                        [&](const auto &distances) { return ask_every_node(request, distances, collection); });
 }
 
 }  // namespace riis

@@ -19,9 +19,14 @@ bool has_few_near(const SearchRequest &request) {
 
 // The clusters, once they pay for themselves; a single marking asks the nodes one by one.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
+  const PatchDistance *other = request.surface.other_distance();
+  if (other && asked_for == RIIS_SEARCH_CLUSTERS)
+    fail(RIIS_INVALID_ARGUMENT,
+         "options.search is %d, clusters, which are decided on triangles, but the surface's distances are by %s",
+         asked_for, other->name());
   const bool pays = request.mesh.pays_for_clusters();
   if (asked_for == RIIS_SEARCH_AUTO)
-    asked_for = pays && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+    asked_for = !other && pays && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   if (asked_for == RIIS_SEARCH_CLUSTERS && !can_search_clusters(request)) return RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
   if (walks && !request.mesh.adjacency().has_value())
@@ -55,10 +60,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult
   const auto start = std::chrono::steady_clock::now();
   const std::int32_t search = search_for(request, asked_for);
   const SearchReport report = run(request, search, result);
-  const double half_thickness = request.surface.half_thickness();
-  const bool limit_is_wider = request.distance_limit > half_thickness;
-  put_in_order(request.surface.triangles(), half_thickness, limit_is_wider, request.mesh.nodes().n, request.n_threads,
-               result);
+  const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
+  put_in_order(request.surface, limit_is_wider, request.mesh.nodes().n, request.n_threads, result);
   result.limit_is_wider = limit_is_wider;
   result.distance_limit = request.distance_limit;
   result.n_threads = request.n_threads;
@@ -71,7 +74,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult
                   search,
                   report.n_threads,
                   report.complete ? 1 : 0,
-                  static_cast<std::int32_t>(request.instructions) + RIIS_INSTRUCTIONS_BASELINE,
+                  RIIS_INSTRUCTIONS_BASELINE +
+                      (request.surface.other_distance() ? 0 : static_cast<std::int32_t>(request.instructions)),
                   report.n_unreached};
 }
 

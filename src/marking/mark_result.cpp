@@ -135,8 +135,11 @@ class Ranks {
 
 }  // namespace
 
-void put_in_order(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, std::int64_t n_nodes,
-                  int n_threads, MarkResult &result) {
+void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+                  MarkResult &result) {
+  const TriangleSet &triangles = surface.triangles();
+  const PatchDistance *other = surface.other_distance();
+  const double half_thickness = surface.half_thickness();
   Collection &collection = result.collection;
   const std::size_t n_lists = collection.by_thread.size();
   const auto n_stretches = static_cast<std::size_t>((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch);
@@ -190,10 +193,11 @@ void put_in_order(const TriangleSet &triangles, double half_thickness, bool limi
     };
     Ranks ranks;
     const auto put = [&](NodeList &list, std::size_t first, const FoundNode &found) {
-      const auto triangle = static_cast<std::size_t>(found.triangle);
+      const auto at = static_cast<std::size_t>(found.triangle);
       const auto node = static_cast<std::int64_t>(found.node);
-      list.set(first + ranks(node), node, found.distance, triangles.triangle_id[triangle],
-               triangles.leaflet_id[triangle]);
+      const std::int64_t triangle_id = other ? -1 : triangles.triangle_id[at];
+      const std::int32_t leaflet_id = other ? other->patches().patches[at].leaflet_id : triangles.leaflet_id[at];
+      list.set(first + ranks(node), node, found.distance, triangle_id, leaflet_id);
     };
     ranks.clear();
     for_each([&](const FoundNode &found) { ranks.add(static_cast<std::int64_t>(found.node)); });

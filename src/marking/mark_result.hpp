@@ -13,7 +13,7 @@
 #include "distance/point_triangle.hpp"
 #include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
-#include "surface/triangle_set.hpp"
+#include "surface/surface.hpp"
 
 namespace riis {
 
@@ -22,7 +22,8 @@ inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit, while it is being collected.
 struct FoundNode {
-  std::uint64_t node : 40, triangle : 24;  // the latter a position in the surface's set
+  std::uint64_t node : 40, triangle : 24;  // the latter a position in the surface's set, or of a patch where
+                                           // distances are not the triangles'
   double distance;
 
   FoundNode() = default;
@@ -58,7 +59,7 @@ struct Collection {
   std::vector<Stretch> stretches;
   std::vector<FoundNode> by_stretch;
 
-  // A group of nodes that may have some within the limit, and the distance of its centre.
+  // A group of nodes that may have some within the limit, and the distance of its centre, or less.
   struct NearGroup {
     std::int64_t group;
     double distance;
@@ -158,7 +159,6 @@ struct MarkResult {
 
 // Makes the lists of a result from what its collection found, ascending by node, on up to n_threads threads. The list of marked nodes is
 // only made where the limit is wider. All memory is reserved before a list is overwritten.
-void put_in_order(const TriangleSet &triangles, double half_thickness, bool limit_is_wider, std::int64_t n_nodes,
-                  int n_threads, MarkResult &result);
+void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads, MarkResult &result);
 
 }  // namespace riis

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "api/errors.hpp"
+#include "marking/distances.hpp"
 #include "marking/search.hpp"
 #include "parallel/concurrent_walk.hpp"
 #include "parallel/parallel_for.hpp"
@@ -14,13 +15,14 @@ namespace {
 
 constexpr std::int64_t nodes_per_range = Collection::Walked::nodes_per_range, groups_per_block = 16;
 
+template <class Distances>
 class NeighborSearch {
  public:
-  NeighborSearch(const SearchRequest &request, Collection &collection)
+  NeighborSearch(const SearchRequest &request, const Distances &distances, Collection &collection)
       : request_(request),
         nodes_(request.mesh.nodes()),
         adjacency_(*request.mesh.adjacency()),
-        scene_(request.surface.scene()),
+        distances_(distances),
         limit_(request.distance_limit),
         collection_(collection),
         walked_(collection.walked) {
@@ -65,7 +67,7 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // The groups of nodes that may have one within the limit, each with the distance of its centre.
+  // The groups of nodes that may have one within the limit, each with the distance of its centre, or less.
   void find_near_groups(const NodeGroups &groups) {
     std::vector<Collection::NearGroup> &near = walked_.near_groups;
     near.clear();
@@ -74,11 +76,10 @@ class NeighborSearch {
       Collection::Walked::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
       const auto is_near = [&](const Ball &ball, double &distance) {
         const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
-        if (!scene_.may_be_within(ball.centre, within)) return false;
+        if (!distances_.may_be_within(ball.centre, within)) return false;
         ++own.n_queries;
-        const ClosestTriangle closest = scene_.closest(ball.centre, within, request_.instructions);
-        distance = std::sqrt(closest.distance_sq);
-        return closest.triangle >= 0;
+        distance = distances_.lower_bound(ball.centre, within);
+        return distance <= within;
       };
       for (std::int64_t s = block.begin; s < block.end; ++s) {
         double distance;
@@ -139,9 +140,9 @@ class NeighborSearch {
   // Asks for the distance of a node; true, and the node is found, if it is within the limit.
   bool ask(std::int64_t node, int thread) {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
-    if (!scene_.may_be_within(p, limit_)) return false;
+    if (!distances_.may_be_within(p, limit_)) return false;
     ++walked_.threads[static_cast<std::size_t>(thread)].n_queries;
-    const ClosestTriangle closest = scene_.closest(p, limit_, request_.instructions);
+    const ClosestTriangle closest = distances_.closest(p, limit_);
     if (closest.triangle < 0) return false;
     collection_.by_thread[static_cast<std::size_t>(thread)].push_back(
         {node, std::sqrt(closest.distance_sq), closest.triangle});
@@ -158,13 +159,14 @@ class NeighborSearch {
   // For the rounding of two distances and of a ball's radius: in proportion to them, to the nodes' coordinates, and to the
   // triangles'.
   double slack(double distances, Vec3 centre) const {
-    return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) + 2 * scene_.rounding();
+    return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
+           2 * distances_.rounding();
   }
 
   const SearchRequest &request_;
   const StridedPoints &nodes_;
   const Adjacency &adjacency_;
-  const TriangleScene &scene_;
+  const Distances distances_;
   double limit_;
   Collection &collection_;
   Collection::Walked &walked_;
@@ -177,13 +179,15 @@ class NeighborSearch {
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               Collection &collection) {
   const NodeGroups &groups = request.mesh.groups(request.n_threads);
-  NeighborSearch search(request, collection);
-  search.find_near_groups(groups);
-  for (const std::int64_t node : last) search.begin_at(node);
-  if (last.empty()) search.begin_in_near_groups(groups);
-  search.walk();
-  search.prove(groups);
-  return search.report(true);
+  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    NeighborSearch search(request, distances, collection);
+    search.find_near_groups(groups);
+    for (const std::int64_t node : last) search.begin_at(node);
+    if (last.empty()) search.begin_in_near_groups(groups);
+    search.walk();
+    search.prove(groups);
+    return search.report(true);
+  });
 }
 
 SearchReport search_as_the_paper(const SearchRequest &request, Collection &collection) {
@@ -195,10 +199,12 @@ SearchReport search_as_the_paper(const SearchRequest &request, Collection &colle
     const double from_start = distance(nodes[i], start);
     if (!request.is_masked_out(i) && from_start < least) least = from_start, nearest = i;
   }
-  NeighborSearch search(request, collection);
-  if (nearest >= 0) search.begin_at(nearest);
-  search.walk();
-  return search.report(false);
+  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    NeighborSearch search(request, distances, collection);
+    if (nearest >= 0) search.begin_at(nearest);
+    search.walk();
+    return search.report(false);
+  });
 }
 
 }  // namespace riis

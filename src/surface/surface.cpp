@@ -35,7 +35,13 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   area_ = area_of(triangles_, n_threads);
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
+  other_distance_.reset();
   scene_.make(triangles_, n_threads);
+}
+
+void Surface::measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error) {
+  other_distance_ = std::move(other_distance);
+  triangle_error_ = triangle_error;
 }
 
 const Pseudonormals &Surface::pseudonormals() const {

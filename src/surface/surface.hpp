@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that can be asked: triangles, their scene, the half thickness.
+// A surface that can be asked: triangles, their scene, the half thickness, and another method for distances where one is wanted.
 // In: triangles. Out: closest triangles, sides.
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "distance/patch_distance.hpp"
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
@@ -20,11 +21,18 @@ class Surface {
   void make(TriangleSet triangles, double half_thickness, int n_threads);
   // For their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
+  // Distances are those of the triangles, unless there is another method.
+  void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
   double half_thickness() const { return half_thickness_; }
   double area() const { return area_; }
+
+  // The method that distances are measured by; null: the triangles' scene.
+  const PatchDistance *other_distance() const { return other_distance_.get(); }
+  // The distance to the triangles is at most this above the distance to any point of the patches that the method works on.
+  double triangle_error() const { return triangle_error_; }
 
   // +1, -1 or 0: the side of the surface that p is on, seen from its closest point, which lies on that triangle. May be asked by
   // several threads at once.
@@ -40,6 +48,8 @@ class Surface {
   TriangleScene scene_;
   double half_thickness_ = 0;
   double area_ = 0;
+  std::unique_ptr<const PatchDistance> other_distance_;
+  double triangle_error_ = 0;
   // Made when a side is first asked for: marking never needs it.
   mutable std::mutex pseudonormals_mutex_;
   mutable std::unique_ptr<const Pseudonormals> pseudonormals_owner_;

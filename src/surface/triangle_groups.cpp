@@ -64,8 +64,10 @@ Bounds bounds_of(const TriangleSet &set, int n_threads) {
   constexpr std::int64_t corners_per_block = 12288;
   std::vector<Bounds> blocks(static_cast<std::size_t>((n + corners_per_block - 1) / corners_per_block));
   const auto enclose = [](Bounds &bounds, Vec3 lower, Vec3 upper) {
-    bounds.lower = {std::min(bounds.lower.x, lower.x), std::min(bounds.lower.y, lower.y), std::min(bounds.lower.z, lower.z)};
-    bounds.upper = {std::max(bounds.upper.x, upper.x), std::max(bounds.upper.y, upper.y), std::max(bounds.upper.z, upper.z)};
+    bounds.lower = {std::min(bounds.lower.x, lower.x), std::min(bounds.lower.y, lower.y),
+                    std::min(bounds.lower.z, lower.z)};
+    bounds.upper = {std::max(bounds.upper.x, upper.x), std::max(bounds.upper.y, upper.y),
+                    std::max(bounds.upper.z, upper.z)};
   };
   const Bounds none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   parallel_for_ranges(n, corners_per_block, n_threads, [&](const Range &range, int) {

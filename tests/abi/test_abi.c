@@ -45,7 +45,7 @@ static void test_structs(void **state) {
   FIELD(riis_parameter, minimum, 56, 8);
   FIELD(riis_parameter, maximum, 64, 8);
 
-  SIZE(riis_surface_options, 96);
+  SIZE(riis_surface_options, 112);
   FIELD(riis_surface_options, struct_size, 0, 8);
   FIELD(riis_surface_options, half_thickness, 8, 8);
   FIELD(riis_surface_options, tolerance, 16, 8);
@@ -55,6 +55,9 @@ static void test_structs(void **state) {
   FIELD(riis_surface_options, translation, 64, 24);
   FIELD(riis_surface_options, zero_area, 88, 4);
   FIELD(riis_surface_options, flip_normals, 92, 4);
+  FIELD(riis_surface_options, distance, 96, 4);
+  FIELD(riis_surface_options, n_threads, 100, 4);
+  FIELD(riis_surface_options, distance_tolerance, 104, 8);
 
   SIZE(riis_surface_arrays, 88);
   FIELD(riis_surface_arrays, struct_size, 0, 8);
@@ -196,6 +199,9 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LEAFLET_POSTERIOR, 1);
   assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
+  assert_int_equal(RIIS_DISTANCE_TRIANGLES, 0);
+  assert_int_equal(RIIS_DISTANCE_SAMPLING, 1);
+  assert_int_equal(RIIS_DISTANCE_MINIMIZATION, 2);
   assert_int_equal(RIIS_SEARCH_AUTO, 0);
   assert_int_equal(RIIS_SEARCH_EXHAUSTIVE, 1);
   assert_int_equal(RIIS_SEARCH_NEIGHBOR, 2);

@@ -34,6 +34,18 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "--print-params", "--surface", "a.vtp", "--print-params");
   RUN_REFUSED(2, "--skip-zero-area", mesh, "--skip-zero-area");
   RUN_REFUSED(2, "--search", mesh, "--search", "clever");
+  RUN_REFUSED(2, "--distance", mesh, "--distance", "far");
+  RUN_REFUSED(2, "--distance", mesh, "--surface", "a.vtp", "--distance", "sampling");
+  RUN_REFUSED(2, "--distance-tolerance has no effect with --distance triangles", mesh, "--distance-tolerance", "0.1");
+  RUN_REFUSED(2, "--distance-tolerance has no effect with --distance triangles", mesh, "--distance", "triangles",
+              "--distance-tolerance", "0.1");
+  RUN_REFUSED(2, "--distance-tolerance is 2; it must be from 1e-06 to 1", mesh, "--distance", "sampling",
+              "--distance-tolerance", "2");
+  RUN_REFUSED(2, "--distance-tolerance: -1 is not above 0", mesh, "--distance", "sampling", "--distance-tolerance",
+              "-1");
+  RUN_REFUSED(2, "--distance needs a MESH", "--surface-output", "a.vtp", "--distance", "sampling");
+  RUN_REFUSED(2, "--search is 4, clusters", mesh, "--distance", "sampling", "--search", "clusters");
+  RUN_REFUSED(1, "more than 16777216 samples", mesh, "--distance", "sampling", "--distance-tolerance", "1e-4");
   RUN_REFUSED(2, "--view", mesh, "--picture", "a.png", "--view", "below");
   RUN_REFUSED(2, "--view: more views than pictures", mesh, "--picture", "a.png", "--view", "top", "--view", "side");
   RUN_REFUSED(2, "--output", mesh, "--output", "a.vtu", "--output", "b.vtu");
@@ -42,10 +54,25 @@ static void test_usage(void **state) {
 
 static void test_empty_values(void **state) {
   (void)state;
-  const char *options[] = {"--surface",        "--valve",        "--params",     "--set",     "--tolerance",
-                           "--scale",          "--rotate",       "--translate",  "--threads", "--half-thickness",
-                           "--distance-limit", "--far-distance", "--output",     "--picture", "--stats",
-                           "--surface-output", "--opening",      "--params-open"};
+  const char *options[] = {"--surface",
+                           "--valve",
+                           "--params",
+                           "--set",
+                           "--tolerance",
+                           "--scale",
+                           "--rotate",
+                           "--translate",
+                           "--threads",
+                           "--half-thickness",
+                           "--distance-limit",
+                           "--far-distance",
+                           "--output",
+                           "--picture",
+                           "--stats",
+                           "--surface-output",
+                           "--opening",
+                           "--params-open",
+                           "--distance-tolerance"};
   for (size_t i = 0; i < sizeof options / sizeof options[0]; ++i) {
     char text[64];
     snprintf(text, sizeof text, "%s: the value is empty", options[i]);

@@ -44,6 +44,43 @@ static void test_marks_are_equal(void **state) {
   }
 }
 
+/* By the same options from C; by triangles other distances, and said. */
+static void test_distances(void **state) {
+  (void)state;
+  const char *methods[] = {"triangles", "sampling", "minimization"};
+  double n_marked[3];
+  for (int32_t i = RIIS_DISTANCE_SAMPLING; i <= RIIS_DISTANCE_MINIMIZATION; ++i) {
+    riis_valve *valve = NULL;
+    riis_surface_options options;
+    expect_fine(riis_valve_create("aortic", &valve));
+    expect_fine(riis_surface_options_init(&options, sizeof options));
+    options.half_thickness = 0.2;
+    options.distance = i;
+    options.distance_tolerance = 0.3;
+    mark_by_c(valve, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
+    riis_valve_destroy(&valve);
+    const char *searches[] = {"auto", "neighbor"};
+    for (int k = 0; k < 2; ++k) {
+      RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--distance", methods[i], "--distance-tolerance",
+               "0.3", "--search", searches[k], "--output", scratch_path("out.vtu"), "--stats", "-");
+      expect_marked_mesh();
+      assert_true(json_has_text(program_out, "complete", "true"));
+    }
+    char text[32];
+    snprintf(text, sizeof text, "\"%s\"", methods[i]);
+    assert_true(json_has_text(program_out, "distance", text));
+    n_marked[i] = json_number(program_out, "n_marked");
+    RUN_FINE(scratch_path("in.vtu"), "--distance", methods[i]);
+    snprintf(text, sizeof text, ", distances by %s\n", methods[i]);
+    assert_non_null(strstr(program_out, text));
+  }
+  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--stats", "-");
+  assert_true(json_has_text(program_out, "distance", "\"triangles\""));
+  n_marked[0] = json_number(program_out, "n_marked");
+  assert_true(n_marked[RIIS_DISTANCE_SAMPLING] > 0 && n_marked[RIIS_DISTANCE_SAMPLING] < n_marked[0]);
+  assert_true(n_marked[RIIS_DISTANCE_MINIMIZATION] > 0 && n_marked[RIIS_DISTANCE_MINIMIZATION] <= n_marked[0]);
+}
+
 static void test_table(void **state) {
   (void)state;
   RUN_FINE(scratch_path("in.vtu"), "--search", "neighbor", "--threads", "1");
@@ -145,8 +182,9 @@ static int destroy_all(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_marks_are_equal), cmocka_unit_test(test_table),    cmocka_unit_test(test_paper),
-      cmocka_unit_test(test_two_pieces),      cmocka_unit_test(test_no_cells), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_marks_are_equal), cmocka_unit_test(test_distances),  cmocka_unit_test(test_table),
+      cmocka_unit_test(test_paper),           cmocka_unit_test(test_two_pieces), cmocka_unit_test(test_no_cells),
+      cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_box, destroy_all);
 }

@@ -321,7 +321,8 @@ int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers)
   LAYOUT(riis_parameter, AT(name), AT(unit), AT(description), AT(n_values), AT(default_values), AT(minimum),
          AT(maximum))
   LAYOUT(riis_surface_options, AT(struct_size), AT(half_thickness), AT(tolerance), AT(scale), AT(rotation_axis),
-         AT(rotation_angle), AT(translation), AT(zero_area), AT(flip_normals))
+         AT(rotation_angle), AT(translation), AT(zero_area), AT(flip_normals), AT(distance), AT(n_threads),
+         AT(distance_tolerance))
   LAYOUT(riis_surface_arrays, AT(struct_size), AT(n_vertices), AT(x), AT(y), AT(z), AT(stride), AT(n_faces),
          AT(vertex_ids), AT(vertex_id_bits), AT(index_base), AT(corners_per_face), AT(reserved), AT(leaflet_id))
   LAYOUT(riis_surface_info, AT(n_vertices), AT(n_triangles), AT(n_zero_area), AT(half_thickness), AT(area), AT(lower),

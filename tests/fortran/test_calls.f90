@@ -165,7 +165,8 @@ contains
     call check_refused(riis_surface_options_init(options, 12_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
     call check_ok(riis_surface_options_init(options, c_sizeof(options)), 'default surface options')
     call check(options%struct_size == c_sizeof(options) .and. nint(options%scale) == 1 .and. &
-      all(nint(options%rotation_axis) == [0, 0, 1]) .and. options%zero_area == RIIS_ZERO_AREA_REFUSE, &
+      all(nint(options%rotation_axis) == [0, 0, 1]) .and. options%zero_area == RIIS_ZERO_AREA_REFUSE .and. &
+      options%distance == RIIS_DISTANCE_TRIANGLES .and. abs(options%distance_tolerance - RIIS_AUTO) <= 0, &
       'the defaults of the surface options')
     options%half_thickness = 1.1d0
     options%tolerance = 0.1d0
@@ -185,6 +186,9 @@ contains
     call check_ok(riis_surface_triangles(surface, n_triangles=n), 'the number of triangles alone')
     call check(n == n_triangles, 'the number of triangles alone')
 
+    options%distance = 3
+    call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'options.distance is 3')
+    options%distance = RIIS_DISTANCE_TRIANGLES
     options%tolerance = 2
     call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'tolerance')
     options%struct_size = 12

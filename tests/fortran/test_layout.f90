@@ -29,7 +29,8 @@ program test_layout
     at(c_loc(p%maximum))])
   call compare('riis_surface_options', c_sizeof(so), c_loc(so), [at(c_loc(so%struct_size)), &
     at(c_loc(so%half_thickness)), at(c_loc(so%tolerance)), at(c_loc(so%scale)), at(c_loc(so%rotation_axis)), &
-    at(c_loc(so%rotation_angle)), at(c_loc(so%translation)), at(c_loc(so%zero_area)), at(c_loc(so%flip_normals))])
+    at(c_loc(so%rotation_angle)), at(c_loc(so%translation)), at(c_loc(so%zero_area)), at(c_loc(so%flip_normals)), &
+    at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%distance_tolerance))])
   call compare('riis_surface_arrays', c_sizeof(sa), c_loc(sa), [at(c_loc(sa%struct_size)), at(c_loc(sa%n_vertices)), &
     at(c_loc(sa%x)), at(c_loc(sa%y)), at(c_loc(sa%z)), at(c_loc(sa%stride)), at(c_loc(sa%n_faces)), &
     at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), at(c_loc(sa%corners_per_face)), &

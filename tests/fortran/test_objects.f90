@@ -37,6 +37,7 @@ program test_objects
   call test_patches()
   call test_options()
   call test_surface()
+  call test_distances()
   call test_surface_from_arrays()
   call test_closest_points()
   call test_log()
@@ -269,6 +270,43 @@ contains
     call surface%destroy()
     call valve%destroy()
   end subroutine test_surface
+
+  ! Distances by another method than triangles, asked for when a surface is made or later, and kept.
+  subroutine test_distances()
+    type(riis_valve) :: valve
+    type(riis_surface) :: by_triangles, by_other
+    type(riis_closest) :: exact, closest
+    integer(int32) :: method, side(1)
+    real(c_double), parameter :: point(3) = [0.3d0, 0.2d0, -0.1d0], half_thickness = 0.1d0
+    real(c_double) :: distance(1)
+
+    call valve%create('aortic')
+    call by_triangles%create(valve)
+    call by_triangles%closest_point(point, exact)
+    do method = RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_MINIMIZATION
+      call by_other%create(valve, distance=method, distance_tolerance=0.1d0, status=status)
+      call check_ok(status, 'a surface with another distance')
+      call by_other%update(valve)
+      call by_other%closest_point(point, closest)
+      call check(closest%triangle_id == -1 .and. exact%triangle_id >= 0, 'it has no triangle')
+      call check(abs(closest%distance - exact%distance) <= 0.15d0 * half_thickness .and. &
+        .not. same(closest%distance, exact%distance), 'it is about as far')
+      call by_other%closest_points(reshape(point, [3, 1]), distance=distance)
+      call check(same(distance(1), closest%distance), 'a batch agrees')
+      call by_other%closest_points(reshape(point, [3, 1]), side=side, status=status)
+      call check_refused(status, RIIS_INVALID_ARGUMENT, 'arrays.side is given')
+      call by_other%update(valve, distance=RIIS_DISTANCE_TRIANGLES)
+      call by_other%closest_point(point, closest)
+      call check(same(closest%distance, exact%distance) .and. closest%triangle_id == exact%triangle_id, 'triangles again')
+      call by_other%update(valve, distance=7_int32, status=status)
+      call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.distance is 7')
+      call by_other%update(valve, distance=method, distance_tolerance=2d0, status=status)
+      call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.distance_tolerance is 2')
+      call by_other%destroy()
+    end do
+    call by_triangles%destroy()
+    call valve%destroy()
+  end subroutine test_distances
 
   subroutine test_surface_from_arrays()
     type(riis_surface) :: surface, twin

@@ -119,6 +119,8 @@ struct Triangles {
   const double *xyz = nullptr;
 };
 Triangles triangles_of(const riis_surface *surface);
+// Whether its distances are the triangles', by what it says.
+bool is_by_triangles(const riis_surface *surface);
 Closest closest_by_loop(const Triangles &triangles, const std::array<double, 3> &point);
 // Whether the loop over all triangles is worth its time, n_points times.
 inline bool is_small(const Triangles &triangles, std::int64_t n_points) { return triangles.n * n_points <= 60'000; }

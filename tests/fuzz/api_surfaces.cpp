@@ -28,6 +28,13 @@ Closest closest_by_loop(const Triangles &t, const std::array<double, 3> &point) 
   return {std::sqrt(best_sq), best};
 }
 
+bool is_by_triangles(const riis_surface *surface) {
+  const double origin[3] = {0, 0, 0};
+  riis_closest closest;
+  EXPECT_OK(riis_closest_point(surface, origin, &closest, sizeof closest));
+  return closest.triangle_id >= 0;
+}
+
 namespace {
 
 riis_surface *&slot_of(Input &in, State &state) { return state.surfaces[in.slot()]; }
@@ -45,7 +52,20 @@ riis_surface_options options_of(Input &in) {
     for (double &x : options.translation) x = in.place();
   options.zero_area = in.mostly(in.below(2));
   options.flip_normals = in.mostly(in.below(2));
+  if (in.one_in(4)) {
+    options.distance = in.mostly(1 + in.below(2));
+    if (in.one_in(8)) options.distance_tolerance = in.number();
+    if (in.one_in(64)) options.reserved = 1;
+  }
   return options;
+}
+
+// Distances that are finer than triangles are as expensive.
+void make_distance_coarse(double size, riis_surface_options &options) {
+  if (options.distance == RIIS_DISTANCE_TRIANGLES || options.distance_tolerance == RIIS_AUTO) return;
+  const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
+  const double ratio = options.distance_tolerance * half_thickness / options.scale / size;
+  if (ratio > 1e-12 && ratio < 0.03) options.distance_tolerance = 1;
 }
 
 // The valve's size before placement, from above.
@@ -67,6 +87,7 @@ void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double ratio = options.tolerance * half_thickness / options.scale / size;
   if (!(ratio > 0 && ratio < 0.03) || (ratio < 1e-16 && in.one_in(2))) return;
   options.tolerance = 1;
+  options.distance_tolerance = RIIS_AUTO;
   options.half_thickness = 0.03 * size * options.scale;
 }
 
@@ -106,6 +127,7 @@ void make_surface(Input &in, State &state) {
   const Given<riis_valve> valve = given(in, state, State::valve, valve_slot.handle);
   riis_surface_options options = options_of(in);
   make_coarse(in, size_of(valve_slot), options);
+  make_distance_coarse(size_of(valve_slot), options);
   make(
       in, state, [&](riis_surface **surface) { return riis_surface_create(valve.handle, &options, surface); },
       [&](riis_surface *surface) { return riis_surface_update(surface, valve.handle, &options); });
@@ -197,6 +219,19 @@ namespace {
 
 void check_closest(const riis_surface *surface, const std::array<double, 3> &p, const riis_closest &closest) {
   const Triangles t = triangles_of(surface);
+  if (closest.triangle_id < 0) {
+    double sum = 0, normal_sq = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double d = closest.point[axis] - p[static_cast<std::size_t>(axis)];
+      sum += d * d;
+      normal_sq += closest.normal[axis] * closest.normal[axis];
+    }
+    EXPECT(std::abs(std::sqrt(sum) - closest.distance) <= 1e-12 * closest.distance, "%g %g", std::sqrt(sum),
+           closest.distance);
+    EXPECT(normal_sq == 0 || std::abs(normal_sq - 1) < 1e-6, "normal %g", normal_sq);
+    EXPECT(closest.triangle_id == -1 && closest.side == 0 && closest.leaflet_id >= 0, "%d", closest.leaflet_id);
+    return;
+  }
   EXPECT(closest.distance >= 0 && closest.side >= -1 && closest.side <= 1, "%g %d", closest.distance, closest.side);
   double sum = 0;
   for (const double weight : closest.barycentric) {

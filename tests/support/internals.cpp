@@ -8,7 +8,10 @@
 #include <string_view>
 
 #include "api/errors.hpp"
+#include "api/handles.hpp"
 #include "distance/point_triangle.hpp"
+#include "distance/powell.hpp"
+#include "distance/sample_set.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/curve.hpp"
@@ -283,6 +286,21 @@ int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t 
     }
   }
   return n_different;
+}
+
+int64_t samples_of(const riis_surface *surface, const double **xyz) {
+  const auto *samples = dynamic_cast<const SampleSet *>(content_of(surface).other_distance());
+  if (!samples) return 0;
+  *xyz = samples->xyz().data();
+  return samples->n_samples();
+}
+
+double powell_minimum(double (*f)(double u, double v), double enough, double step, double *uv) {
+  const LocalMinimum found = minimize_by_powell([&](Parameters at) { return f(at.u, at.v); }, {0.5, 0.5}, enough,
+                                                [&](Parameters) { return step; });
+  uv[0] = found.at.u;
+  uv[1] = found.at.v;
+  return found.value;
 }
 
 riis_status wall_meets(const char *exception) {

@@ -124,6 +124,13 @@ void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq,
 /* A bit for each of up to 16 boxes of one node each that a group may be near to, near(n_groups). Returns what the kernel does. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
 
+/* The samples of a surface whose distances are by sampling: xyz(3, n), the surface's own, in the order that decides between equally
+ * near ones. Returns n. */
+int64_t samples_of(const riis_surface *surface, const double **xyz);
+
+/* Powell's method from (0.5, 0.5) on [0,1]^2, line searches right to step: the value that it ends at, and where. */
+double powell_minimum(double (*f)(double u, double v), double enough, double step, double *uv);
+
 /* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory",
  * std::bad_alloc; "standard", another standard exception, "boom"; "other", an int; "worker", an Error thrown by a
  * worker thread of a parallel loop; "nothing", none. */

@@ -51,7 +51,8 @@ struct Filter {
     }
     double longest_edge = 0;
     for (const GroupBounds &group : bounds) longest_edge = std::max<double>(longest_edge, group.longest_edge);
-    const double error = filter_error(filter.ratio, shift, filter.limit, longest_edge), reach = filter.limit + 2 * error;
+    const double error = filter_error(filter.ratio, shift, filter.limit, longest_edge),
+                 reach = filter.limit + 2 * error;
     task.ratio = static_cast<float>(filter.ratio);
     task.reach_sq = static_cast<float>(reach * reach);
     task.tolerance = filter_tolerance(error, reach);
@@ -114,8 +115,7 @@ int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kerne
   const auto size = static_cast<std::size_t>(room) + 16;
   for (*n_calls = 0; *n_calls == 0 || of_filter.of_leaf.next_group < filter->n_groups; ++*n_calls) {
     std::vector<std::int32_t> node(size + 16, untouched), triangle(size + 16, untouched);
-    const std::int32_t n =
-        of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {node.data(), triangle.data()}, room);
+    const std::int32_t n = of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {node.data(), triangle.data()}, room);
     std::uint32_t nodes = 0;
     bool is_right = n <= room;
     for (std::size_t i = 0; is_right && i < static_cast<std::size_t>(n); ++i) {

@@ -133,6 +133,16 @@ static riis_status triangulate(world *w) {
   MADE(riis_surface, w->surface, riis_surface_create(w->valve, &coarse, &made));
 }
 
+static riis_status measure(world *w, int32_t distance) {
+  riis_surface_options options = coarse;
+  options.distance = distance;
+  options.distance_tolerance = 1;
+  if (w->surface) return riis_surface_update(w->surface, w->valve, &options);
+  MADE(riis_surface, w->surface, riis_surface_create(w->valve, &options, &made));
+}
+static riis_status by_sampling(world *w) { return measure(w, RIIS_DISTANCE_SAMPLING); }
+static riis_status by_minimization(world *w) { return measure(w, RIIS_DISTANCE_MINIMIZATION); }
+
 /* A pyramid's faces, the base as a quad in 64 bits, one face without area. */
 static const double corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
 static const int32_t faces[15] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 0, 4};
@@ -170,6 +180,14 @@ static void aortic_made(world *w) {
 static void aortic_moved(world *w) {
   aortic_made(w);
   CHECK_OK(riis_valve_set_scalar(w->valve, "leaflet_angle", 60));
+}
+static void sampled(world *w) {
+  aortic(w);
+  CHECK_OK(by_sampling(w));
+}
+static void minimized(world *w) {
+  aortic(w);
+  CHECK_OK(by_minimization(w));
 }
 static riis_status update(world *w) { return riis_surface_update(w->surface, w->valve, NULL); }
 static riis_status update_from_triangles(world *w) {
@@ -285,6 +303,15 @@ static void marked_often(world *w) {
   ready_to_mark(w);
   for (int i = 0; i < 3; ++i) CHECK_OK(mark(w));
 }
+/* By other distances than the triangles'. */
+static void sampled_and_ready(world *w) {
+  ready_to_mark(w);
+  CHECK_OK(by_sampling(w));
+}
+static void minimized_and_ready(world *w) {
+  ready_to_mark(w);
+  CHECK_OK(by_minimization(w));
+}
 /* The nodes' groups are there, and have to be enclosed anew. */
 static void marked_and_moved(world *w) {
   marked_often(w);
@@ -335,11 +362,11 @@ static void destroy(world *w) {
 
 /* --- The scenarios --------------------------------------------------------------------------------------------------- */
 
-#define ALL_SEARCHES(name, make, call, n_threads, flags)                         \
-  {name ", exhaustive", make, call, n_threads, RIIS_SEARCH_EXHAUSTIVE, flags},   \
-      {name ", neighbor", make, call, n_threads, RIIS_SEARCH_NEIGHBOR, flags},   \
-      {name ", paper", make, call, n_threads, RIIS_SEARCH_PAPER, flags}, {       \
-    name ", clusters", make, call, n_threads, RIIS_SEARCH_CLUSTERS, flags        \
+#define ALL_SEARCHES(name, make, call, n_threads, flags)                       \
+  {name ", exhaustive", make, call, n_threads, RIIS_SEARCH_EXHAUSTIVE, flags}, \
+      {name ", neighbor", make, call, n_threads, RIIS_SEARCH_NEIGHBOR, flags}, \
+      {name ", paper", make, call, n_threads, RIIS_SEARCH_PAPER, flags}, {     \
+    name ", clusters", make, call, n_threads, RIIS_SEARCH_CLUSTERS, flags      \
   }
 
 static void nothing(world *w) { (void)w; }
@@ -363,6 +390,11 @@ static const scenario scenarios[] = {
     {"surface, quads", nothing, from_quads, 0, 0, MAKES_A_SCENE},
     {"surface update, valve", aortic_moved, update, 0, 0, MAKES_A_SCENE},
     {"surface update, triangles", aortic_made, update_from_triangles, 0, 0, MAKES_A_SCENE},
+    {"surface, sampling", mitral, by_sampling, 0, 0, MAKES_A_SCENE},
+    {"surface, minimization", mitral, by_minimization, 0, 0, MAKES_A_SCENE},
+    {"surface update, to sampling", aortic_moved, by_sampling, 0, 0, MAKES_A_SCENE},
+    {"closest point by sampling", sampled, closest_point, 0, 0, ALLOCATES_NONE},
+    {"closest point by minimization", minimized, closest_point, 0, 0, ALLOCATES_NONE},
     {"closest point", aortic_made, closest_point, 0, 0, 0},
     {"closest points, 1 thread", aortic_made, closest_points, 1, 0, 0},
     {"closest points, 4 threads", aortic_made, closest_points, 4, 0, 0},
@@ -385,6 +417,8 @@ static const scenario scenarios[] = {
     ALL_SEARCHES("wider marking, 4 threads", marked_before, mark_masked_and_wide, 4, 0),
     ALL_SEARCHES("larger mesh, 1 thread", marked_little, mark, 1, 0),
     ALL_SEARCHES("larger mesh, 4 threads", marked_little, mark, 4, 0),
+    {"first marking by sampling, exhaustive", sampled_and_ready, mark, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
+    {"first marking by minimization, neighbor", minimized_and_ready, mark, 1, RIIS_SEARCH_NEIGHBOR, 0},
     {"marking again", marked_often, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
     {"marking of nodes that moved", marked_and_moved, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
     {"marking again by clusters", marked_often, mark, 1, RIIS_SEARCH_CLUSTERS, ALLOCATES_NONE},

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "distance/make_distance.hpp"
+
+#include <riis/riis.h>
+
+#include <utility>
+
+#include "api/errors.hpp"
+#include "api/log.hpp"
+#include "distance/minimizer.hpp"
+#include "distance/sample_set.hpp"
+
+namespace riis {
+namespace {
+
+// Of the allowed error: S is that close to the smooth surface. More lines are cheaper than more samples.
+constexpr double patch_share = 0.1;
+
+PlacedPatches make_patches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {
+  try {
+    return PlacedPatches(set, patch_share * max_error / placement.scale, placement, flip_normals);
+  } catch (const Error &error) {
+    fail(error.status, "with a tenth of distance_tolerance for the patches themselves, %s", error.text);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
+                                                   const Placement &placement, bool flip_normals) {
+  PlacedPatches patches = make_patches(set, request.max_error, placement, flip_normals);
+  const std::size_t n_patches = patches.patches.size();
+  if (request.method == RIIS_DISTANCE_MINIMIZATION)
+    return std::make_unique<const Minimizer>(std::move(patches), request.max_error);
+  auto samples = std::make_unique<const SampleSet>(std::move(patches), request.max_error);
+  log_message(RIIS_LOG_INFO, "distances by sampling: %lld samples of %zu patches",
+              static_cast<long long>(samples->n_samples()), n_patches);
+  return samples;
+}
+
+}  // namespace riis

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distances by minimisation (paper, 4.1 "Minimization"): |S(u,v) - P|^2 made small on every patch by Powell's method from
+// (0.5, 0.5). It ends in a local minimum, so what it says is a distance to a point of S, but not always of the closest
+// (docs/theory.md, section 9).
+// In: placed patches, when to stop. Out: the least local minimum of all patches.
+#pragma once
+
+#include <vector>
+
+#include "distance/patch_distance.hpp"
+
+namespace riis {
+
+class Minimizer final : public PatchDistance {
+ public:
+  // Iterations end when one lowers the distance by no more than `enough`, placed units.
+  Minimizer(PlacedPatches patches, double enough);
+
+  ClosestOnPatches closest(Vec3 p, double limit) const override;
+  bool may_be_within(Vec3 p, double limit) const override;
+  bool is_of_fixed_points() const override { return false; }
+  const char *name() const override { return "minimization"; }
+
+ private:
+  struct Measures {
+    Bounds box;
+    double width, height;  // bounds of |S_u| and |S_v|
+  };
+
+  void ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const;
+  double lower_bound(const Bounds &box, Vec3 p) const;
+
+  double enough_;
+  double rounding_ = 0;             // of a point S(u,v), which may be outside of the box by as much
+  std::vector<Measures> measures_;  // of each patch
+  Bounds box_;                      // of all
+};
+
+}  // namespace riis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The distance of a point to the surface by another method than triangles (paper, 4.1): for comparison.
+// In: a point, a limit. Out: the closest point that the method finds, with its patch, u and v.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "distance/placed_patches.hpp"
+
+namespace riis {
+
+struct ClosestOnPatches {
+  double distance_sq = std::numeric_limits<double>::infinity();
+  std::int64_t patch = -1;  // position among the placed patches; -1 for none
+  double u = 0, v = 0;
+  Vec3 point{0, 0, 0};
+};
+
+class PatchDistance {
+ public:
+  virtual ~PatchDistance() = default;
+
+  // What the method finds closest to p, if its distance is at most limit (>= 0, may be infinite); patch -1 if not. The same
+  // bits whatever the limit, as long as it is not below the distance. May be called by several threads at once.
+  virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
+
+  // False only where nothing is within the limit of p.
+  virtual bool may_be_within(Vec3 p, double limit) const = 0;
+
+  // Whether the distance is that to a set of points, the same for every p: it then differs between two p by at most their
+  // distance.
+  virtual bool is_of_fixed_points() const = 0;
+
+  virtual const char *name() const = 0;
+
+  const PlacedPatches &patches() const { return patches_; }
+
+ protected:
+  explicit PatchDistance(PlacedPatches patches) : patches_(std::move(patches)) {}
+
+  PlacedPatches patches_;
+};
+
+}  // namespace riis

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patches as S(u,v) that can be evaluated anywhere, in place (paper, 3.3): what sampling and minimisation work on.
+// In: curves and patches of a valve, the error allowed, where to put it. Out: a grid of quads for each image of a patch.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/coons.hpp"
+#include "geometry/placement.hpp"
+#include "surface/triangle_groups.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// S(u,v), bilinear in every quad of the grid, whose points are placed.
+struct PlacedPatch {
+  QuadGrid grid;
+  std::int32_t leaflet_id;
+  bool is_turned_over;  // S_u x S_v is against the normal
+
+  Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
+  // Unit normal by the right-hand rule of the triangles; 0 where S has none, as at a collapsed side. On a grid line it is
+  // that of the quad behind it.
+  Vec3 normal_at(double u, double v) const;
+};
+
+struct PlacedPatches {
+  std::vector<PlacedPatch> patches;
+  // Of each: how far S may be from the smooth surface at equal (u,v), in placed units; at most max_error times the scale.
+  std::vector<double> errors;
+
+  // max_error is in the patches' units, before placement. Fails with RIIS_LIMIT_EXCEEDED as make_grids does.
+  PlacedPatches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals);
+  double largest_error() const;
+};
+
+// Visits the derivatives of S in every quad: visit(along_u, along_v), two each, at the quad's two ends. In between S_u is a
+// mean of the two along_u, at its lower and its upper v, and S_v of the two along_v.
+template <class Visit>
+void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
+  for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
+    for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) {
+      const Vec3 p00 = grid.point(i, j), p10 = grid.point(i + 1, j);
+      const Vec3 p01 = grid.point(i, j + 1), p11 = grid.point(i + 1, j + 1);
+      const double per_u = 1 / (grid.u[i + 1] - grid.u[i]), per_v = 1 / (grid.v[j + 1] - grid.v[j]);
+      visit(std::array<Vec3, 2>{per_u * (p10 - p00), per_u * (p11 - p01)},
+            std::array<Vec3, 2>{per_v * (p01 - p00), per_v * (p11 - p10)});
+    }
+}
+
+// The largest |S_u| and |S_v|: no line v = const is longer than the first, none with u = const than the second.
+struct Speeds {
+  double u, v;
+};
+Speeds largest_speeds(const QuadGrid &grid);
+
+// Of the grid's points, hence of S, which is a mean of them everywhere.
+Bounds bounds_of(const QuadGrid &grid);
+Bounds joined(const Bounds &a, const Bounds &b);
+
+// The distance from p to a box, squared; no larger, in every bit, than the square of the distance to any point in it when that is
+// computed as dot(q - p, q - p): rounding keeps the order of differences, squares and sums.
+double distance_sq_to(const Bounds &box, Vec3 p);
+
+}  // namespace riis
