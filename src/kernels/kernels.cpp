@@ -4,14 +4,6 @@
 #include "kernels/table.hpp"
 
 namespace riis {
-namespace {
-
-constexpr Kernels together(const FilterKernels &filter, const DecisionKernels &decision) {
-  return {filter.near_boxes, filter.filter_leaf, filter.group_distances, decision.make_group, decision.decide};
-}
-
-}  // namespace
-
 bool has(InstructionSet set) {
   switch (set) {
     case InstructionSet::baseline:
@@ -38,12 +30,12 @@ InstructionSet best_instruction_set() {
 
 const Kernels &kernels(InstructionSet set) {
 #if defined(RIIS_X86_KERNELS)
-  static const Kernels tables[n_instruction_sets] = {together(filter_kernels_baseline, decision_kernels_baseline),
-                                                     together(filter_kernels_avx2, decision_kernels_avx2),
-                                                     together(filter_kernels_avx512, decision_kernels_avx512)};
+  static const Kernels tables[n_instruction_sets] = {{filter_kernels_baseline, decision_kernels_baseline},
+                                                     {filter_kernels_avx2, decision_kernels_avx2},
+                                                     {filter_kernels_avx512, decision_kernels_avx512}};
   return tables[static_cast<int>(set)];
 #else
-  static const Kernels only = together(filter_kernels_baseline, decision_kernels_baseline);
+  static const Kernels only{filter_kernels_baseline, decision_kernels_baseline};
   return only;
 #endif
 }

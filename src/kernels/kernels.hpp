@@ -78,7 +78,7 @@ struct PairArrays {
   int32_t *node, *triangle;
 };
 
-struct Kernels {
+struct FilterKernels {
   // For every candidate group the boxes that it is within reach of: a bit a box. False if there is none at all.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
@@ -87,12 +87,17 @@ struct Kernels {
   int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
   // Squares of the distances, in single precision, of a point (in the surface's frame) to the triangles of a group.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
+};
+
+struct DecisionKernels {
   // The frames of triangles in the surface's frame, and where they are.
   void (*make_group)(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds);
   // Squares of the distances of pairs of a point (x, y, z) and a triangle (9 doubles), both by index; n + 7 are written.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
 };
+
+struct Kernels : FilterKernels, DecisionKernels {};
 
 // In the order of preference, the last one first.
 enum class InstructionSet : int32_t { baseline = 0, avx2 = 1, avx512 = 2 };

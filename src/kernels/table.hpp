@@ -13,16 +13,6 @@
 
 namespace riis {
 
-struct FilterKernels {
-  bool (*near_boxes)(const FilterTask &, const Boxes &, const int32_t *, int32_t, uint16_t *);
-  int32_t (*filter_leaf)(const FilterTask &, LeafTask &, const PairArrays &, int32_t);
-  void (*group_distances)(const TriangleGroup &, const float *, float, float *);
-};
-struct DecisionKernels {
-  void (*make_group)(const GroupCorners &, TriangleGroup &, GroupBounds &);
-  void (*decide)(int32_t, const int32_t *, const int32_t *, const double *, const double *, double *);
-};
-
 extern const FilterKernels filter_kernels_baseline, filter_kernels_avx2, filter_kernels_avx512;
 extern const DecisionKernels decision_kernels_baseline, decision_kernels_avx2, decision_kernels_avx512;
 
