@@ -15,8 +15,7 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
     const Speeds speeds = largest_speeds(patch.grid);
     measures_.push_back({bounds_of(patch.grid), speeds.u, speeds.v});
     const Bounds &box = measures_.back().box;
-    if (measures_.size() == 1) box_ = box;
-    box_ = joined(box_, box);
+    box_.add(box);
     for (const Vec3 &p : {box.lower, box.upper})
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }

@@ -48,14 +48,9 @@ Speeds largest_speeds(const QuadGrid &grid) {
   return largest;
 }
 
-Bounds joined(const Bounds &a, const Bounds &b) {
-  return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y), std::min(a.lower.z, b.lower.z)},
-          {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y), std::max(a.upper.z, b.upper.z)}};
-}
-
 Bounds bounds_of(const QuadGrid &grid) {
-  Bounds box{grid.points.front(), grid.points.front()};
-  for (const Vec3 &p : grid.points) box = joined(box, {p, p});
+  Bounds box;
+  for (const Vec3 &p : grid.points) box.add(p);
   return box;
 }
 

@@ -59,7 +59,6 @@ Speeds largest_speeds(const QuadGrid &grid);
 
 // Of the grid's points, hence of S, which is a mean of them everywhere.
 Bounds bounds_of(const QuadGrid &grid);
-Bounds joined(const Bounds &a, const Bounds &b);
 
 // The distance from p to a box, squared; no larger, in every bit, than the square of the distance to any point in it when that is
 // computed as dot(q - p, q - p): rounding keeps the order of differences, squares and sums.

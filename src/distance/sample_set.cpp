@@ -95,20 +95,20 @@ void SampleSet::add_leaf(std::int32_t patch, const Samples &samples, Node &node)
   const PlacedPatch &of = patches_.patches[static_cast<std::size_t>(patch)];
   node.leaf = static_cast<std::int32_t>(leaves_.size());
   leaves_.push_back({n_samples(), patch, samples.column, samples.row, samples.n_columns, samples.n_rows});
-  bool is_first = true;
   for (std::int32_t j = samples.row; j < samples.row + samples.n_rows; ++j)
     for (std::int32_t i = samples.column; i < samples.column + samples.n_columns; ++i) {
       const Vec3 p = of.at(static_cast<double>(i) / static_cast<double>(counts.u),
                            static_cast<double>(j) / static_cast<double>(counts.v));
       for (const double x : {p.x, p.y, p.z}) xyz_.push_back(x);
-      node.box = std::exchange(is_first, false) ? Bounds{p, p} : joined(node.box, {p, p});
+      node.box.add(p);
     }
 }
 
 void SampleSet::join(std::int32_t node, std::int32_t second) {
   Node &of = nodes_[static_cast<std::size_t>(node)];
   of.second = second;
-  of.box = joined(nodes_[static_cast<std::size_t>(node) + 1].box, nodes_[static_cast<std::size_t>(second)].box);
+  of.box.add(nodes_[static_cast<std::size_t>(node) + 1].box);
+  of.box.add(nodes_[static_cast<std::size_t>(second)].box);
 }
 
 struct SampleSet::Query {

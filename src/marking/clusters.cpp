@@ -182,27 +182,16 @@ Vec3 node_at(const StridedPoints &nodes, std::int64_t i) { return checked_point(
 
 // Where the mesh's frame is.
 void frame_nodes(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
-  const auto n_blocks = static_cast<std::size_t>((nodes.n + nodes_per_block - 1) / nodes_per_block);
-  struct Extent {
-    Vec3 lower, upper;
-  };
-  std::vector<Extent> extents(n_blocks);
+  clusters.blocks.resize(static_cast<std::size_t>((nodes.n + nodes_per_block - 1) / nodes_per_block));
   parallel_for_ranges(nodes.n, nodes_per_block, n_threads, [&](const Range &range, int) {
-    Extent extent{node_at(nodes, range.begin), node_at(nodes, range.begin)};
-    for (std::int64_t i = range.begin; i < range.end; ++i) {
-      const Vec3 p = node_at(nodes, i);
-      extent.lower = {std::min(extent.lower.x, p.x), std::min(extent.lower.y, p.y), std::min(extent.lower.z, p.z)};
-      extent.upper = {std::max(extent.upper.x, p.x), std::max(extent.upper.y, p.y), std::max(extent.upper.z, p.z)};
-    }
-    extents[static_cast<std::size_t>(range.begin / nodes_per_block)] = extent;
+    Bounds bounds;
+    for (std::int64_t i = range.begin; i < range.end; ++i) bounds.add(node_at(nodes, i));
+    clusters.blocks[static_cast<std::size_t>(range.begin / nodes_per_block)] = bounds;
   });
-  Extent all = extents.front();
-  for (const Extent &e : extents) {
-    all.lower = {std::min(all.lower.x, e.lower.x), std::min(all.lower.y, e.lower.y), std::min(all.lower.z, e.lower.z)};
-    all.upper = {std::max(all.upper.x, e.upper.x), std::max(all.upper.y, e.upper.y), std::max(all.upper.z, e.upper.z)};
-  }
-  clusters.centre = 0.5 * all.lower + 0.5 * all.upper;
-  const Vec3 extent = 0.5 * all.upper - 0.5 * all.lower;
+  Bounds all;
+  for (const Bounds &block : clusters.blocks) all.add(block);
+  clusters.centre = all.middle();
+  const Vec3 extent = all.half_extent();
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
   clusters.scale = std::ldexp(1.0, -std::max(exponent, -1000));  // of denormal extents it would be infinite

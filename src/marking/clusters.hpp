@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
@@ -33,7 +34,8 @@ struct Clusters {
   struct Box {
     float lower[3], upper[3];
   };
-  std::vector<Box> boxes;  // of regions
+  std::vector<Box> boxes;      // of regions
+  std::vector<Bounds> blocks;  // of nodes by their numbers, while their frame is sought
 
   Range leaves_of(std::int64_t cluster) const;
   Range clusters_of(std::int64_t region) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounds.hpp"
 #include "parallel/concurrent_walk.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -18,18 +19,6 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
     for (std::int64_t i = range.begin; i < range.end; ++i) visit(i);
   });
 }
-
-struct Box {
-  Vec3 lower, upper;
-
-  explicit Box(Vec3 p) : lower(p), upper(p) {}
-  void add(Vec3 p) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-  }
-  // Halved before they are added: coordinates may be as large as they like.
-  Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
-};
 
 Vec3 node_at(const StridedPoints &nodes, std::int64_t i) { return checked_point(nodes, i, "node", RIIS_INVALID_MESH); }
 
@@ -64,9 +53,9 @@ Range NodeGroups::groups_of(std::int64_t supergroup) const {
 }
 
 void sort_into_groups(const StridedPoints &nodes, int n_threads, NodeGroups &groups) {
-  Box box(node_at(nodes, 0));
-  for (std::int64_t i = 1; i < nodes.n; ++i) box.add(node_at(nodes, i));
-  const Vec3 extent = 0.5 * box.upper - 0.5 * box.lower;
+  Bounds box;
+  for (std::int64_t i = 0; i < nodes.n; ++i) box.add(node_at(nodes, i));
+  const Vec3 extent = box.half_extent();
   const double longest = std::max({extent.x, extent.y, extent.z});
   const auto cell = [&](double x, double lower) {
     const double share = longest > 0 ? (0.5 * x - 0.5 * lower) / longest : 0;
@@ -95,7 +84,7 @@ void enclose(const StridedPoints &nodes, int n_threads, NodeGroups &groups) {
   const auto node = [&](std::int64_t at) { return node_at(nodes, groups.order[static_cast<std::size_t>(at)]); };
   for_each(static_cast<std::int64_t>(groups.groups.size()), n_threads, [&](std::int64_t group) {
     const Range range = groups.nodes_of(group);
-    Box box(node(range.begin));
+    Bounds box;
     for (std::int64_t i = range.begin; i < range.end; ++i) box.add(node(i));
     Ball ball{box.middle(), 0};
     for (std::int64_t i = range.begin; i < range.end; ++i)
@@ -105,7 +94,7 @@ void enclose(const StridedPoints &nodes, int n_threads, NodeGroups &groups) {
   for_each(static_cast<std::int64_t>(groups.supergroups.size()), n_threads, [&](std::int64_t supergroup) {
     const Range range = groups.groups_of(supergroup);
     const auto ball_of = [&](std::int64_t group) { return groups.groups[static_cast<std::size_t>(group)]; };
-    Box box(ball_of(range.begin).centre);
+    Bounds box;
     for (std::int64_t i = range.begin; i < range.end; ++i) box.add(ball_of(i).centre);
     Ball ball{box.middle(), 0};
     for (std::int64_t i = range.begin; i < range.end; ++i)

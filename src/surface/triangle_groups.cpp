@@ -10,8 +10,6 @@
 namespace riis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 struct Centroid {
   float at[3];
   std::int32_t triangle;
@@ -46,7 +44,7 @@ void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
 }  // namespace
 
 Frame::Frame(const Bounds &bounds) {
-  centre = 0.5 * bounds.lower + 0.5 * bounds.upper;
+  centre = bounds.middle();
   const Vec3 extent = bounds.upper - bounds.lower;
   int exponent = 0;
   std::frexp(0.5 * std::max({extent.x, extent.y, extent.z}), &exponent);
@@ -63,23 +61,14 @@ Bounds bounds_of(const TriangleSet &set, int n_threads) {
   const auto n = static_cast<std::int64_t>(set.vertex_id.size());
   constexpr std::int64_t corners_per_block = 12288;
   std::vector<Bounds> blocks(static_cast<std::size_t>((n + corners_per_block - 1) / corners_per_block));
-  const auto enclose = [](Bounds &bounds, Vec3 lower, Vec3 upper) {
-    bounds.lower = {std::min(bounds.lower.x, lower.x), std::min(bounds.lower.y, lower.y),
-                    std::min(bounds.lower.z, lower.z)};
-    bounds.upper = {std::max(bounds.upper.x, upper.x), std::max(bounds.upper.y, upper.y),
-                    std::max(bounds.upper.z, upper.z)};
-  };
-  const Bounds none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   parallel_for_ranges(n, corners_per_block, n_threads, [&](const Range &range, int) {
-    Bounds bounds = none;
-    for (std::int64_t i = range.begin; i < range.end; ++i) {
-      const Vec3 p = set.vertex(set.vertex_id[static_cast<std::size_t>(i)]);
-      enclose(bounds, p, p);
-    }
+    Bounds bounds;
+    for (std::int64_t i = range.begin; i < range.end; ++i)
+      bounds.add(set.vertex(set.vertex_id[static_cast<std::size_t>(i)]));
     blocks[static_cast<std::size_t>(range.begin / corners_per_block)] = bounds;
   });
-  Bounds bounds = none;
-  for (const Bounds &block : blocks) enclose(bounds, block.lower, block.upper);
+  Bounds bounds;
+  for (const Bounds &block : blocks) bounds.add(block);
   return bounds;
 }
 

@@ -5,14 +5,11 @@
 
 #include <vector>
 
+#include "geometry/bounds.hpp"
 #include "kernels/kernels.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
-
-struct Bounds {
-  Vec3 lower, upper;
-};
 
 // Coordinates relative to the surface: (x - centre) * scale, scale a power of two that makes the surface's half extent
 // from 1/2 to 1. Both operations are right to rounding of their result.

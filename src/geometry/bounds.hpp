@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A box along the axes.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/vec3.hpp"
+
+namespace riis {
+
+// Of nothing as long as nothing is added.
+struct Bounds {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+
+  void add(Vec3 p) { add({p, p}); }
+  void add(const Bounds &other) {
+    lower = {std::min(lower.x, other.lower.x), std::min(lower.y, other.lower.y), std::min(lower.z, other.lower.z)};
+    upper = {std::max(upper.x, other.upper.x), std::max(upper.y, other.upper.y), std::max(upper.z, other.upper.z)};
+  }
+
+  // Halved before they are added: coordinates may be as large as they like.
+  Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
+  Vec3 half_extent() const { return 0.5 * upper - 0.5 * lower; }
+};
+
+}  // namespace riis
