@@ -302,7 +302,9 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   out.distance = distance;
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is 0", riis_mesh_create(0, xyz, xyz, xyz, 1, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold",
-                riis_mesh_create(INT64_MAX / 16, xyz, xyz, xyz, 3, &mesh));
+                riis_mesh_create(INT64_C(1) << 40, xyz, xyz, xyz, INT64_C(1) << 20, &mesh));
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "n_nodes is 1099511627777|1099511627776",
+                riis_mesh_create((INT64_C(1) << 40) + 1, xyz, xyz, xyz, 1, &mesh));
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -5", riis_mesh_create(-5, xyz, xyz, xyz, 1, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is 0", riis_mesh_create(4, xyz, xyz, xyz, 0, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is -3", riis_mesh_create(4, xyz, xyz, xyz, -3, &mesh));

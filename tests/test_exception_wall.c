@@ -18,6 +18,7 @@ static void every_exception_becomes_a_status(void **state) {
   CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: boom", wall_meets("standard"));
   CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: unknown exception", wall_meets("other"));
   CHECK_REFUSED(RIIS_INVALID_MESH, "a worker's error", wall_meets("worker"));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "error of block 0", wall_meets("workers"));
 }
 
 /* In a child process with little address space left: an update that needs much more is refused, the surface stays.
@@ -54,24 +55,72 @@ static int update_without_memory(void) {
   return 0;
 }
 
-static void memory_that_runs_out_changes_nothing(void **state) {
-  (void)state;
+/* In a child process again: many patches, each of so many quads that the first is too many. Curves of a few are made before they are
+ * counted, not of all, which take a gigabyte. Returns 0 if so. */
+static int refusal_with_little_memory(void) {
+  enum { n_patches = 200, n_curves = 4 * n_patches };
+  static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};
+  static int32_t degree[n_curves], curve_id[n_curves];
+  static double control[12 * n_curves];
+  riis_patches patches;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options options;
+  struct rlimit limit;
+  long pages = 0;
+  for (int i = 0; i < n_curves; ++i) {
+    degree[i] = 3, curve_id[i] = i;
+    for (int k = 0; k < 4; ++k) {
+      control[12 * i + 3 * k] = ends[i % 4][0] + (ends[i % 4][2] - ends[i % 4][0]) * k / 3;
+      control[12 * i + 3 * k + 1] = ends[i % 4][1] + (ends[i % 4][3] - ends[i % 4][1]) * k / 3;
+      control[12 * i + 3 * k + 2] = k == 1 || k == 2 ? 0.5 : 0;
+    }
+  }
+  if (riis_patches_init(&patches, sizeof patches) || riis_surface_options_init(&options, sizeof options)) return 1;
+  patches.n_curves = n_curves, patches.degree = degree, patches.control = control;
+  patches.n_patches = n_patches, patches.curve_id = curve_id;
+  if (riis_valve_create_from_patches(&patches, &valve) || riis_surface_create(valve, NULL, &surface)) return 2;
+  FILE *statm = fopen("/proc/self/statm", "r");
+  if (!statm || fscanf(statm, "%ld", &pages) != 1) return 3;
+  fclose(statm);
+  getrlimit(RLIMIT_AS, &limit);
+  limit.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)320 << 20);
+  setrlimit(RLIMIT_AS, &limit);
+  options.n_threads = 1;
+  options.half_thickness = 1e-3;
+  options.tolerance = 1e-5;
+  if (riis_surface_update(surface, valve, &options) != RIIS_LIMIT_EXCEEDED) return 4;
+  return strstr(riis_last_error(), "more than 16777216 triangles") ? 0 : 5;
+}
+
+static void check_in_child(int (*returns_0)(void)) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   skip(); /* sanitizers reserve the address space that this test takes away */
 #endif
   fflush(NULL);
   const pid_t child = fork();
-  if (child == 0) _exit(update_without_memory());
+  if (child == 0) _exit(returns_0());
   int status = -1;
   assert_int_equal(waitpid(child, &status, 0), child);
   assert_true(WIFEXITED(status));
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
+static void memory_that_runs_out_changes_nothing(void **state) {
+  (void)state;
+  check_in_child(update_without_memory);
+}
+
+static void what_is_too_much_is_not_made(void **state) {
+  (void)state;
+  check_in_child(refusal_with_little_memory);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(
           memory_that_runs_out_changes_nothing), /* first: OpenMP does not survive a fork once it has threads */
+      cmocka_unit_test(what_is_too_much_is_not_made),
       cmocka_unit_test(every_exception_becomes_a_status),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

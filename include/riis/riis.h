@@ -431,10 +431,10 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_
 typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once.
- *   n_nodes   >= 1
+ *   n_nodes   1 to 2^40
  *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
  *   stride    in doubles, >= 1: 1 for separate arrays; 3 for xyz(3,n) with y = x + 1, z = x + 2
- * Errors: RIIS_INVALID_MESH naming the node and the value. A process without nodes has nothing to mark: do not call. */
+ * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. A process without nodes has nothing to mark: do not call. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
                                       riis_mesh **mesh);
 /* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Arguments and errors as above.

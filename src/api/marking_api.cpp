@@ -32,6 +32,9 @@ double limit_of(const riis_mark_options &options, double half_thickness) {
 riis::StridedPoints checked_nodes(const riis::StridedPoints &nodes) {
   if (nodes.n < 1)
     riis::fail(RIIS_INVALID_MESH, "n_nodes is %lld; a mesh has at least 1 node", static_cast<long long>(nodes.n));
+  if (nodes.n > riis::max_nodes)
+    riis::fail(RIIS_LIMIT_EXCEEDED, "n_nodes is %lld; it must be at most %lld", static_cast<long long>(nodes.n),
+               static_cast<long long>(riis::max_nodes));
   riis::check_points(nodes, "node", RIIS_INVALID_MESH);
   return nodes;
 }

@@ -21,10 +21,11 @@ inline int default_thread_count() noexcept {
 }
 
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads and returns how many
-// threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. The first
-// exception is thrown again here after all threads have stopped. No setting of the caller's OpenMP changes; inside a
-// caller's parallel region the loop runs on as many threads as nesting allows. One thread is the calling one, without OpenMP: its
-// run-time ends the process when it has no memory.
+// threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. Of exceptions that of the
+// lowest block is thrown again here after all threads have stopped: the one that a single thread meets, as all blocks before it
+// were handed out before it and run to their end. No setting of the caller's OpenMP changes; inside a caller's parallel region
+// the loop runs on as many threads as nesting allows. One thread is the calling one, without OpenMP: its run-time ends the process
+// when it has no memory.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_threads > n_blocks) n_threads = n_blocks < 1 ? 1 : static_cast<int>(n_blocks);
@@ -34,20 +35,25 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   }
   std::atomic<std::int64_t> next_block{0};
   std::exception_ptr first_exception;
+  std::int64_t first_to_fail = n_blocks;
   int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) shared(n_blocks, body, next_block, first_exception, n_ran)
+#pragma omp parallel num_threads(n_threads) default(none) \
+    shared(n_blocks, body, next_block, first_exception, first_to_fail, n_ran)
   {
     const FloatEnvironment environment;
     const int thread = omp_get_thread_num();
     if (thread == 0) n_ran = omp_get_num_threads();
+    std::int64_t block = 0;
     try {
-      for (std::int64_t block; (block = next_block.fetch_add(1, std::memory_order_relaxed)) < n_blocks;)
-        body(block, thread);
+      while ((block = next_block.fetch_add(1, std::memory_order_relaxed)) < n_blocks) body(block, thread);
     } catch (...) {
       next_block.store(n_blocks, std::memory_order_relaxed);
 #pragma omp critical(riis_first_exception)
       {
-        if (!first_exception) first_exception = std::current_exception();
+        if (block < first_to_fail) {
+          first_to_fail = block;
+          first_exception = std::current_exception();
+        }
       }
     }
   }

@@ -42,17 +42,17 @@ class GridMaker {
 
   // All is counted, as it goes on, before anything large is made.
   std::vector<QuadGrid> make() {
-    make_polylines();
     const std::size_t n_patches = set_.patches.size();
-    for (const Patch &patch : set_.patches) sides_.push_back(sides_of(patch));
     lines_.resize(n_patches);
     double n_at_least = 0;
-    for (std::size_t i = 0; i < n_patches; ++i)
-      if (set_.patches[i].bulge == 0) n_at_least += n_triangles(i, 1);
-    check_count(n_at_least, max_error_);
-    for_each_patch([&](std::size_t i) {
-      if (set_.patches[i].bulge != 0) lines_[i] = arc_lines(set_.patches[i], sides_[i]);
-    });
+    for (std::size_t first = 0; first < n_patches; first += patches_at_once) {
+      const std::size_t end = std::min(first + patches_at_once, n_patches);
+      make_polylines(first, end);
+      for_each_patch(first, end, [&](std::size_t i) {
+        if (set_.patches[i].bulge != 0) lines_[i] = arc_lines(set_.patches[i], sides_[i]);
+      });
+      for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
+    }
     // Patches of arcs meet along arcs: all have the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
@@ -61,7 +61,7 @@ class GridMaker {
     for (std::size_t i = 0; i < n_patches; ++i) n += n_triangles(i, n_rows);
     check_count(n, max_error_);
     std::vector<QuadGrid> grids(n_patches);
-    for_each_patch([&](std::size_t i) {
+    for_each_patch(0, n_patches, [&](std::size_t i) {
       grids[i] = set_.patches[i].bulge != 0 ? make_arc_grid(sides_[i], lines_[i], static_cast<std::size_t>(n_rows))
                                             : make_quad_grid(sides_[i], merge_share * max_error_);
     });
@@ -70,25 +70,36 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+  // A curve may have a million points, and a valve a million patches: no more than these are made before they are counted. A number
+  // of its own, so that how far it came does not depend on the threads.
+  static constexpr std::size_t patches_at_once = 16;
 
   void allow(const Side &side, double share) {
     errors_[side.curve] = std::min(errors_[side.curve], share * max_error_);
   }
 
   template <class Visit>
-  void for_each_patch(const Visit &visit) const {
-    parallel_for(static_cast<std::int64_t>(set_.patches.size()), n_threads_,
-                 [&](std::int64_t i, int) { visit(static_cast<std::size_t>(i)); });
+  void for_each_patch(std::size_t first, std::size_t end, const Visit &visit) const {
+    parallel_for(static_cast<std::int64_t>(end - first), n_threads_,
+                 [&](std::int64_t i, int) { visit(first + static_cast<std::size_t>(i)); });
   }
 
-  // Of the curves that patches ask something of.
-  void make_polylines() {
-    parallel_for(static_cast<std::int64_t>(set_.curves.size()), n_threads_, [&](std::int64_t i, int) {
-      const auto at = static_cast<std::size_t>(i);
-      if (errors_[at] == infinity) return;
+  // Of the curves that these patches ask something of, those that are not there yet.
+  void make_polylines(std::size_t first, std::size_t end) {
+    std::vector<std::size_t> curves;
+    for (std::size_t i = first; i < end; ++i) {
+      const Patch &patch = set_.patches[i];
+      for (const Side &side : {patch.v0, patch.v1, patch.u0, patch.u1})
+        if (errors_[side.curve] != infinity && polylines_[side.curve].points.empty()) curves.push_back(side.curve);
+    }
+    std::sort(curves.begin(), curves.end());
+    curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+    parallel_for(static_cast<std::int64_t>(curves.size()), n_threads_, [&](std::int64_t i, int) {
+      const std::size_t at = curves[static_cast<std::size_t>(i)];
       polylines_[at] = make_polyline(set_.curves[at], errors_[at]);
       reversed_[at] = reversed(polylines_[at]);
     });
+    for (std::size_t i = first; i < end; ++i) sides_.push_back(sides_of(set_.patches[i]));
   }
 
   const Polyline *polyline(const Side &side) const {

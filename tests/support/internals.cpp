@@ -2,10 +2,13 @@
 #include "internals.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 
 #include "api/errors.hpp"
 #include "api/handles.hpp"
@@ -314,6 +317,18 @@ riis_status wall_meets(const char *exception) {
       parallel_for(1000, 4, [](std::int64_t block, int) {
         if (block % 100 == 99) fail(RIIS_INVALID_MESH, "a worker's error");
       });
+    if (kind == "workers") {
+      std::atomic<bool> has_failed{false};
+      parallel_for(2, 2, [&](std::int64_t block, int) {
+        const auto start = std::chrono::steady_clock::now();
+        // Where there is one thread only nobody else fails meanwhile.
+        while (block == 0 && !has_failed && std::chrono::steady_clock::now() - start < std::chrono::milliseconds(500))
+          std::this_thread::yield();
+        if (block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        has_failed = true;
+        fail(RIIS_INVALID_MESH, "error of block %d", static_cast<int>(block));
+      });
+    }
   });
 }
 }

@@ -133,7 +133,7 @@ double powell_minimum(double (*f)(double u, double v), double enough, double ste
 
 /* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory",
  * std::bad_alloc; "standard", another standard exception, "boom"; "other", an int; "worker", an Error thrown by a
- * worker thread of a parallel loop; "nothing", none. */
+ * worker thread of a parallel loop; "workers", two, the second block's first; "nothing", none. */
 riis_status wall_meets(const char *exception);
 
 #ifdef __cplusplus

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * A surface that is updated, in the memory of what it was, is the surface that would be made anew: in every bit of its content, of
+ * closest points and of marks, whatever it was before, by any number of threads. An update that is refused leaves no trace and says
+ * what one thread says. */
+#include <riis/riis.h>
+#include <stddef.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+static random_source rng;
+
+static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
+
+/* Triangles from arrays that move, change places, or are others, as many or not. */
+enum { max_triangles = 600 };
+static double soup[9 * max_triangles];
+static int32_t soup_ids[3 * max_triangles];
+static int64_t n_soup;
+
+static void new_soup(int64_t n, double where) {
+  double *xyz;
+  int32_t *ids;
+  random_soup(&rng, n, random_between(&rng, 0.01, 0.5), &xyz, &ids);
+  for (int64_t i = 0; i < 9 * n; ++i) soup[i] = where + xyz[i];
+  memcpy(soup_ids, ids, 3 * (size_t)n * sizeof *ids);
+  n_soup = n;
+  free(xyz), free(ids);
+}
+
+static void change_soup(void) {
+  const int64_t kind = n_soup ? any_of(5) : 4;
+  const double by = pow(10, random_between(&rng, -6, 0));
+  for (int64_t i = 0; i < 9 * n_soup && kind < 2; ++i) soup[i] += by * random_between(&rng, -1, 1);
+  for (int64_t i = n_soup - 1; i > 0 && kind == 2; --i) /* the same triangles by other numbers */
+    for (int64_t j = any_of(i + 1), k = 0; k < 3; ++k) {
+      const int32_t id = soup_ids[3 * i + k];
+      soup_ids[3 * i + k] = soup_ids[3 * j + k];
+      soup_ids[3 * j + k] = id;
+    }
+  if (kind == 3) new_soup(n_soup, random_between(&rng, -5, 5));
+  if (kind == 4) new_soup(1 + any_of(max_triangles), 0);
+}
+
+/* What a surface is to be made of. */
+typedef struct content {
+  riis_valve *valve; /* or */
+  riis_surface_arrays arrays;
+  riis_surface_options options;
+} content;
+
+static riis_status make(const content *c, riis_surface **surface) {
+  if (!c->valve)
+    return *surface ? riis_surface_update_from_arrays(*surface, &c->arrays, &c->options)
+                    : riis_surface_create_from_arrays(&c->arrays, &c->options, surface);
+  return *surface ? riis_surface_update(*surface, c->valve, &c->options)
+                  : riis_surface_create(c->valve, &c->options, surface);
+}
+
+static content random_content(riis_valve *const *valves) {
+  content c = {NULL, {0}, surface_options()};
+  const int64_t kind = any_of(8);
+  if (random_bits(&rng) & 1) c.options.translation[0] = random_between(&rng, -3, 3);
+  c.options.flip_normals = any_of(4) == 0;
+  if (kind < 4) {
+    c.valve = valves[kind / 2];
+    CHECK_OK(riis_valve_set_scalar(c.valve, "opening", random_between(&rng, 0, 1)));
+    if (any_of(4) == 0) c.options.tolerance = 1;
+    if (any_of(8) == 0) c.options.tolerance = 0.01;
+    if (any_of(6) == 0) c.options.distance = RIIS_DISTANCE_SAMPLING, c.options.distance_tolerance = 0.2;
+    if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5; /* too fine */
+  } else {
+    change_soup();
+    static int32_t ids[3 * max_triangles];
+    memcpy(ids, soup_ids, 3 * (size_t)n_soup * sizeof *ids);
+    const int64_t without_area = any_of(6) ? -1 : any_of(n_soup);
+    if (without_area >= 0) ids[3 * without_area] = ids[3 * without_area + 1];
+    c.arrays = triangle_arrays(3 * n_soup, soup, n_soup, ids);
+    c.options.zero_area = random_bits(&rng) & 1;
+  }
+  return c;
+}
+
+/* Closest points in all, some at vertices, where sides are those of pseudonormals; the same bits. */
+static void check_closest(const riis_surface *updated, const riis_surface *fresh) {
+  const surface_content all = surface_content_of(fresh);
+  for (int i = 0; i < 30; ++i) {
+    const double *vertex = all.xyz + 3 * all.vertex_id[any_of(3 * all.n_triangles)];
+    const double off = i % 3 ? pow(10, random_between(&rng, -3, 1)) : 1e-3;
+    double p[3];
+    for (int c = 0; c < 3; ++c) p[c] = vertex[c] + off * random_between(&rng, -1, 1);
+    const riis_closest a = closest_to(updated, p[0], p[1], p[2]), b = closest_to(fresh, p[0], p[1], p[2]);
+    assert_memory_equal(&a, &b, sizeof a);
+  }
+}
+
+static void check_marks(const riis_surface *updated, const riis_surface *fresh, riis_mark_result *result) {
+  enum { n = 600 };
+  static double xyz[3 * n];
+  const surface_content all = surface_content_of(fresh);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c)
+      xyz[3 * i + c] = all.xyz[3 * all.vertex_id[3 * (i % all.n_triangles)] + c] + 0.3 * random_between(&rng, -1, 1);
+  riis_mesh *mesh = NULL;
+  riis_mark_result *expected = new_result();
+  riis_mark_options options = mark_options();
+  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  options.distance_limit = 0.15;
+  CHECK_OK(riis_mark_nodes(fresh, mesh, &options, expected));
+  CHECK_OK(riis_mark_nodes(updated, mesh, &options, result));
+  assert_true(same_results(result, expected));
+  options.search = RIIS_SEARCH_CLUSTERS;
+  if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) /* refused for samples */
+    assert_true(same_results(result, expected));
+  riis_mark_result_destroy(&expected);
+  riis_mesh_destroy(&mesh);
+}
+
+static int is_same_content(const riis_surface *a, const riis_surface *b) {
+  const surface_content s = surface_content_of(a), t = surface_content_of(b);
+  const riis_surface_info of_a = info_of(a), of_b = info_of(b);
+  const int64_t *id_a, *id_b;
+  CHECK_OK(riis_surface_triangles(a, NULL, NULL, &id_a, NULL, NULL));
+  CHECK_OK(riis_surface_triangles(b, NULL, NULL, &id_b, NULL, NULL));
+  const size_t n = (size_t)s.n_triangles;
+  return memcmp(&of_a, &of_b, offsetof(riis_surface_info, seconds_triangles)) == 0 &&
+         memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 && !s.uv == !t.uv &&
+         (!s.uv || memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0) &&
+         memcmp(s.vertex_id, t.vertex_id, 3 * n * sizeof *s.vertex_id) == 0 &&
+         memcmp(id_a, id_b, n * sizeof *id_a) == 0 &&
+         memcmp(s.leaflet_id, t.leaflet_id, n * sizeof *s.leaflet_id) == 0 &&
+         memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
+}
+
+static void an_updated_surface_is_a_fresh_one(void **state) {
+  (void)state;
+  riis_valve *valves[2] = {NULL, NULL}, *open = NULL;
+  riis_surface *updated = NULL, *last = NULL; /* a fresh one of what it should be */
+  riis_mark_result *result = new_result();
+  CHECK_OK(riis_valve_create("aortic", &valves[0]));
+  CHECK_OK(riis_valve_create("aortic", &open));
+  CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
+  CHECK_OK(riis_valve_set_open_state(valves[0], open));
+  CHECK_OK(riis_valve_create("mitral", &valves[1]));
+  int n_updates = 0, n_refused = 0;
+  for (int step = 0; step < 160; ++step) {
+    static const int32_t threads[] = {0, 1, 2, 3, 7};
+    content c = random_content(valves);
+    riis_surface *fresh = NULL;
+    char text[512];
+    c.options.n_threads = 1;
+    const riis_status expected = make(&c, &fresh);
+    if (expected) snprintf(text, sizeof text, "%s", riis_last_error());
+    c.options.n_threads = threads[any_of(5)];
+    assert_int_equal(make(&c, &updated), expected);
+    if (expected) {
+      assert_string_equal(riis_last_error(), text);
+      ++n_refused;
+      if (!last) continue;
+    } else {
+      ++n_updates;
+      riis_surface_destroy(&last);
+      last = fresh;
+    }
+    assert_true(is_same_content(updated, last));
+    check_closest(updated, last);
+    check_marks(updated, last, result);
+  }
+  printf("%d updates, %d refused\n", n_updates, n_refused);
+  assert_true(n_updates > 80 && n_refused > 5);
+  riis_mark_result_destroy(&result);
+  riis_surface_destroy(&last);
+  riis_surface_destroy(&updated);
+  for (int i = 0; i < 2; ++i) riis_valve_destroy(&valves[i]);
+  riis_valve_destroy(&open);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(an_updated_surface_is_a_fresh_one)};
+  rng = random_start("test_surface_updates");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
