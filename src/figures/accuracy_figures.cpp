@@ -11,6 +11,7 @@
 #include "accuracy/methods.hpp"
 #include "accuracy/smooth_surface.hpp"
 #include "figures/figures.hpp"
+#include "figures/shapes.hpp"
 #include "figures/text.hpp"
 #include "figures/violins.hpp"
 
@@ -47,23 +48,23 @@ Colour colour_of_error(double error) {
 // Share of the half thickness as text.
 std::string share_text(double share) { return number(100 * share, 2) + " %"; }
 
-std::vector<double> equal_steps(std::size_t n, double first) {
+// A part of a patch's parameters, in one direction.
+struct Part {
+  double from, to;
+};
+
+// Middles of n equal steps (0.5), or where they begin (0).
+std::vector<double> equal_steps(std::size_t n, double first, const Part &part) {
   std::vector<double> steps;
-  for (std::size_t i = 0; i < n; ++i) steps.push_back((static_cast<double>(i) + first) / static_cast<double>(n));
+  for (std::size_t i = 0; i < n; ++i)
+    steps.push_back(part.from + (part.to - part.from) * (static_cast<double>(i) + first) / static_cast<double>(n));
   return steps;
 }
 
-// The longest line of a coarse grid, row by row.
-std::size_t cells_for(const std::vector<Vec3> &points, std::size_t n_u, std::size_t n_v, bool along_u, double cell) {
-  double longest = 0;
-  for (std::size_t k = 0; k < (along_u ? n_v : n_u); ++k) {
-    double sum = 0;
-    for (std::size_t i = 1; i < (along_u ? n_u : n_v); ++i)
-      sum += along_u ? distance(points[k * n_u + i - 1], points[k * n_u + i])
-                     : distance(points[(i - 1) * n_u + k], points[i * n_u + k]);
-    longest = std::max(longest, sum);
-  }
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(longest / cell)));
+std::vector<double> ends_of_steps(std::size_t n, const Part &part) {
+  std::vector<double> ends = equal_steps(n, 0, part);
+  ends.push_back(part.to);
+  return ends;
 }
 
 struct Painting {
@@ -71,35 +72,62 @@ struct Painting {
   std::vector<double> errors;  // of every cell's middle, half thicknesses
 };
 
-// The smooth surface in cells of about that size, each in the colour of what the distance of its middle, which is 0, is off by.
-Painting paint(const SmoothSurface &smooth, const MeasuredSurface &surface, double cell) {
-  Painting painting;
-  for (std::size_t image = 0; image < smooth.n_images(); ++image) {
-    constexpr std::size_t n_coarse = 17;
-    std::vector<double> coarse = equal_steps(n_coarse - 1, 0);
-    coarse.push_back(1);
-    const std::vector<Vec3> net = smooth.at_lines(image, coarse, coarse);
-    const std::size_t n_u = cells_for(net, n_coarse, n_coarse, true, cell),
-                      n_v = cells_for(net, n_coarse, n_coarse, false, cell);
-    std::vector<double> u = equal_steps(n_u, 0), v = equal_steps(n_v, 0);
-    u.push_back(1);
-    v.push_back(1);
+class Painter {
+ public:
+  // Cells of about that size, each in the colour of what the distance of its middle, which is 0, is off by.
+  Painter(const SmoothSurface &smooth, const MeasuredSurface &surface, double cell)
+      : smooth_(smooth), surface_(surface), cell_(cell) {}
+
+  Painting everything() const {
+    Painting painting;
+    for (std::size_t image = 0; image < smooth_.n_images(); ++image) add(painting, image, {0, 1}, {0, 1});
+    return finished(std::move(painting));
+  }
+  Painting part(std::size_t image, const Part &u, const Part &v) const {
+    Painting painting;
+    add(painting, image, u, v);
+    return finished(std::move(painting));
+  }
+
+ private:
+  static Painting finished(Painting painting) {
+    std::sort(painting.errors.begin(), painting.errors.end());
+    return painting;
+  }
+
+  // For the longest of some lines along which one of the parameters goes from end to end.
+  std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
+    constexpr std::size_t n = 16;
+    const std::vector<Vec3> net = smooth_.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));
+    double longest = 0;
+    for (std::size_t line = 0; line <= n; ++line) {
+      const auto at = [&](std::size_t i) { return along_u ? net[line * (n + 1) + i] : net[i * (n + 1) + line]; };
+      double sum = 0;
+      for (std::size_t i = 0; i < n; ++i) sum += distance(at(i), at(i + 1));
+      longest = std::max(longest, sum);
+    }
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(longest / cell_)));
+  }
+
+  void add(Painting &painting, std::size_t image, const Part &u, const Part &v) const {
+    const std::size_t n_u = n_cells(image, u, v, true), n_v = n_cells(image, u, v, false);
     const auto first = static_cast<std::int64_t>(painting.faces.points.size()),
                row = static_cast<std::int64_t>(n_u + 1);
-    const std::vector<Vec3> corners = smooth.at_lines(image, u, v);
-    painting.faces.points.insert(painting.faces.points.end(), corners.begin(), corners.end());
-    const std::vector<Vec3> middles = smooth.at_lines(image, equal_steps(n_u, 0.5), equal_steps(n_v, 0.5));
+    append(painting.faces.points, smooth_.at_lines(image, ends_of_steps(n_u, u), ends_of_steps(n_v, v)));
+    const std::vector<Vec3> middles = smooth_.at_lines(image, equal_steps(n_u, 0.5, u), equal_steps(n_v, 0.5, v));
     for (std::size_t i = 0; i < middles.size(); ++i) {
       const double xyz[3] = {middles[i].x, middles[i].y, middles[i].z};
-      painting.errors.push_back(surface.distance(xyz) / accuracy::half_thickness);
+      painting.errors.push_back(surface_.distance(xyz) / accuracy::half_thickness);
       painting.faces.colours.push_back(colour_of_error(painting.errors.back()));
       const auto corner = first + static_cast<std::int64_t>(i / n_u) * row + static_cast<std::int64_t>(i % n_u);
       painting.faces.corners.insert(painting.faces.corners.end(), {corner, corner + 1, corner + row + 1, corner + row});
     }
   }
-  std::sort(painting.errors.begin(), painting.errors.end());
-  return painting;
-}
+
+  const SmoothSurface &smooth_;
+  const MeasuredSurface &surface_;
+  double cell_;
+};
 
 // Points off the surface by the true distance, and what a method says of them, without sign.
 std::vector<double> errors_of(const MeasuredSurface &surface, const accuracy::TruePoints &points) {
@@ -127,22 +155,28 @@ Figure accuracy_figure() {
   constexpr std::array<Setting, 3> painted{{{RIIS_DISTANCE_MINIMIZATION, 0.01, "0.01"},
                                             {RIIS_DISTANCE_SAMPLING, 0.1, "10 %"},
                                             {RIIS_DISTANCE_TRIANGLES, 0.1, "10 %"}}};
-  for (std::size_t k = 0; k < leaflets.size(); ++k) {
+  // A cusp, a part of it, and a mitral leaflet.
+  for (const std::size_t row : {0, 1, 2}) {
+    const std::size_t k = row / 2;
     const PatchSet patches = patches_of(leaflets[k]);
     const SmoothSurface smooth(patches);
     for (const Setting &setting : painted) {
+      const MeasuredSurface surface(patches, setting.method, setting.tolerance);
       // Minimisation has no pattern as fine as samples, and takes its time.
-      const double cell = setting.method == RIIS_DISTANCE_MINIMIZATION ? 0.014 : 0.0035;
-      const Painting painting = paint(smooth, MeasuredSurface(patches, setting.method, setting.tolerance), cell);
+      const double cell = setting.method == RIIS_DISTANCE_MINIMIZATION ? 0.007 : 0.0035;
+      const Painting painting = row == 1
+                                    ? Painter(smooth, surface, 0.001).part(smooth.image_of(0), {0, 0.3}, {0.6, 0.9})
+                                    : Painter(smooth, surface, cell).everything();
       Picture picture(painted_size, views[k], painting.faces.points, 40);
       picture.add_title(std::string(name_of(setting.method)) + ", " + setting.name);
       picture.add_faces(painting.faces, Shading::painted);
-      picture.add_scale_and_axes();
-      figure.panels.push_back({picture.png(), std::string(leaflets[k].name) + ", " + name_of(setting.method) + " at " +
-                                                  setting.name + ": half of it is off by at most " +
-                                                  share_text(quantile(painting.errors, 0.5)) + ", 95 % by " +
-                                                  share_text(quantile(painting.errors, 0.95)) + ", all by " +
-                                                  share_text(painting.errors.back()) + "."});
+      if (row != 1) picture.add_scale_and_axes();
+      figure.panels.push_back(
+          {picture.png(), std::string(leaflets[k].name) + (row == 1 ? ", a part some millimetres wide, " : ", ") +
+                              name_of(setting.method) + " at " + setting.name + ": half of it is off by at most " +
+                              share_text(quantile(painting.errors, 0.5)) + ", 95 % by " +
+                              share_text(quantile(painting.errors, 0.95)) + ", all by " +
+                              share_text(painting.errors.back()) + "."});
     }
   }
   for (double power = darkest_power; power <= brightest_power; ++power)
@@ -152,7 +186,8 @@ Figure accuracy_figure() {
                                                                                         : "")});
   figure.caption =
       "What points of the smooth surface are said to be away from it by the three methods, in per cent of the half "
-      "thickness, on one cusp of the aortic valve (top) and the anterior leaflet of the mitral valve, open (bottom). "
+      "thickness, on one cusp of the aortic valve (top), a part of it below its middle, and the anterior leaflet of "
+      "the mitral valve, open (bottom). "
       "The truth is 0 everywhere. Between samples distances grow to about the tolerance; triangles touch the surface "
       "along their edges' ends and leave it in between, by no more than the tolerance; minimisation is limited by "
       "when it stops and by the patches it works on, and now and then by a local minimum.";

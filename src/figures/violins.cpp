@@ -51,6 +51,8 @@ void add_outline(Faces &faces, double middle, double step, const Violin &violin)
     // A single point in thousands would be no width at all.
     if (std::max(a, b) < 0.4) continue;
     const double y = bottom + rise * (static_cast<double>(i) + 0.5);
+    // Smoothing widens, but not beyond the values that there are.
+    if (y + rise > height_of(violin.values.back()) + 0.5 || y < height_of(violin.values.front()) - 0.5) continue;
     const auto first = static_cast<std::int64_t>(faces.points.size());
     for (const Vec3 &p : {at(middle - a, y), at(middle + a, y), at(middle + b, y + rise), at(middle - b, y + rise)})
       faces.points.push_back(p);
