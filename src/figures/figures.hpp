@@ -15,5 +15,7 @@ Figure mitral_surfaces_figure();
 Figure mitral_quads_figure();
 Figure marking_figure();
 Figure tolerance_figure();
+Figure accuracy_figure();
+Figure accuracy_distribution_figure();
 
 }  // namespace riis::figures

@@ -38,7 +38,8 @@ void draw_page(const std::string &path, const riis::vtk::CaughtOutput &caught) {
   begin_page(path);
   std::vector<Figure> figures;
   for (Figure (*draw)() : {bezier_figure, coons_figure, aortic_valve_figure, aortic_cusp_figure, mitral_curves_figure,
-                           mitral_surfaces_figure, mitral_quads_figure, marking_figure, tolerance_figure}) {
+                           mitral_surfaces_figure, mitral_quads_figure, marking_figure, tolerance_figure,
+                           accuracy_figure, accuracy_distribution_figure}) {
     figures.push_back(draw());
     caught.check(path);
     std::printf("figure %zu: %s\n", figures.size(), figures.back().title.c_str());

@@ -172,7 +172,7 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
   data->SetPolys(cells);
   data->GetCellData()->SetScalars(colours);
   vtkSmartPointer<vtkPolyData> shown = data;
-  if (shading != Shading::flat) {
+  if (shading == Shading::smooth || shading == Shading::ghost) {
     // Patches have their own points where they meet; one normal for both hides the seam.
     vtkNew<vtkCleanPolyData> clean;
     clean->SetInputData(data);
@@ -199,6 +199,11 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
     property->SetAmbient(0.8);
     property->SetDiffuse(0.3);
     property->SetOpacity(0.2);
+  }
+  if (shading == Shading::painted) {
+    property->SetInterpolationToFlat();
+    property->SetAmbient(1);
+    property->SetDiffuse(0);
   }
   renderer_->AddActor(actor);
 }

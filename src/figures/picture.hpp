@@ -46,8 +46,8 @@ struct Faces {
   std::size_t size() const { return colours.size(); }
 };
 
-// A ghost lets what is behind it shine through.
-enum class Shading { smooth, flat, ghost };
+// A ghost lets what is behind it shine through; what is painted keeps its colours, which say something, from all sides.
+enum class Shading { smooth, flat, ghost, painted };
 
 // Along which way one looks, and what is up.
 struct View {

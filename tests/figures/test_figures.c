@@ -11,7 +11,7 @@
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
-enum { n_figures = 9 };
+enum { n_figures = 11 };
 
 static char *page;
 

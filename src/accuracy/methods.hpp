@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paper's three ways to measure a distance, at the settings that are compared, on a single leaflet as in the paper.
+// In: a leaflet, a method, a tolerance. Out: a surface that is asked through the public interface.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "valve/patches.hpp"
+
+namespace riis::accuracy {
+
+inline constexpr double half_thickness = 0.1;  // the paper's, cm
+
+struct Leaflet {
+  const char *name, *valve;
+  std::int32_t leaflet_id;
+};
+// With the paper's parameters; the mitral valve open.
+inline constexpr std::array<Leaflet, 2> leaflets{
+    {{"right cusp", "aortic", RIIS_LEAFLET_RIGHT}, {"anterior leaflet", "mitral", RIIS_LEAFLET_ANTERIOR}}};
+
+// The valve's patches without those of its other leaflets.
+PatchSet patches_of(const Leaflet &leaflet);
+
+struct Setting {
+  std::int32_t method;  // RIIS_DISTANCE_*
+  double tolerance;     // share of the half thickness
+  const char *name;
+};
+const char *name_of(std::int32_t method);
+// The paper's for minimisation; for the others 1, 2, 5, 10 %.
+inline constexpr std::array<Setting, 10> settings{{{RIIS_DISTANCE_MINIMIZATION, 0.001, "0.001"},
+                                                   {RIIS_DISTANCE_MINIMIZATION, 0.01, "0.01"},
+                                                   {RIIS_DISTANCE_SAMPLING, 0.01, "1 %"},
+                                                   {RIIS_DISTANCE_SAMPLING, 0.02, "2 %"},
+                                                   {RIIS_DISTANCE_SAMPLING, 0.05, "5 %"},
+                                                   {RIIS_DISTANCE_SAMPLING, 0.1, "10 %"},
+                                                   {RIIS_DISTANCE_TRIANGLES, 0.01, "1 %"},
+                                                   {RIIS_DISTANCE_TRIANGLES, 0.02, "2 %"},
+                                                   {RIIS_DISTANCE_TRIANGLES, 0.05, "5 %"},
+                                                   {RIIS_DISTANCE_TRIANGLES, 0.1, "10 %"}}};
+
+// The surface of patches; what fails throws std::runtime_error with the library's text.
+class MeasuredSurface {
+ public:
+  MeasuredSurface(const PatchSet &patches, std::int32_t method, double tolerance);
+
+  riis_closest closest(const double *point) const;
+  double distance(const double *point) const { return closest(point).distance; }
+  // What a distance is made of: triangles, samples, or patches.
+  std::int64_t size() const;
+
+ private:
+  struct Destroy {
+    void operator()(riis_surface *surface) const { riis_surface_destroy(&surface); }
+  };
+  std::unique_ptr<riis_surface, Destroy> surface_;
+};
+
+}  // namespace riis::accuracy

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Points of known distance (src/accuracy), for tests in C. */
+#ifndef RIIS_TEST_ACCURACY_H
+#define RIIS_TEST_ACCURACY_H
+
+#include <riis/riis.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct known_points {
+  int64_t n;
+  double *xyz, *distance; /* (3, n), (n) */
+} known_points;
+typedef struct known_truth {
+  known_points on, off;
+  int64_t n_curved, n_nearer;
+  double most_from_fine;
+} known_truth;
+
+/* Of patches from arrays, or, if they are NULL, of leaflet 0 of the valve of that kind. 0, or 1 with the reason on stderr. */
+int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t seed, double fine_tolerance,
+             known_truth *truth);
+void truth_free(known_truth *truth);
+
+/* Half thicknesses; point i has offset i modulo n_offsets, if it is not left out. */
+enum { n_offsets = 6 };
+double truth_offset(int64_t i);
+double truth_largest_share_of_radius(void);
+
+/* Of patch 0. */
+int smooth_point(const riis_patches *patches, double u, double v, double *point, double *normal, double *curvature);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

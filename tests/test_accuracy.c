@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Points of known distance, which ./run bench accuracy measures with, on surfaces whose distances are formulas: a parabolic
+ * cylinder, and two sheets that face each other; and on the leaflets that it takes. */
+#include "accuracy.h"
+#include "test_support.h"
+
+enum { n_points = 600 };
+static const double half = 0.1; /* thickness */
+
+/* A parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1: with degree 2 no more than its control points. */
+static const double focal = 0.05;
+
+static riis_patches parabola(void) {
+  static const int32_t degree[4] = {2, 2, 1, 1}, curve_id[4] = {0, 1, 2, 3};
+  static double control[30];
+  const double x = 2 * focal, z = focal;
+  const double points[10][3] = {{-x, 0, z}, {0, 0, -z}, {x, 0, z},  {-x, 1, z}, {0, 1, -z},
+                                {x, 1, z},  {-x, 0, z}, {-x, 1, z}, {x, 0, z},  {x, 1, z}};
+  memcpy(control, points, sizeof control);
+  riis_patches patches;
+  CHECK_OK(riis_patches_init(&patches, sizeof patches));
+  patches.n_curves = 4;
+  patches.degree = degree;
+  patches.control = control;
+  patches.n_patches = 1;
+  patches.curve_id = curve_id;
+  return patches;
+}
+
+/* From (x, z) to the parabola: the nearest of many points of it, and Newton's method from there. */
+static double distance_to_parabola(double x, double z) {
+  double best = INFINITY, t = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double at = 2 * focal * (i / 1000.0 - 1), far = hypot(at - x, at * at / (4 * focal) - z);
+    if (far < best) best = far, t = at;
+  }
+  for (int step = 0; step < 20; ++step) {
+    const double height = t * t / (4 * focal) - z, slope = t / (2 * focal);
+    const double derivative = t - x + height * slope, second = 1 + slope * slope + height / (2 * focal);
+    t = fmin(fmax(t - derivative / second, -2 * focal), 2 * focal);
+  }
+  return fmin(best, hypot(t - x, t * t / (4 * focal) - z));
+}
+
+static double curvature_of_parabola(double x) { return 1 / (2 * focal) / pow(1 + x * x / (4 * focal * focal), 1.5); }
+
+static void points_normals_and_curvatures_of_a_parabola(void **state) {
+  (void)state;
+  const riis_patches patches = parabola();
+  random_source rng = random_start("test_accuracy");
+  for (int trial = 0; trial < 100; ++trial) {
+    double p[3], normal[3], curvature;
+    assert_int_equal(smooth_point(&patches, random_between(&rng, 0.001, 0.999), random_between(&rng, 0.001, 0.999), p,
+                                  normal, &curvature),
+                     0);
+    const double slope = p[0] / (2 * focal), size = hypot(1, slope);
+    CHECK_NEAR(p[2], p[0] * p[0] / (4 * focal), 1e-12);
+    CHECK_NEAR(normal[0], -slope / size, 1e-6);
+    CHECK_NEAR(normal[1], 0, 1e-6);
+    CHECK_NEAR(normal[2], 1 / size, 1e-6);
+    CHECK_NEAR(curvature / curvature_of_parabola(p[0]), 1, 1e-3);
+  }
+}
+
+static void distances_to_a_parabola_are_true(void **state) {
+  (void)state;
+  const riis_patches patches = parabola();
+  random_source rng = random_start("test_accuracy");
+  const uint64_t seed = random_bits(&rng);
+  known_truth truth;
+  assert_int_equal(truth_of(&patches, NULL, n_points, seed, 1e-3, &truth), 0);
+  assert_int_equal(truth.on.n, n_points);
+  assert_int_equal(truth.off.n + truth.n_curved + truth.n_nearer, n_points);
+  assert_true(truth.most_from_fine > 0 && truth.most_from_fine <= 1e-3);
+  int64_t n_curved = 0;
+  for (int64_t i = 0; i < truth.on.n; ++i) {
+    const double *p = truth.on.xyz + 3 * i;
+    CHECK_SAME(truth.on.distance[i], 0);
+    CHECK_NEAR(p[2], p[0] * p[0] / (4 * focal), 1e-12);
+    const double share = fabs(truth_offset(i)) * half * curvature_of_parabola(p[0]);
+    n_curved += share > truth_largest_share_of_radius() * (1 + 1e-3);
+  }
+  assert_true(n_curved > n_points / 20); /* those at offset 1 near the vertex, where the radius is 0.1 */
+  assert_true(truth.n_curved >= n_curved && truth.n_curved < n_curved + n_points / 20);
+  for (int64_t i = 0; i < truth.off.n; ++i) {
+    const double *p = truth.off.xyz + 3 * i;
+    CHECK_NEAR(distance_to_parabola(p[0], p[2]), truth.off.distance[i], 1e-9);
+  }
+  truth_free(&truth);
+}
+
+/* Two unit squares, at z = 0 and z = 0.15: what is a whole half thickness from one towards the other is nearer to that. */
+static void points_nearer_to_another_sheet_are_left_out(void **state) {
+  (void)state;
+  static const double gap = 0.15;
+  int32_t degree[8], curve_id[8];
+  double control[48], *at = control;
+  for (int sheet = 0; sheet < 2; ++sheet)
+    for (int side = 0; side < 4; ++side) {
+      static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};
+      degree[4 * sheet + side] = 1;
+      curve_id[4 * sheet + side] = 4 * sheet + side;
+      for (int end = 0; end < 2; ++end) {
+        *at++ = ends[side][2 * end];
+        *at++ = ends[side][2 * end + 1];
+        *at++ = sheet * gap;
+      }
+    }
+  riis_patches patches;
+  CHECK_OK(riis_patches_init(&patches, sizeof patches));
+  patches.n_curves = 8;
+  patches.degree = degree;
+  patches.control = control;
+  patches.n_patches = 2;
+  patches.curve_id = curve_id;
+  random_source rng = random_start("test_accuracy");
+  const uint64_t seed = random_bits(&rng);
+  known_truth truth;
+  assert_int_equal(truth_of(&patches, NULL, n_points, seed, 1e-3, &truth), 0);
+  int64_t n_nearer = 0, n_upper = 0;
+  for (int64_t i = 0; i < truth.on.n; ++i) {
+    const int is_upper = truth.on.xyz[3 * i + 2] > 0.5 * gap;
+    CHECK_NEAR(truth.on.xyz[3 * i + 2], is_upper * gap, 1e-15);
+    n_nearer += truth_offset(i) == (is_upper ? -1 : 1);
+    n_upper += is_upper;
+  }
+  assert_true(llabs(n_upper - n_points / 2) < 6 * sqrt(n_points) / 2);
+  assert_int_equal(truth.n_curved, 0);
+  assert_int_equal(truth.n_nearer, n_nearer);
+  assert_int_equal(truth.off.n, n_points - n_nearer);
+  for (int64_t i = 0; i < truth.off.n; ++i) {
+    const double z = truth.off.xyz[3 * i + 2];
+    CHECK_NEAR(fmin(fabs(z), fabs(z - gap)), truth.off.distance[i], 1e-12);
+  }
+  truth_free(&truth);
+}
+
+/* The smooth leaflets and their triangles agree, or truth_of fails. */
+static void leaflets_agree_with_their_triangles(void **state) {
+  (void)state;
+  static const char *const kinds[2] = {"aortic", "mitral"};
+  for (int i = 0; i < 2; ++i) {
+    known_truth truth;
+    assert_int_equal(truth_of(NULL, kinds[i], n_points, 1, 2e-3, &truth), 0);
+    assert_int_equal(truth.on.n, n_points);
+    assert_int_equal(truth.off.n + truth.n_curved + truth.n_nearer, n_points);
+    assert_true(truth.off.n > n_points * 9 / 10);
+    assert_true(truth.most_from_fine > 0 && truth.most_from_fine <= 2e-3);
+    truth_free(&truth);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(points_normals_and_curvatures_of_a_parabola),
+      cmocka_unit_test(distances_to_a_parabola_are_true),
+      cmocka_unit_test(points_nearer_to_another_sheet_are_left_out),
+      cmocka_unit_test(leaflets_agree_with_their_triangles),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
