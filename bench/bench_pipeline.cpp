@@ -98,7 +98,7 @@ void pipeline_surface_again(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 
-#define BOTH_VALVES(stage)                                                             \
+#define BOTH_VALVES(stage)                                                                  \
   BENCHMARK_CAPTURE(stage, aortic, "aortic")->Unit(benchmark::kMicrosecond)->UseRealTime(); \
   BENCHMARK_CAPTURE(stage, mitral, "mitral")->Unit(benchmark::kMicrosecond)->UseRealTime()
 BOTH_VALVES(pipeline_patches);
