@@ -33,7 +33,8 @@ constexpr int n_turns = 40, n_slow_turns = 20;
 const RatioBar ratio_bars[] = {
     {"the paper's search with every triangle / step, 1 thread", "the paper's search, every triangle, 1 thread",
      "step, 1 thread", Wanted::at_least, 200},
-    {"the same, 2 threads", "the paper's search, every triangle, 2 threads", "step, 2 threads", Wanted::at_least, 200},
+    {"the paper's search with every triangle / step, 2 threads", "the paper's search, every triangle, 2 threads",
+     "step, 2 threads", Wanted::at_least, 200},
     {"the paper's search with point queries / step, 1 thread", "the paper's search, point queries, 1 thread",
      "step, 1 thread", Wanted::at_least, 10},
     {"CGAL's fastest query of every node / step, 1 thread", "CGAL, every node, 1 thread", "step, 1 thread",

@@ -171,8 +171,11 @@ def marked_text(data, valve):
 
 
 def sampled_text(data):
-    every = sorted({int(runs["paper_exhaustive"]["every"]) for valve in VALVES for *_, runs in paper_rows(data, valve)})
-    return ", ".join(map(str, every))
+    samples = [runs["paper_exhaustive"] for valve in VALVES for *_, runs in paper_rows(data, valve)]
+    every = sorted(int(run["every"]) for run in samples)
+    if not every:
+        return ""
+    return f"k from {every[0]} to {every[-1]} by size"
 
 
 def searches_section(data, image=None):
@@ -194,8 +197,8 @@ def searches_section(data, image=None):
         "- *paper*: its tables' seconds.\n"
         "- *plain*: the paper's own two algorithms, written plainly (`bench/references.cpp`), run here with the same\n"
         "  triangles, the distance to every triangle for every node that is asked. The exhaustive one is measured on\n"
-        f"  every k-th node, k = {sampled_text(data)} by size, and multiplied, since each node costs the same; the neighbour\n"
-        "  search starts once for each leaflet, so that it finds all of them.\n"
+        f"  every k-th node, {sampled_text(data)}, and multiplied, since each node costs the same;\n"
+        "  the neighbour search starts once for each leaflet, so that it finds all of them.\n"
         "- *exhaustive*, *neighbour*, *clusters*: `RIIS_SEARCH_EXHAUSTIVE`, `RIIS_SEARCH_NEIGHBOR` with the same result\n"
         "  every time, `RIIS_SEARCH_CLUSTERS` with the mesh prepared. All of them mark the same nodes.\n",
     ]
@@ -325,7 +328,8 @@ def marking_section(data):
             f"run. Aortic valve, {grouped(counts['triangles'])} triangles ({grouped(counts['fine_triangles'])} where they are fine); a "
             f"cylinder of {grouped(counts['nodes'])} nodes of which {100 * counts['marked'] / counts['nodes']:.1f} % are marked, "
             f"{100 * counts['marked_with_0.3'] / counts['nodes']:.1f} % with a half thickness of 0.3 cm. The paper's search asks "
-            f"{grouped(counts['asked_by_paper'])} nodes. The bars are meant for a million nodes."
+            f"{grouped(counts['asked_by_paper'])} nodes. The bars are meant for a million nodes"
+            + ("." if counts["nodes"] > 9e5 else ", which these are not: those not met say little.")
         ),
         "What a step is compared with:\n",
         "- *the paper's search*, written plainly (`bench/references.cpp`), with the distance to every triangle or by\n"
@@ -364,7 +368,7 @@ def peers_table(data, valve):
     for peers in (own, (data.python_peers or {}).get(valve)):
         if not peers:
             continue
-        for name, t in sorted(peers["times"].items()):
+        for name, t in sorted(peers["times"].items(), key=lambda item: item[1]["least_ms"]):
             marks = peers["marks"][name]
             reasons = ", ".join(f"{n} {reason}" for reason, n in sorted(marks["reasons"].items()))
             is_bounded = name.startswith(BOUNDED) or name in ("riis, clusters", "riis, exhaustive search")
@@ -400,8 +404,8 @@ def peers_section(data, image=None):
     if data.python_peers:
         text.append(
             paragraph(
-                "Python's packages (`bench/peers.py`) were measured in a process of their own right after, their arrays made "
-                "before. " + data.when("peers_python")
+                "The packages of PyPI, those with a version in their name, were measured by `bench/peers.py` right after, in a "
+                "process of their own that was kept to one processor, with their arrays and trees made before."
             )
         )
     else:
@@ -461,8 +465,8 @@ def figures(data, folder):
 def page(data, folder):
     of_searches, of_peers = figures(data, folder)
     sections = [
-        "<!-- Made by bench/report.py (./run bench) from out/bench/*.json: edit the prose there. -->\n",
         "# Performance\n",
+        "<!-- Made by bench/report.py (./run bench) from out/bench/*.json: edit the prose there. -->\n",
         paragraph(
             "What a marking costs, beside the paper's figures, beside others, and stage by stage. `./run bench full` measures all of "
             "it and makes this page, `./run bench` a short variant of it; below each headline is which of them it was. Figures are "
