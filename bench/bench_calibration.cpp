@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that has nothing to do with the library, so that another machine, or the same one on another day, can compare: compare.py
-// divides every other time by these.
+// Work that has nothing to do with the library, so that another machine, or the same one on another day, can compare:
+// compare.py divides every other time by these.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>

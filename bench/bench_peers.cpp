@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: the same nodes and the same triangles given to others (CGAL, VTK), on one thread. First their marks are
-// compared with those of a loop over all triangles, then their times are taken in turns. argv[1] is a file for that as JSON;
-// argv[2], thousands of nodes, 100 if it is not there; argv[3], a folder that gets nodes, triangles and distances as raw binary
-// numbers, for peers.py. Fails if the library, or CGAL, does not mark what the loop does.
+// ./run bench peers: the same nodes and the same triangles given to others (CGAL, VTK), on one thread. First their marks
+// are compared with those of a loop over all triangles, then their times are taken in turns. argv[1] is a file for that as
+// JSON; argv[2], thousands of nodes, 100 if it is not there; argv[3], a folder that gets nodes, triangles and distances as
+// raw binary numbers, for peers.py. Fails if the library, or CGAL, does not mark what the loop does.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

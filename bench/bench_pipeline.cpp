@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from parameters to a scene, stage by stage (paper, 3 and 4.1), on one thread: of the aortic valve and of the mitral
-// valve half open, at the default tolerance. Every stage has what it needs from the one before. riis_surface_create does all of
-// them; what a stage costs there is less where it works in the memory of the last surface.
+// The way from parameters to a scene, stage by stage (paper, 3 and 4.1), on one thread: of the aortic valve and of the
+// mitral valve half open, at the default tolerance. Every stage has what it needs from the one before. riis_surface_create
+// does all of them; what a stage costs there is less where it works in the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The searches, on cylinders that the valves fit generously, as in the paper's tables (4.2.3): what is asked changes with every
-// marking, as a moving valve does. Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py makes tables of
-// them.
+// The searches, on cylinders that the valves fit generously, as in the paper's tables (4.2.3): what is asked changes with
+// every marking, as a moving valve does. Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py
+// makes tables of them.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -405,7 +405,8 @@ def peers_section(data, image=None):
         text.append(
             paragraph(
                 "The packages of PyPI, those with a version in their name, were measured by `bench/peers.py` right after, in a "
-                "process of their own that was kept to one processor, with their arrays and trees made before."
+                "process of their own that was kept to one processor, with their arrays made before. libigl and point-cloud-utils "
+                "make their tree in every call."
             )
         )
     else:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library's marking is compared with, if VTK is there: its tree of cells with a bounded query (vtkStaticCellLocator), and
-// its signed distance (vtkImplicitPolyDataDistance), which has no bound. One thread.
+// What the library's marking is compared with, if VTK is there: its tree of cells with a bounded query
+// (vtkStaticCellLocator), and its signed distance (vtkImplicitPolyDataDistance), which has no bound. One thread.
 #pragma once
 
 #include <cstdint>
