@@ -33,7 +33,8 @@ constexpr int n_turns = 40, n_slow_turns = 20;
 const RatioBar ratio_bars[] = {
     {"the paper's search with every triangle / step, 1 thread", "the paper's search, every triangle, 1 thread",
      "step, 1 thread", Wanted::at_least, 200},
-    {"the same, 2 threads", "the paper's search, every triangle, 2 threads", "step, 2 threads", Wanted::at_least, 200},
+    {"the paper's search with every triangle / step, 2 threads", "the paper's search, every triangle, 2 threads",
+     "step, 2 threads", Wanted::at_least, 200},
     {"the paper's search with point queries / step, 1 thread", "the paper's search, point queries, 1 thread",
      "step, 1 thread", Wanted::at_least, 10},
     {"CGAL's fastest query of every node / step, 1 thread", "CGAL, every node, 1 thread", "step, 1 thread",
@@ -93,7 +94,7 @@ bool is_same(const std::vector<double> &distance, const Marked &marked) {
 #endif
 
 // Steps and what they are compared with, on the same nodes. False if these do not mark the same.
-bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_nodes) {
+bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts) {
   const CylinderMesh nodes(wide_cylinder, about_n_nodes);
   const std::int64_t n = nodes.n_nodes();
   const double *xyz = nodes.xyz().data();
@@ -185,11 +186,19 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       static_cast<long long>(n_by_paper), static_cast<long long>(n_by_query),
       1e6 * contest.least("the paper's search, every triangle, 1 thread") / static_cast<double>(n_asked) /
           static_cast<double>(triangles.n()));
+  counts["nodes"] = n;
+  counts["half_thickness"] = half_thickness;
+  counts["triangles"] = triangles.n();
+  counts["fine_triangles"] = n_triangles_of(fine_two.surface());
+  counts["marked"] = marked.n;
+  counts["marked_with_0.3"] = thick.stats().n_marked;
+  counts["asked_by_paper"] = n_asked;
+  counts["marked_by_paper"] = n_by_paper;
   return is_right;
 }
 
 // A tenth of the nodes, the nodes, and ten times as many: coordinates alone.
-void compare_sizes(Contest &contest, std::int64_t about_n_nodes) {
+void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   struct Size {
     CylinderNodes nodes;
     Mesh mesh;
@@ -213,6 +222,7 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes) {
   add_size("step, 2 threads, 10 times the nodes", tenfold);
   contest.run();
   const riis_mark_stats stats = tenfold.steps.stats();
+  counts["tenfold_nodes"] = stats.n_nodes;
   std::printf("Ten times as many nodes: %lld, %lld marked.\n\n", static_cast<long long>(stats.n_nodes),
               static_cast<long long>(stats.n_marked));
 }
@@ -227,15 +237,21 @@ int main(int argc, char **argv) {
   }
   Contest contest;
   Bars bars;
-  const bool is_right = compare_with_others(contest, bars, about_n_nodes);
-  compare_sizes(contest, about_n_nodes);
+  nlohmann::json counts;
+  const bool is_right = compare_with_others(contest, bars, about_n_nodes, counts);
+  compare_sizes(contest, about_n_nodes, counts);
   for (const RatioBar &ratio : ratio_bars) bars.add(contest, ratio);
   contest.print();
   std::printf("\n");
   bars.print();
   if (argc > 1) {
     std::ofstream file(argv[1]);
-    file << nlohmann::json{{"times", contest.json()}, {"bars", bars.json()}}.dump(2) << '\n';
+    const nlohmann::json all{{"counts", counts},
+                             {"times", contest.json()},
+                             {"bars", bars.json()},
+                             {"left_out", bars.left_out()},
+                             {"same_marks", is_right}};
+    file << all.dump(2) << '\n';
     if (!file) {
       std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
       return 1;

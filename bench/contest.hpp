@@ -28,6 +28,8 @@ class Contest {
   double ratio(const std::string &above, const std::string &below) const;
   // Why a contender was left out; empty if it was not.
   std::string why_left_out(const std::string &name) const;
+  // Of all that were left out, by name.
+  const std::map<std::string, std::string> &left_out() const { return left_out_; }
 
   void print() const;
   nlohmann::json json() const;
@@ -59,6 +61,7 @@ class Bars {
 
   void print() const;
   nlohmann::json json() const;
+  const std::vector<std::string> &left_out() const { return left_out_; }
 
  private:
   struct Bar {

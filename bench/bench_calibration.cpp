@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work that has nothing to do with the library, so that another machine, or the same one on another day, can compare:
+// compare.py divides every other time by these.
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "references.hpp"
+
+namespace {
+
+// What memory gives: a million nodes' coordinates, read once.
+void calibration_coordinates(benchmark::State &state) {
+  constexpr std::size_t n_nodes = 1000000;
+  std::vector<double> xyz(3 * n_nodes);
+  for (std::size_t i = 0; i < xyz.size(); ++i) xyz[i] = 1 + static_cast<double>(i % 1024);
+  for (auto _ : state) benchmark::DoNotOptimize(bench::pass_over_coordinates(n_nodes, xyz.data(), 1));
+}
+BENCHMARK(calibration_coordinates)->Unit(benchmark::kMillisecond);
+
+// What a core gives: a product and a sum in double precision, each waiting for the one before.
+void calibration_products(benchmark::State &state) {
+  constexpr int n_products = 1000000;
+  double factor = 0.9999999, summand = 1e-7;
+  benchmark::DoNotOptimize(factor);
+  benchmark::DoNotOptimize(summand);
+  for (auto _ : state) {
+    double value = 1;
+    for (int i = 0; i < n_products; ++i) value = value * factor + summand;
+    benchmark::DoNotOptimize(value);
+  }
+}
+BENCHMARK(calibration_products)->Unit(benchmark::kMillisecond);
+
+}  // namespace

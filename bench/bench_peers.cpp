@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// ./run bench peers: the same nodes and the same triangles given to others (CGAL, VTK), on one thread. First their marks
+// are compared with those of a loop over all triangles, then their times are taken in turns. argv[1] is a file for that as
+// JSON; argv[2], thousands of nodes, 100 if it is not there; argv[3], a folder that gets nodes, triangles and distances as
+// raw binary numbers, for peers.py. Fails if the library, or CGAL, does not mark what the loop does.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "contest.hpp"
+#include "cylinder.hpp"
+#include "references.hpp"
+#if defined(RIIS_WITH_CGAL)
+#include "cgal_reference.hpp"
+#endif
+#if defined(RIIS_WITH_VTK)
+#include "vtk_reference.hpp"
+#endif
+
+namespace {
+
+using namespace bench;
+using nlohmann::json;
+
+constexpr double half_thickness = 0.1;
+constexpr int n_turns = 10, n_slow_turns = 5;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// What there is to agree on: distances by a loop over all triangles.
+struct Truth {
+  std::vector<double> distance;
+  std::vector<bool> nearest_is_thin;  // the nearest triangle's height over its longest edge is below 1e-6 of that
+};
+
+// One peer's distances beside the truth. Nodes that are marked differently are counted by the reason.
+json compared(const Truth &truth, const std::vector<double> &distance) {
+  constexpr double rounding = 1e-12, single = 2e-6;  // cm, of coordinates of some cm
+  std::map<std::string, std::int64_t> reasons;
+  std::int64_t n_marked = 0, n_different = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    const bool by_peer = distance[i] <= half_thickness, is_marked = truth.distance[i] <= half_thickness;
+    n_marked += by_peer;
+    if (by_peer && is_marked) largest = std::max(largest, std::abs(distance[i] - truth.distance[i]));
+    if (by_peer == is_marked) continue;
+    ++n_different;
+    const double margin = std::abs(truth.distance[i] - half_thickness);
+    const char *reason = margin <= rounding                     ? "rounding"
+                         : margin <= single                     ? "float"
+                         : truth.nearest_is_thin[i]             ? "degenerate"
+                         : is_marked && distance[i] == infinity ? "radius"
+                                                                : "unexplained";
+    ++reasons[reason];
+  }
+  return {{"marked", n_marked}, {"different", n_different}, {"reasons", reasons}, {"largest_difference", largest}};
+}
+
+bool is_equal(const json &comparison) {
+  const json &reasons = comparison["reasons"];
+  const std::int64_t n_rounding = reasons.value("rounding", std::int64_t{0});
+  return comparison["different"] == n_rounding && comparison["largest_difference"] <= 1e-12;
+}
+
+// The loop over triangles, on all processors.
+Truth truth_of(const riis_surface *surface, const Triangles &triangles, const CylinderNodes &nodes) {
+  const std::int64_t n = nodes.n_nodes();
+  Truth truth;
+  truth.distance.resize(static_cast<std::size_t>(n));
+  const EveryTriangle every_triangle(triangles);
+  const int n_threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+#pragma omp parallel for num_threads(n_threads) schedule(static)
+  for (std::int64_t i = 0; i < n; ++i)
+    truth.distance[static_cast<std::size_t>(i)] =
+        every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
+  // Which triangle is nearest the library says; that the distance is right is compared.
+  std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
+  riis_closest_arrays arrays;
+  check(riis_closest_arrays_init(&arrays, sizeof arrays));
+  arrays.triangle_id = nearest.data();
+  const double *xyz = nodes.xyz().data();
+  check(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, nullptr, &arrays));
+  for (const std::int64_t id : nearest) {
+    const double *c = triangles.corners.data() + 9 * id;
+    double longest = 0, ab[3], ac[3];
+    for (int k = 0; k < 3; ++k) ab[k] = c[3 + k] - c[k], ac[k] = c[6 + k] - c[k];
+    for (int side = 0; side < 3; ++side) {
+      const double *p = c + 3 * side, *q = c + 3 * ((side + 1) % 3);
+      longest = std::max(longest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    }
+    const double twice_area =
+        std::hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]);
+    truth.nearest_is_thin.push_back(twice_area < 1e-6 * longest * longest);
+  }
+  return truth;
+}
+
+template <class Number>
+void write(const std::string &path, const std::vector<Number> &numbers) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char *>(numbers.data()),
+             static_cast<std::streamsize>(numbers.size() * sizeof(Number)));
+  if (!file) {
+    std::fprintf(stderr, "%s: cannot be written\n", path.c_str());
+    std::exit(1);
+  }
+}
+
+// nodes (3, n) and distances (n), vertices (3, n) as float64; triangles (3, n) as int64.
+void write_all(const std::string &prefix, const riis_surface *surface, const CylinderNodes &nodes, const Truth &truth) {
+  std::int64_t n_vertices, n_triangles;
+  const double *xyz;
+  const std::int64_t *vertex_id;
+  check(riis_surface_vertices(surface, &n_vertices, &xyz));
+  check(riis_surface_triangles(surface, &n_triangles, &vertex_id, nullptr, nullptr, nullptr));
+  write(prefix + "nodes.f64", nodes.xyz());
+  write(prefix + "distances.f64", truth.distance);
+  write(prefix + "vertices.f64", std::vector<double>(xyz, xyz + 3 * n_vertices));
+  write(prefix + "triangles.i64", std::vector<std::int64_t>(vertex_id, vertex_id + 3 * n_triangles));
+}
+
+// The distances of marked nodes, infinity for the others.
+std::vector<double> marked_distances(const riis_mark_result *result, std::int64_t n_nodes) {
+  std::vector<double> distance(static_cast<std::size_t>(n_nodes));
+  check(riis_mark_result_dense(result, n_nodes, infinity, nullptr, distance.data(), nullptr, nullptr));
+  return distance;
+}
+
+// False if the library or CGAL marks other nodes than the loop.
+bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_nodes, const std::string &folder,
+             json &out) {
+  const Surface made = [&] {
+    const Valve valve = make_valve(kind);
+    if (kind[0] == 'm') check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
+    riis_surface *surface = nullptr;
+    check(riis_surface_create(valve.get(), nullptr, &surface));
+    return Surface(surface);
+  }();
+  const riis_surface *surface = made.get();
+  const CylinderNodes nodes(cylinder, about_n_nodes);
+  const std::int64_t n = nodes.n_nodes();
+  const double *xyz = nodes.xyz().data();
+  const Mesh mesh = mesh_over(nodes);
+  check(riis_mesh_prepare(mesh.get(), 1));
+  const Triangles triangles(surface);
+  const Truth truth = truth_of(surface, triangles, nodes);
+  if (!folder.empty()) write_all(folder + "/" + kind + "_", surface, nodes, truth);
+
+  Contest contest;
+  json marks;
+  bool is_right = true;
+  std::vector<double> distance(static_cast<std::size_t>(n));
+  const Result result = make_result();
+  for (const auto &[name, search] : {std::pair{"riis, clusters", RIIS_SEARCH_CLUSTERS},
+                                     std::pair{"riis, exhaustive search", RIIS_SEARCH_EXHAUSTIVE}}) {
+    riis_mark_options options;
+    check(riis_mark_options_init(&options, sizeof options));
+    options.search = search;
+    options.n_threads = 1;
+    const auto mark = [&, options] { check(riis_mark_nodes(surface, mesh.get(), &options, result.get())); };
+    mark();
+    marks[name] = compared(truth, marked_distances(result.get(), n));
+    is_right = is_right && is_equal(marks[name]);
+    contest.add(name, n_turns, mark);
+  }
+  const auto all_distances = [&] {
+    riis_closest_options options;
+    check(riis_closest_options_init(&options, sizeof options));
+    options.n_threads = 1;
+    riis_closest_arrays arrays;
+    check(riis_closest_arrays_init(&arrays, sizeof arrays));
+    arrays.distance = distance.data();
+    check(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, &options, &arrays));
+  };
+  const auto add = [&](const std::string &name, int turns, const Contest::Work &work) {
+    work();
+    marks[name] = compared(truth, distance);
+    contest.add(name, turns, work);
+  };
+  add("riis, every distance", n_slow_turns, all_distances);
+  is_right = is_right && is_equal(marks["riis, every distance"]);
+#if defined(RIIS_WITH_CGAL)
+  const CgalQuery cgal(triangles);
+  add("CGAL, AABB_tree bounded", n_turns, [&] { cgal.distances(n, xyz, half_thickness, 1, distance.data()); });
+  is_right = is_right && is_equal(marks["CGAL, AABB_tree bounded"]);
+#else
+  contest.leave_out("CGAL, AABB_tree bounded", "CGAL was not found when this was built");
+#endif
+#if defined(RIIS_WITH_VTK)
+  const VtkLocator locator(triangles);
+  add("VTK, vtkStaticCellLocator within a radius", n_slow_turns,
+      [&] { locator.distances(n, xyz, half_thickness, distance.data()); });
+  const VtkDistance vtk_distance(triangles);
+  add("VTK, vtkImplicitPolyDataDistance", n_slow_turns, [&] { vtk_distance.distances(n, xyz, distance.data()); });
+#else
+  for (const char *name : {"VTK, vtkStaticCellLocator within a radius", "VTK, vtkImplicitPolyDataDistance"})
+    contest.leave_out(name, "built without VTK");
+#endif
+  contest.run();
+  std::int64_t n_marked = 0;
+  for (const double d : truth.distance) n_marked += d <= half_thickness;
+  std::printf("%s valve: %lld triangles, %lld nodes, %lld marked\n", kind, static_cast<long long>(triangles.n()),
+              static_cast<long long>(n), static_cast<long long>(n_marked));
+  contest.print();
+  std::printf("%s\n\n", marks.dump(2).c_str());
+  out[kind] = {{"nodes", n},
+               {"triangles", triangles.n()},
+               {"marked", n_marked},
+               {"half_thickness", half_thickness},
+               {"marks", marks},
+               {"times", contest.json()},
+               {"left_out", contest.left_out()}};
+  return is_right;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const std::int64_t about_n_nodes = 1000 * (argc > 2 ? std::strtoll(argv[2], nullptr, 10) : 100);
+  if (argc < 2 || about_n_nodes < 1000) {
+    std::fprintf(stderr, "usage: %s FILE.json [THOUSANDS_OF_NODES [FOLDER]]\n", argv[0]);
+    return 2;
+  }
+  const std::string folder = argc > 3 ? argv[3] : "";
+  json out;
+  bool is_right = compare("aortic", cylinders[0], about_n_nodes, folder, out);
+  is_right = compare("mitral", cylinders[1], about_n_nodes, folder, out) && is_right;
+  std::ofstream file(argv[1]);
+  file << out.dump(2) << '\n';
+  if (!file) {
+    std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
+    return 1;
+  }
+  if (!is_right) std::fprintf(stderr, "%s: not the same nodes are marked\n", argv[0]);
+  return is_right ? 0 : 1;
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way from parameters to a scene, stage by stage (paper, 3 and 4.1), on one thread: of the aortic valve and of the
+// mitral valve half open, at the default tolerance. Every stage has what it needs from the one before. riis_surface_create
+// does all of them; what a stage costs there is less where it works in the memory of the last surface.
+#include <benchmark/benchmark.h>
+
+#include "api/handles.hpp"
+#include "geometry/polyline.hpp"
+#include "handles.hpp"
+#include "surface/grids.hpp"
+#include "surface/triangle_scene.hpp"
+#include "surface/triangulate.hpp"
+
+namespace {
+
+using namespace bench;
+
+constexpr double max_error = 0.05 * 0.1;  // tolerance, half thickness
+
+Valve moved_valve(const char *kind) {
+  Valve valve = make_valve(kind);
+  if (kind[0] == 'm') check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
+  return valve;
+}
+
+Surface surface_of(const riis_valve *valve) {
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  options.n_threads = 1;
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, &options, &surface));
+  return Surface(surface);
+}
+
+// Parameters to curves and patches.
+void pipeline_patches(benchmark::State &state, const char *kind) {
+  const Valve valve = moved_valve(kind);
+  for (auto _ : state) benchmark::DoNotOptimize(valve->valve.make_patches());
+  state.counters["curves"] = static_cast<double>(valve->valve.make_patches().curves.size());
+}
+
+// Every curve once, all of the error being its own; surfaces ask for finer ones.
+void pipeline_curves(benchmark::State &state, const char *kind) {
+  const riis::PatchSet patches = moved_valve(kind)->valve.make_patches();
+  std::size_t n_points = 0;
+  for (auto _ : state) {
+    n_points = 0;
+    for (const riis::Curve &curve : patches.curves) n_points += riis::make_polyline(curve, max_error).points.size();
+    benchmark::DoNotOptimize(n_points);
+  }
+  state.counters["points"] = static_cast<double>(n_points);
+}
+
+// Curves as fine as the surface needs them, and the patches' quads.
+void pipeline_quads(benchmark::State &state, const char *kind) {
+  const riis::PatchSet patches = moved_valve(kind)->valve.make_patches();
+  for (auto _ : state) benchmark::DoNotOptimize(riis::make_grids(patches, max_error));
+}
+
+// The same, and the triangles in place: quads are not kept in between.
+void pipeline_triangles(benchmark::State &state, const char *kind) {
+  const Valve valve = moved_valve(kind);
+  const riis::PatchSet patches = valve->valve.make_patches();
+  const riis::Placement placement{1, riis::rotation_about({0, 0, 1}, 0), {0, 0, 0}};
+  for (auto _ : state) benchmark::DoNotOptimize(riis::triangulate(patches, max_error, placement, false, 1));
+  state.counters["triangles"] = n_triangles_of(surface_of(valve.get()).get());
+}
+
+// A new scene.
+void pipeline_scene(benchmark::State &state, const char *kind) {
+  const Surface surface = surface_of(moved_valve(kind).get());
+  for (auto _ : state) {
+    riis::TriangleScene scene;
+    scene.make(surface->surface->triangles(), 1);
+  }
+  state.counters["triangles"] = n_triangles_of(surface.get());
+}
+
+// The same scene again, for triangles that moved.
+void pipeline_scene_again(benchmark::State &state, const char *kind) {
+  const Surface surface = surface_of(moved_valve(kind).get());
+  riis::TriangleScene scene;
+  scene.make(surface->surface->triangles(), 1);
+  for (auto _ : state) scene.make(surface->surface->triangles(), 1);
+  state.counters["triangles"] = n_triangles_of(surface.get());
+}
+
+// All of it, as a caller asks for it.
+void pipeline_surface(benchmark::State &state, const char *kind) {
+  const Valve valve = moved_valve(kind);
+  for (auto _ : state) surface_of(valve.get());
+  state.counters["triangles"] = n_triangles_of(surface_of(valve.get()).get());
+}
+void pipeline_surface_again(benchmark::State &state, const char *kind) {
+  const Valve valve = moved_valve(kind);
+  const Surface surface = surface_of(valve.get());
+  for (auto _ : state) check(riis_surface_update(surface.get(), valve.get(), nullptr));
+  state.counters["triangles"] = n_triangles_of(surface.get());
+}
+
+#define BOTH_VALVES(stage)                                                                  \
+  BENCHMARK_CAPTURE(stage, aortic, "aortic")->Unit(benchmark::kMicrosecond)->UseRealTime(); \
+  BENCHMARK_CAPTURE(stage, mitral, "mitral")->Unit(benchmark::kMicrosecond)->UseRealTime()
+BOTH_VALVES(pipeline_patches);
+BOTH_VALVES(pipeline_curves);
+BOTH_VALVES(pipeline_quads);
+BOTH_VALVES(pipeline_triangles);
+BOTH_VALVES(pipeline_scene);
+BOTH_VALVES(pipeline_scene_again);
+BOTH_VALVES(pipeline_surface);
+BOTH_VALVES(pipeline_surface_again);
+
+}  // namespace

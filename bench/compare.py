@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Says which benchmark became slower than a kept baseline; exit status 1 if one did.
+
+Times are divided by those of the calibration benchmarks of the same run, so that runs of two machines, or of one on two days,
+can be compared. There are two calibrations, of memory and of arithmetic, and what a benchmark depends on is not known: it
+counts as slower only where it is by either. Between machines whose two calibrations differ much, a loss below that difference
+is not seen; --factor should not be below it, and a line says how large it is.
+
+Exit status: 0, none is slower; 1, one is slower, is gone or ended early; 2, a file is not what it should be."""
+
+import argparse
+import json
+import sys
+
+import gbench
+
+CALIBRATION = "calibration_"
+
+
+class Unusable(Exception):
+    pass
+
+
+def read(path):
+    """Times in milliseconds by name, and what failed: of a baseline, or of Google Benchmark's own JSON."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            data = json.load(file)
+        if "milliseconds" in data:
+            times, failed = {name: float(ms) for name, ms in data["milliseconds"].items()}, {}
+        else:
+            best, failed = gbench.least_times(data["benchmarks"])
+            times = {name: run["ms"] for name, run in best.items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise Unusable(f"{path}: {type(error).__name__}: {error}") from error
+    if not any(name.startswith(CALIBRATION) for name in times):
+        raise Unusable(f"{path}: no benchmark {CALIBRATION}*, so that nothing can be compared")
+    for name, ms in times.items():
+        if not ms > 0:
+            raise Unusable(f"{path}: {name} took {ms} ms")
+    return times, failed
+
+
+def compare(base, now):
+    """By name how many times slower it is now, by that calibration that says the least; and the calibrations' own factors."""
+    calibrations = sorted(name for name in base if name.startswith(CALIBRATION) and name in now)
+    if not calibrations:
+        raise Unusable("the two files have no calibration in common")
+    machine = {name: now[name] / base[name] for name in calibrations}
+    factors = {}
+    for name in sorted(base):
+        if name in now and not name.startswith(CALIBRATION):
+            factors[name] = now[name] / base[name] / max(machine.values())
+    return factors, machine
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("base", help="a baseline, or Google Benchmark's JSON")
+    parser.add_argument("now", help="the same of the run to be judged")
+    parser.add_argument("--factor", type=float, default=1.3, help="slower by more than this fails (%(default)s)")
+    options = parser.parse_args(arguments)
+    if not options.factor > 0:
+        parser.error(f"argument --factor: {options.factor} is not above 0")
+    try:
+        (base, _), (now, failed) = read(options.base), read(options.now)
+        factors, machine = compare(base, now)
+    except Unusable as error:
+        print(f"compare.py: {error}", file=sys.stderr)
+        return 2
+
+    for name, factor in machine.items():
+        print(f"{name}: {factor:.2f} times the baseline's")
+    spread = max(machine.values()) / min(machine.values())
+    print(f"A loss of less than {spread:.2f} times may stay unseen, as much as the calibrations differ.\n")
+    bad = False
+    for name, factor in sorted(factors.items(), key=lambda item: -item[1]):
+        slower = factor > options.factor
+        bad = bad or slower
+        print(f"{factor:7.2f}  {name}{'  SLOWER' if slower else ''}")
+    for name in sorted(set(base) - set(now)):
+        bad = True
+        print(f"   FAILED  {name}: {failed[name]}" if name in failed else f"     GONE  {name}")
+    for name in sorted(set(failed) - set(base)):
+        bad = True
+        print(f"   FAILED  {name}: {failed[name]}")
+    for name in sorted(set(now) - set(base)):
+        print(f"      new  {name}")
+    n_slower = sum(factor > options.factor for factor in factors.values())
+    print(f"\n{n_slower} of {len(factors)} slower by more than {options.factor:g}")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Python packages given the nodes and triangles that riis_bench_peers wrote: their marks, then their times, as JSON.
+
+Runs in a virtual environment that study.py makes; a package that is not there is left out, with the reason. The process
+keeps to one processor, so that what these packages do on threads of their own costs what it costs one."""
+
+import argparse
+import collections
+import importlib
+import importlib.metadata
+import json
+import os
+import sys
+import time
+
+HALF_THICKNESS = 0.1
+TURNS = 5
+# Coordinates of some centimetres: what double and single precision may be off.
+ROUNDING, SINGLE = 1e-12, 2e-6
+
+
+def libigl(np, nodes, vertices, triangles):
+    igl = importlib.import_module("igl")
+    return lambda: np.sqrt(igl.point_mesh_squared_distance(nodes, vertices, triangles)[0])
+
+
+def point_cloud_utils(np, nodes, vertices, triangles):
+    pcu = importlib.import_module("point_cloud_utils")
+    return lambda: pcu.closest_points_on_mesh(nodes, vertices, triangles)[0]
+
+
+def open3d(np, nodes, vertices, triangles):
+    o3d = importlib.import_module("open3d")
+    scene = o3d.t.geometry.RaycastingScene(nthreads=1)
+    scene.add_triangles(o3d.core.Tensor(vertices.astype(np.float32)), o3d.core.Tensor(triangles.astype(np.uint32)))
+    asked = o3d.core.Tensor(nodes.astype(np.float32))
+    return lambda: scene.compute_distance(asked, nthreads=1).numpy()
+
+
+def fcpw(np, nodes, vertices, triangles):
+    package = importlib.import_module("fcpw")
+    scene = package.scene_3D()
+    scene.set_object_count(1)
+    scene.set_object_vertices(np.asfortranarray(vertices, dtype=np.float32), 0)
+    scene.set_object_triangles(np.asfortranarray(triangles, dtype=np.int32), 0)
+    scene.build(package.aggregate_type.bvh_surface_area, True)
+    asked = np.asfortranarray(nodes, dtype=np.float32)
+    squared_radii = np.full(len(nodes), HALF_THICKNESS**2, dtype=np.float32)
+    found = package.interaction_3D_list()
+
+    def ask():
+        scene.find_closest_points(asked, squared_radii, found)
+        return None
+
+    # The list is turned into an array outside of the time.
+    ask.read = lambda: np.array([at.d if at.primitive_index != 2**32 - 1 and at.d >= 0 else np.inf for at in found])
+    return ask
+
+
+# name: (package on PyPI, how it is asked, what is said of it)
+PEERS = {
+    "libigl": ("libigl", libigl, "double, no bound"),
+    "point-cloud-utils": ("point-cloud-utils", point_cloud_utils, "double, no bound"),
+    "open3d": ("open3d", open3d, "single, no bound"),
+    "fcpw": ("fcpw", fcpw, "single, bounded"),
+}
+
+
+def compared(np, truth, distance):
+    """As riis_bench_peers compares: nodes that are marked differently, counted by the reason."""
+    by_peer, marked = distance <= HALF_THICKNESS, truth <= HALF_THICKNESS
+    reasons = collections.Counter()
+    for i in np.flatnonzero(by_peer != marked):
+        margin = abs(truth[i] - HALF_THICKNESS)
+        if margin <= ROUNDING:
+            reasons["rounding"] += 1
+        elif margin <= SINGLE:
+            reasons["float"] += 1
+        elif marked[i] and np.isinf(distance[i]):
+            reasons["radius"] += 1
+        else:
+            reasons["unexplained"] += 1
+    both = by_peer & marked
+    largest = float(np.abs(distance[both] - truth[both]).max()) if both.any() else 0.0
+    return {
+        "marked": int(by_peer.sum()),
+        "different": int((by_peer != marked).sum()),
+        "reasons": dict(reasons),
+        "largest_difference": largest,
+    }
+
+
+def measure(np, folder, kind):
+    def read(name, dtype, columns):
+        numbers = np.fromfile(os.path.join(folder, f"{kind}_{name}"), dtype=dtype)
+        return numbers.reshape(-1, columns) if columns > 1 else numbers
+
+    nodes, vertices = read("nodes.f64", np.float64, 3), read("vertices.f64", np.float64, 3)
+    triangles, truth = read("triangles.i64", np.int64, 3), read("distances.f64", np.float64, 1)
+    out = {"nodes": len(nodes), "triangles": len(triangles), "marks": {}, "times": {}, "left_out": {}, "notes": {}}
+    for name, (package, make, note) in PEERS.items():
+        try:
+            ask = make(np, nodes, vertices, triangles)
+            version = importlib.metadata.version(package)
+            answer = ask()
+        except Exception as error:  # whatever a package does wrong is its reason to be left out
+            out["left_out"][name] = f"not available: {type(error).__name__}: {error}".splitlines()[0]
+            continue
+        label = f"{name} {version}"
+        out["marks"][label] = compared(np, truth, ask.read() if answer is None else np.asarray(answer, dtype=np.float64))
+        out["notes"][label] = note
+        times = []
+        for _ in range(TURNS):
+            start = time.perf_counter()
+            ask()
+            times.append(1e3 * (time.perf_counter() - start))
+        times.sort()
+        out["times"][label] = {"least_ms": times[0], "median_ms": times[TURNS // 2], "turns": TURNS}
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", help="where riis_bench_peers wrote nodes and triangles")
+    parser.add_argument("out", help="the JSON file to write")
+    arguments = parser.parse_args()
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    os.environ["OMP_NUM_THREADS"] = "1"
+    try:
+        import numpy as np
+    except ImportError as error:
+        sys.exit(f"peers.py: {error}")
+    result = {kind: measure(np, arguments.folder, kind) for kind in ("aortic", "mitral")}
+    with open(arguments.out, "w", encoding="utf-8") as file:
+        json.dump(result, file, indent=2, sort_keys=True)
+        file.write("\n")
+
+
+if __name__ == "__main__":
+    main()

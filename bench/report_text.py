@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Markdown and plots for report.py."""
+
+import textwrap
+
+
+def paragraph(text):
+    """Wrapped as all pages are. Code in backticks and links may be cut at spaces only."""
+    return textwrap.fill(text, width=100, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def number(value):
+    """Three digits that count."""
+    if value >= 999.5:
+        return grouped(value)
+    digits = 0 if value >= 99.95 else 1 if value >= 9.995 else 2 if value >= 0.9995 else 3
+    return f"{value:.{digits}f}"
+
+
+def grouped(value):
+    return f"{round(value):,}"
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    for row in rows:
+        if len(row) != len(heads):
+            raise ValueError(f"{len(row)} cells below {len(heads)} heads: {row}")
+        lines.append("| " + " | ".join(row) + " |")
+    return "\n".join(lines) + "\n"
+
+
+class figure:
+    """Plots with logarithmic axes, if there is matplotlib; without it there are none, and a line says so."""
+
+    @staticmethod
+    def _pyplot():
+        try:
+            import matplotlib
+        except ImportError:
+            print("==> no matplotlib (python3-matplotlib): the page is made without plots")
+            return None
+        matplotlib.use("Agg")
+        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 8})
+        import matplotlib.pyplot
+
+        return matplotlib.pyplot
+
+    @staticmethod
+    def _save(pyplot, plot, path):
+        # Without the program's version in it the same data gives the same bytes.
+        plot.savefig(path, dpi=110, metadata={"Software": None})
+        pyplot.close(plot)
+        return True
+
+    @staticmethod
+    def lines(panels, across, up, path):
+        pyplot = figure._pyplot()
+        if not pyplot:
+            return False
+        plot, axes = pyplot.subplots(1, len(panels), figsize=(8.5, 3.6), sharey=True, layout="constrained")
+        for axis, (title, lines) in zip(axes, panels):
+            for index, (label, points, style) in enumerate(lines):
+                if not points:
+                    continue
+                axis.loglog(*zip(*points), style, marker="o", markersize=3, linewidth=1, color=f"C{index}", label=label)
+            axis.set(title=title, xlabel=across)
+            axis.grid(True, which="major", linewidth=0.3)
+        axes[0].set_ylabel(up)
+        if axes[-1].get_legend_handles_labels()[1]:
+            axes[-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1, 0.5))
+        return figure._save(pyplot, plot, path)
+
+    @staticmethod
+    def bars(panels, across, path):
+        pyplot = figure._pyplot()
+        if not pyplot:
+            return False
+        plot, axes = pyplot.subplots(1, len(panels), figsize=(8.5, 2.8), sharey=True, layout="constrained")
+        for axis, (title, bars) in zip(axes, panels):
+            names, values = zip(*bars)
+            colors = ["C1" if name.startswith("riis") else "C0" for name in names]
+            axis.barh(names, values, color=colors)
+            axis.set(title=title, xlabel=across, xscale="log")
+            axis.grid(True, axis="x", which="major", linewidth=0.3)
+        return figure._save(pyplot, plot, path)

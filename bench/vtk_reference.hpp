@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the library's marking is compared with, if VTK is there: its tree of cells with a bounded query
+// (vtkStaticCellLocator), and its signed distance (vtkImplicitPolyDataDistance), which has no bound. One thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "references.hpp"
+
+namespace bench {
+
+class VtkLocator {
+ public:
+  explicit VtkLocator(const Triangles &triangles);
+  ~VtkLocator();
+  // distance: (n_nodes), infinity where no triangle is found within the limit. xyz: (3, n_nodes).
+  void distances(std::int64_t n_nodes, const double *xyz, double limit, double *distance) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+class VtkDistance {
+ public:
+  explicit VtkDistance(const Triangles &triangles);
+  ~VtkDistance();
+  // Without its sign.
+  void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bench

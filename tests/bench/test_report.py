@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bench/report.py: that the page says what the JSON says, on files made up here."""
+
+import contextlib
+import io
+import json
+import os
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
+import report
+import report_text
+
+SEARCHES = {
+    "exhaustive": 50.0, "neighbor_warm": 40.0, "neighbor_cold": 80.0, "clusters": 5.0, "paper": 10.0, "all_distances": 1000.0,
+    "paper_exhaustive": 1.0, "paper_neighbor": 400.0,
+}  # fmt: skip
+
+
+def searches(threads, speed):
+    """Runs of 1000 thousand nodes round the aortic valve; the plain exhaustive search takes 8 s."""
+    runs = []
+    for name, ms in SEARCHES.items():
+        runs.append(
+            {
+                "name": f"search_{name}/0/1000/{threads}/real_time", "run_name": f"search_{name}/0/1000/{threads}/real_time",
+                "run_type": "iteration", "real_time": 2 * ms / speed, "time_unit": "ms", "least_ms": ms / speed, "nodes": 1e6,
+                "marked": 4e4, "asked": 5e4, "triangles": 2104, "every": 500, "all_nodes_ms": 8000 / speed,
+            }
+        )  # fmt: skip
+    return runs
+
+
+PEER = {"marked": 4, "different": 3, "reasons": {"float": 2, "radius": 1}, "largest_difference": 1e-7}
+FILES = {
+    "machine": {
+        "machine": {
+            "CPU": "A processor", "processors": 1, "caches": "L1 1K", "memory": "1 kB", "architecture": "x", "system": "y",
+            "versions": {"Embree": "3.99"},
+        },
+        "runs": {"searches": {"date": "2026-01-02 03:04 UTC", "command": "./run bench", "load_before": 0.25}},
+    },
+    "searches": {"benchmarks": searches(1, 1) + searches(2, 1.6)},
+    "marking": {
+        "counts": {
+            "nodes": 1000, "triangles": 10, "fine_triangles": 99, "marked": 30, "marked_with_0.3": 90, "asked_by_paper": 77,
+        },
+        "times": {"step": {"least_ms": 1.5, "median_ms": 2, "turns": 40}},
+        "bars": [
+            {"name": "is met", "value": 1, "bar": 2, "kind": "at most", "met": True},
+            {"name": "is missed", "value": 1, "bar": 2, "kind": "at least", "met": False},
+        ],
+        "left_out": ["Left out: CGAL (not found)."],
+    },
+    "peers": {
+        valve: {
+            "nodes": 100, "triangles": 10, "left_out": {"VTK": "built without VTK"},
+            "marks": dict.fromkeys(("riis, clusters", "riis, every distance", "CGAL"), PEER),
+            "times": {name: {"least_ms": ms} for name, ms in (("riis, clusters", 2), ("riis, every distance", 8), ("CGAL", 30))},
+        }
+        for valve in ("aortic", "mitral")
+    },
+}  # fmt: skip
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def page(self, names=tuple(FILES)):
+        for name in names:
+            with open(os.path.join(self.folder, name + ".json"), "w", encoding="utf-8") as file:
+                json.dump(FILES[name], file)
+        path = os.path.join(self.folder, "page.md")
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(report.main(["--data", self.folder, "--page", path]), 0)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def test_nothing_measured_is_said(self):
+        text = self.page(())
+        for command in ("./run bench search", "./run bench marking", "./run bench peers", "./run bench"):
+            self.assertIn(f"`{command}` makes it", text)
+
+    def test_machine_and_command(self):
+        text = self.page()
+        for part in ("A processor", "| Embree | 3.99 |", "2026-01-02 03:04 UTC by `./run bench`; the load", "0.2"):
+            self.assertIn(part, text)
+
+    def test_searches_beside_the_paper(self):
+        text = self.page()
+        # 307.133 s and 11.950 s are the paper's; 8 s / 50 ms, 8 s / 5 ms, 400 ms / 5 ms, 50 ms / 5 ms.
+        row = "| 1,006,781 | 1,000,000 | 1 | 307 | 11.9 | 25.7 | 8.00 | 0.400 | 20.0 | 50.0 | 40.0 | 5.00 | 160 | 1,600 | 80.0 | 10.0 |"
+        self.assertIn(row, text)
+        self.assertIn("| 1,000,000 | 2 (oversubscribed) | 2.06 | 1.96 | 1.60 | 1.60 | 1.60 | 1.60 | 1.60 |", text)
+        self.assertIn("every k-th node, k from 500 to 500 by size, and multiplied", text)
+        self.assertIn("4.0 % marked, one in 20.0 asked (paper 25.7)", text.replace("\n", " "))
+        self.assertNotIn("109,464", text)  # rows that were not measured are left out
+
+    def test_bars(self):
+        text = self.page()
+        self.assertIn("| is met | 1.00 | <= 2 | met |", text)
+        self.assertIn("| is missed | 1.00 | >= 2 | NOT met |", text)
+        self.assertIn("- is missed: 2.00\n", text)
+        self.assertNotIn("- is met", text)
+        self.assertIn("Left out: CGAL (not found).", text)
+
+    def test_peers(self):
+        text = self.page()
+        self.assertIn("| CGAL | yes | 4 | 3 (2 float, 1 radius) | 1e-07 | 30.0 | 15.0 |  |", text)
+        self.assertIn("| riis, every distance | no | 4 | 3 (2 float, 1 radius) | 1e-07 | 8.00 | 4.00 | 1.00 |", text)
+        self.assertIn("Left out: VTK (built without VTK).", text)
+
+    def test_the_papers_tables_are_whole(self):
+        paper = report.Data(self.folder).paper
+        for valve in ("aortic", "mitral"):
+            self.assertEqual([[row[0] for row in block["rows"]] for block in paper[valve]], [[1, 2, 4, 8, 12]] * 5)
+            for block in paper[valve]:
+                for column in (1, 2):
+                    times = [row[column] for row in block["rows"]]
+                    self.assertEqual(times, sorted(times, reverse=True))
+                _, exhaustive, neighbor = block["rows"][0]
+                self.assertTrue(18 <= exhaustive / neighbor <= 28)  # "18 to 24 times faster" (4.2.3), the last row more
+
+    def test_prose_is_wrapped(self):
+        for line in self.page().splitlines():
+            if not line.startswith(("|", "!", "<!--")):
+                self.assertLessEqual(len(line), 115, line)
+
+
+class Text(unittest.TestCase):
+    def test_numbers(self):
+        cases = {0.01234: "0.012", 1.2345: "1.23", 12.345: "12.3", 123.45: "123", 1234.5: "1,234", 999.7: "1,000", 9.996: "10.0"}
+        for value, text in cases.items():
+            self.assertEqual(report_text.number(value), text)
+
+    def test_a_row_of_another_length_is_refused(self):
+        with self.assertRaises(ValueError):
+            report_text.table(["a", "b"], [["1"]])
+
+
+if __name__ == "__main__":
+    unittest.main()
