@@ -434,12 +434,14 @@ typedef struct riis_mesh riis_mesh;
  *   n_nodes   1 to 2^40
  *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
  *   stride    in doubles, >= 1: 1 for separate arrays; 3 for xyz(3,n) with y = x + 1, z = x + 2
- * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. A process without nodes has nothing to mark: do not call. */
+ * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. A process without nodes has
+ * nothing to mark: do not call. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
                                       riis_mesh **mesh);
 /* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Arguments and errors as above.
  * To be called after any change of coordinates: clusters have copies of them, and the neighbour search knows where groups of nodes are;
- * without it both seek nodes where they were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also groups them anew. */
+ * without it both seek nodes where they were. The adjacency stays if n_nodes does; for other nodes make a new handle, which also
+ * groups them anew. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride);
 /* Destroys the handle; the coordinates are the caller's and stay, and so do results. */

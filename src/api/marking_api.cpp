@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64;
 
 const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0,
-                                           RIIS_INSTRUCTIONS_AUTO, 0};
+                                        RIIS_INSTRUCTIONS_AUTO,    0};
 
 const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
 const riis_cells default_cells{sizeof(riis_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
@@ -46,7 +46,8 @@ void check_search(std::int32_t search) {
 
 riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   if (instructions < RIIS_INSTRUCTIONS_AUTO || instructions > RIIS_INSTRUCTIONS_AVX512)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.instructions is %d; it must be one of RIIS_INSTRUCTIONS_*", instructions);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.instructions is %d; it must be one of RIIS_INSTRUCTIONS_*",
+               instructions);
   if (instructions == RIIS_INSTRUCTIONS_AUTO) return riis::best_instruction_set();
   const auto set = static_cast<riis::InstructionSet>(instructions - RIIS_INSTRUCTIONS_BASELINE);
   if (!riis::has(set))
@@ -178,7 +179,10 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     require_handle(mesh, "mesh");
     require_handle(result, "result");
     const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
-    const riis::SearchRequest request{content, mesh->mesh, limit_of(whole, content.half_thickness()), whole.node_mask,
+    const riis::SearchRequest request{content,
+                                      mesh->mesh,
+                                      limit_of(whole, content.half_thickness()),
+                                      whole.node_mask,
                                       riis::threads_asked_for(whole.n_threads, "options.n_threads"),
                                       instructions_asked_for(whole.instructions)};
     check_search(whole.search);

@@ -10,7 +10,8 @@
 
 namespace riis {
 
-// In the memory of triangles that are no longer wanted. Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_SURFACE, naming the field, the face or vertex, and the value.
+// In the memory of triangles that are no longer wanted. Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_SURFACE, naming the field, the
+// face or vertex, and the value.
 TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Placement &placement, bool skip_zero_area,
                                   bool flip_normals, TriangleSet memory = {});
 
