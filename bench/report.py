@@ -131,7 +131,7 @@ def table_of_threads(data, valve):
         elif nodes in first:
             rows.append([grouped(runs["exhaustive"]["nodes"]), threads_text(data, threads)] + [number(one / t) for one, t in zip(first[nodes], times)])
     heads = ["nodes", "threads", "paper: exhaustive", "paper: neighbour", "plain: exhaustive", "plain: neighbour", "exhaustive", "neighbour", "clusters"]
-    return table(heads, rows)
+    return table(heads, rows) if rows else ""
 
 
 def table_of_other_searches(data):
@@ -205,7 +205,8 @@ def searches_section(data, image=None):
     ]
     for valve in VALVES:
         text += [f"### {valve.capitalize()} valve\n", table_of_paper(data, valve), marked_text(data, valve)]
-        text += ["How many times faster than on one thread:\n", table_of_threads(data, valve)]
+        threads = table_of_threads(data, valve)
+        text += ["How many times faster than on one thread:\n", threads] if threads else []
     text += [
         image or "",
         "### Other searches\n",
