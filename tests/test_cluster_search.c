@@ -615,6 +615,17 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
   return wrong;
 }
 
+/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards looks
+ * like a race. */
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define RIIS_TEST_MOST_NESTED 1
+#endif
+#endif
+#ifndef RIIS_TEST_MOST_NESTED
+#define RIIS_TEST_MOST_NESTED 2
+#endif
+
 static void several_callers_of_one_mesh(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -626,7 +637,7 @@ static void several_callers_of_one_mesh(void **state) {
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
   const int levels = omp_get_max_active_levels();
   for (int n_threads = 1; n_threads <= 3; ++n_threads)
-    for (int nested = 1; nested <= 2; ++nested)
+    for (int nested = 1; nested <= RIIS_TEST_MOST_NESTED; ++nested)
       for (int moved = 0; moved < 2; ++moved) {
         int n_wrong = 0;
         riis_mesh_destroy(&mesh);
