@@ -422,7 +422,7 @@ static const scenario scenarios[] = {
     {"marking again", marked_often, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
     {"marking of nodes that moved", marked_and_moved, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
     {"marking again by clusters", marked_often, mark, 1, RIIS_SEARCH_CLUSTERS, ALLOCATES_NONE},
-    {"marking of nodes that moved, by clusters", marked_and_moved, mark, 1, RIIS_SEARCH_CLUSTERS, 0},
+    {"marking of nodes that moved, by clusters", marked_and_moved, mark, 1, RIIS_SEARCH_CLUSTERS, ALLOCATES_NONE},
     {"dense arrays, 1 thread", marked_before, dense, 1, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
     {"dense arrays, 4 threads", marked_before, dense, 4, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
 };
