@@ -55,8 +55,8 @@ riis_surface_options options_of(Input &in) {
   if (in.one_in(4)) {
     options.distance = in.mostly(1 + in.below(2));
     if (in.one_in(8)) options.distance_tolerance = in.number();
-    if (in.one_in(64)) options.reserved = 1;
   }
+  if (in.one_in(4)) options.n_threads = in.n_threads();
   return options;
 }
 
