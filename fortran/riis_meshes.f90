@@ -10,7 +10,7 @@ module riis_meshes
   private
   public :: riis_mesh
 
-  !> The caller's nodes. The coordinates are borrowed, as are the rows of an adjacency: they are never copied, and must stay
+  !> The caller's nodes. The coordinates are borrowed, as are the rows of an adjacency, and must stay
   !! where they are until the mesh is destroyed or given others. So pass variables that outlive it, whole or as sections by
   !! subscript triplets, of any positive stride; TARGET is not needed. What the compiler copies for the call is gone after
   !! it, and the mesh reads what is there instead. It copies

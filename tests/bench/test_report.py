@@ -47,7 +47,11 @@ FILES = {
         "counts": {
             "nodes": 1000, "triangles": 10, "fine_triangles": 99, "marked": 30, "marked_with_0.3": 90, "asked_by_paper": 77,
         },
-        "times": {"step": {"least_ms": 1.5, "median_ms": 2, "turns": 40}},
+        "times": {
+            "step": {"least_ms": 1.5, "median_ms": 2, "turns": 40},
+            "the paper's search, every triangle, 1 thread": {"least_ms": 0.00385, "median_ms": 1, "turns": 20},
+            "the paper's search, point queries, 1 thread": {"least_ms": 0.0308, "median_ms": 1, "turns": 20},
+        },
         "bars": [
             {"name": "is met", "value": 1, "bar": 2, "kind": "at most", "met": True},
             {"name": "is missed", "value": 1, "bar": 2, "kind": "at least", "met": False},
@@ -106,6 +110,8 @@ class Page(unittest.TestCase):
         self.assertIn("| is met | 1.00 | <= 2 | met |", text)
         self.assertIn("| is missed | 1.00 | >= 2 | NOT met |", text)
         self.assertIn("- is missed: 2.00\n", text)
+        self.assertIn("at 5.00 ns a pair of a node and a triangle", text.replace("\n", " "))
+        self.assertIn("takes 400 ns here", text.replace("\n", " "))
         self.assertNotIn("- is met", text)
         self.assertIn("Left out: CGAL (not found).", text)
 
