@@ -37,10 +37,10 @@ void Collection::prepare(int n_threads) {
   if (by_thread.size() < static_cast<std::size_t>(n_threads)) by_thread.resize(static_cast<std::size_t>(n_threads));
   // Which thread finds how much differs from step to step: each gets room for twice what any had.
   std::size_t largest = 0;
-  for (const auto &found : by_thread) largest = std::max(largest, found.size());
+  for (const auto &found : by_thread) largest = std::max({largest, 2 * found.size(), found.capacity()});
   for (auto &found : by_thread) {
     found.clear();
-    found.reserve(2 * largest);
+    found.reserve(largest);
   }
 }
 
@@ -50,8 +50,9 @@ void Collection::Clustered::prepare(int n_threads) {
   // As above.
   const auto make_room = [this](auto member) {
     std::size_t largest = 0;
-    for (const Thread &thread : threads) largest = std::max(largest, (thread.*member).size());
-    for (Thread &thread : threads) (thread.*member).reserve(2 * largest);
+    for (const Thread &thread : threads)
+      largest = std::max({largest, 2 * (thread.*member).size(), (thread.*member).capacity()});
+    for (Thread &thread : threads) (thread.*member).reserve(largest);
   };
   make_room(&Thread::candidates);
   make_room(&Thread::bits);
