@@ -146,30 +146,29 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const riis::StridedPoints points{n_points, x, y, z, stride};
     riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
 
-    constexpr std::int64_t points_per_block = 512;
-    if (const riis::PatchDistance *method = content.other_distance()) {
-      riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
-        for (std::int64_t i = range.begin; i < range.end; ++i) {
-          const riis::ClosestOnPatches found = method->closest(points[i], limit);
-          if (found.patch < 0)
-            write_far(to, i, whole.far_distance);
-          else
-            write_closest(to, i, *method, found);
-        }
-      });
-      return;
-    }
     // Here, so that memory that runs out leaves the arrays alone.
     if (to.side) content.prepare_sides();
-    riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
-      for (std::int64_t i = range.begin; i < range.end; ++i) {
+    // write_found(i) is false where nothing is within the limit.
+    const auto for_each_point = [&](const auto &write_found) {
+      constexpr std::int64_t points_per_block = 512;
+      riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
+        for (std::int64_t i = range.begin; i < range.end; ++i)
+          if (!write_found(i)) write_far(to, i, whole.far_distance);
+      });
+    };
+    if (const riis::PatchDistance *method = content.other_distance()) {
+      for_each_point([&](std::int64_t i) {
+        const riis::ClosestOnPatches found = method->closest(points[i], limit);
+        if (found.patch >= 0) write_closest(to, i, *method, found);
+        return found.patch >= 0;
+      });
+    } else {
+      for_each_point([&](std::int64_t i) {
         const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
-        if (found.triangle < 0)
-          write_far(to, i, whole.far_distance);
-        else
-          write_closest(to, i, content, points[i], found);
-      }
-    });
+        if (found.triangle >= 0) write_closest(to, i, content, points[i], found);
+        return found.triangle >= 0;
+      });
+    }
   });
 }
 }
