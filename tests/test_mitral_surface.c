@@ -267,12 +267,37 @@ static void closed_leaflets_share_their_edge(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* No lines of a grid nearly coincide, for valves of many shapes: a column of quads is narrow next to a joint of the annulus, where
- * O has a kink that the tolerance asks to be resolved, and in the fans that end in a commissure, but not more than that. */
+/* The least distance of two neighbouring lines of a patch, as a share of the longer of the sides that they join. */
+static double least_step(const surface_content *c, int32_t patch, double *longer) {
+  double length_of[2] = {0, 0}, *u = malloc((size_t)c->n_triangles * 2 * sizeof *u);
+  size_t n = 0;
+  for (int64_t t = 0; t < c->n_triangles; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int64_t p = c->vertex_id[3 * t + k], q = c->vertex_id[3 * t + (k + 1) % 3];
+      const double v = c->uv[2 * p + 1];
+      if (c->patch_id[t] != patch || c->uv[2 * q + 1] != v || (v != 0 && v != 1)) continue;
+      /* One edge of a triangle at most is on a side. */
+      length_of[(int)v] += distance(c->xyz + 3 * p, c->xyz + 3 * q);
+      u[n++] = c->uv[2 * p];
+      u[n++] = c->uv[2 * q];
+    }
+  double least = 1;
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j < n; ++j)
+      if (u[j] > u[i]) least = fmin(least, u[j] - u[i]);
+  free(u);
+  *longer = fmax(length_of[0], length_of[1]);
+  return least;
+}
+
+/* No lines of a grid nearly coincide, for valves of many shapes: lines that two sides ask for are one if they are within 0.02 of the
+ * tolerance (docs/theory.md, section 2), and a line beside a joint of the annulus, where O has a kink, is only there if the tolerance
+ * asks for it. The least of 3,840 valves was 0.4. (The triangles can be flat all the same: where a leaflet's arcs meet its free edge
+ * at a small angle, the quads are sheared.) */
 static void has_no_slivers(void **state) {
   (void)state;
   random_source rng = random_start("test_mitral_surface");
-  double lowest = 1, lowest_of_fans = 1;
+  double least = 1e30;
   for (int trial = 0; trial < 60; ++trial) {
     riis_valve *valve = mitral_valve(trial % 3 == 0 ? 0 : random_between(&rng, 0, 1));
     for (int i = 0; i < 16; ++i)
@@ -282,21 +307,18 @@ static void has_no_slivers(void **state) {
     riis_surface *surface = NULL;
     CHECK_OK(riis_surface_create(valve, &options, &surface));
     const surface_content c = surface_content_of(surface);
-    for (int64_t t = 0; t < c.n_triangles; ++t) {
-      double edge[3];
-      for (int k = 0; k < 3; ++k)
-        edge[k] = distance(c.xyz + 3 * c.vertex_id[3 * t + k], c.xyz + 3 * c.vertex_id[3 * t + (k + 1) % 3]);
-      const double s = 0.5 * (edge[0] + edge[1] + edge[2]), longest = fmax(edge[0], fmax(edge[1], edge[2]));
-      const double area = sqrt(fmax(s * (s - edge[0]) * (s - edge[1]) * (s - edge[2]), 0));
-      double *of = c.patch_id[t] == 0 || c.patch_id[t] == 5 ? &lowest_of_fans : &lowest;
-      *of = fmin(*of, 2 * area / (longest * longest));
+    const double max_error = options.tolerance * info_of(surface).half_thickness;
+    for (int32_t patch = 0; patch < 10; ++patch) {
+      double longer;
+      const double step = least_step(&c, patch, &longer);
+      assert_true(longer > 0 && step < 1);
+      least = fmin(least, step * longer / max_error);
     }
     riis_surface_destroy(&surface);
     riis_valve_destroy(&valve);
   }
-  printf("lowest triangle: %.3f of its longest edge, %.4f in the commissures' fans\n", lowest, lowest_of_fans);
-  CHECK_AT_MOST(5e-4, lowest);
-  CHECK_AT_MOST(5e-4, lowest_of_fans);
+  printf("nearest lines: %.2f of the tolerance apart\n", least);
+  CHECK_AT_MOST(0.1, least);
 }
 
 /* Downstream is the ventricle: below the closed valve, and around the open one. */
