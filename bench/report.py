@@ -181,7 +181,7 @@ def sampled_text(data):
     return f"k from {every[0]} to {every[-1]} by size"
 
 
-def searches_section(data, image=None):
+def searches_section(data, images=None):
     if not data.searches:
         return missing("searches", "./run bench search")
     text = [
@@ -210,7 +210,8 @@ def searches_section(data, image=None):
         threads = table_of_threads(data, valve)
         text += ["How many times faster than on one thread:\n", threads] if threads else []
     text += [
-        image or "",
+        (images or {}).get("searches", ""),
+        (images or {}).get("threads", ""),
         "### Other searches\n",
         "Milliseconds a marking:\n",
         table_of_other_searches(data),
@@ -430,7 +431,7 @@ def peers_table(data, valve):
     return table(heads, rows)
 
 
-def peers_section(data, image=None):
+def peers_section(data, images=None):
     if not data.peers:
         return missing("peers", "./run bench peers")
     text = [
@@ -447,7 +448,7 @@ def peers_section(data, image=None):
     ]
     for valve in VALVES:
         text += [f"{valve.capitalize()} valve, {grouped(data.peers[valve]['triangles'])} triangles:\n", peers_table(data, valve)]
-    text.append(image or "")
+    text.append((images or {}).get("peers", ""))
     if data.python_peers:
         text.append(
             paragraph(
@@ -469,37 +470,119 @@ def peers_section(data, image=None):
 # -------------------------------------------------------------------------------------------------------------------- page
 
 
-def figures(data, folder):
-    """Draws what there is; the markdown of each, None for what cannot be drawn."""
-    searches = peers = None
-    if data.searches:
-        names = (("paper_exhaustive", "plain exhaustive"), ("paper_neighbor", "plain neighbour"), ("exhaustive", "exhaustive"), ("neighbor_warm", "neighbour"), ("clusters", "clusters"))
-        panels = []
-        for valve in VALVES:
-            rows = [row for row in paper_rows(data, valve) if row[1] == 1]
-            lines = [("paper, exhaustive", [(nodes, exhaustive) for nodes, _, exhaustive, _, _ in rows], "--"),
-                     ("paper, neighbour", [(nodes, neighbor) for nodes, _, _, neighbor, _ in rows], "--")]  # fmt: skip
-            lines += [(label, [(runs["exhaustive"]["nodes"], ms_of(name, runs[name]) / 1e3) for *_, runs in rows], "-") for name, label in names]
-            panels.append((f"{valve} valve, 1 thread", lines))
-        searches = figure.lines(panels, "nodes", "seconds", os.path.join(folder, "performance-searches.png"))
-    if data.peers:
-        panels = []
-        for valve in VALVES:
-            bars = {name: t["least_ms"] for part in (data.peers, data.python_peers) if part for name, t in part[valve]["times"].items()}
-            panels.append((f"{valve} valve", sorted(bars.items(), key=lambda item: -item[1])))
-        peers = figure.bars(panels, "milliseconds", os.path.join(folder, "performance-peers.png"))
+SEARCH_LINES = (
+    ("paper_exhaustive", "plain exhaustive"), ("paper_neighbor", "plain neighbour"), ("exhaustive", "exhaustive"),
+    ("neighbor_warm", "neighbour"), ("clusters", "clusters"),
+)  # fmt: skip
 
-    def markdown(name, title):
-        return f"![{title}]({name})\n"
 
-    return (
-        markdown("performance-searches.png", "Seconds of a marking by nodes, the paper's and those here, on one thread") if searches else None,
-        markdown("performance-peers.png", "Milliseconds of each peer for the same nodes") if peers else None,
-    )
+def plot_searches(data, path):
+    """Seconds by nodes, on one thread; False if it cannot be drawn."""
+    panels = []
+    for valve in VALVES:
+        rows = [row for row in paper_rows(data, valve) if row[1] == 1]
+        lines = [
+            ("paper, exhaustive", [(nodes, exhaustive) for nodes, _, exhaustive, _, _ in rows], "--"),
+            ("paper, neighbour", [(nodes, neighbor) for nodes, _, _, neighbor, _ in rows], "--"),
+        ]
+        lines += [(label, [(runs["exhaustive"]["nodes"], ms_of(name, runs[name]) / 1e3) for *_, runs in rows], "-") for name, label in SEARCH_LINES]
+        panels.append((f"{valve} valve, 1 thread", lines))
+    return bool(data.searches) and figure.lines(panels, "nodes", "seconds", path)
+
+
+def plot_threads(data, path):
+    """How many times faster than one thread, a million nodes; False if it cannot be drawn."""
+    if not data.searches or not data.machine:
+        return False
+    panels, ticks = [], [row[0] for row in data.paper[VALVES[0]][0]["rows"]]
+    for valve in VALVES:
+        block = data.paper[valve][SIZES.index(1000)]
+        runs = {threads: runs for nodes, threads, _, _, runs in paper_rows(data, valve) if nodes == block["nodes"]}
+        if 1 not in runs:
+            continue
+        lines = [
+            (label, [(row[0], block["rows"][0][column] / row[column]) for row in block["rows"]], "--")
+            for column, label in ((1, "paper, exhaustive"), (2, "paper, neighbour"))
+        ]
+        lines += [
+            (label, [(threads, ms_of(name, runs[1][name]) / ms_of(name, run[name])) for threads, run in sorted(runs.items())], "-")
+            for name, label in SEARCH_LINES
+        ]
+        lines.append(("as many times as threads", [(n, n) for n in ticks], "-"))
+        panels.append((f"{valve} valve, a million nodes", lines))
+    limit = (data.machine["machine"]["processors"], "processors here")
+    return bool(panels) and figure.lines(panels, "threads", "times faster than one thread", path, ticks, limit)
+
+
+def plot_peers(data, path):
+    """Milliseconds of each; False if it cannot be drawn."""
+    panels = []
+    for valve in VALVES:
+        bars = {name: t["least_ms"] for part in (data.peers, data.python_peers) if part for name, t in part[valve]["times"].items()}
+        panels.append((f"{valve} valve", sorted(bars.items(), key=lambda item: -item[1])))
+    return bool(data.peers) and figure.bars(panels, "milliseconds", path)
+
+
+PLOTS = (
+    ("searches", plot_searches, "Seconds of a marking by nodes, the paper's and those here, on one thread"),
+    ("threads", plot_threads, "How many times faster than one thread, the paper's searches and those here"),
+    ("peers", plot_peers, "Milliseconds of each peer for the same nodes"),
+)
+
+
+def images_for_page(data, folder):
+    """Draws what there is; the markdown of each by its name."""
+    return {
+        name: f"![{title}](performance-{name}.png)\n" for name, plot, title in PLOTS if plot(data, os.path.join(folder, f"performance-{name}.png"))
+    }
+
+
+def measured_text(data, name):
+    run = data.machine["runs"][name]
+    machine = data.machine["machine"]
+    return f"Measured {run['date']} by <code>{run['command']}</code> on {machine['CPU']}, {machine['processors']} processors, load before {run['load_before']:.1f}."
+
+
+def write_figures(data, folder):
+    """The plots for the page that riis-figures makes, and what it is to write with them: plots.json."""
+    os.makedirs(folder, exist_ok=True)
+    drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}
+    figures = []
+    if "searches" in drawn:
+        threads = [{"png": "threads.png", "caption": drawn["threads"] + "."}] if "threads" in drawn else []
+        figures.append(
+            {
+                "title": "Cost and scaling of a marking",
+                "columns": 1,
+                "panels": [{"png": "searches.png", "caption": drawn["searches"] + "."}, *threads],
+                "caption": "Dashed, the paper's own seconds, from its tables, on its machine. <i>Plain</i>: its two algorithms, the "
+                "distance to every triangle, written plainly and run here. The others are this library's searches, which mark the "
+                "same nodes: exhaustive, neighbour and clusters. Tolerance 5 %, half thickness 0.1 cm. More threads than processors "
+                "are oversubscribed, which no search can gain by. " + measured_text(data, "searches"),
+                "paper": "tables <i>Scaling of mesh traversal functions</i> of the aortic and of the mitral valve (section 4.2.3).",
+            }
+        )
+    if "peers" in drawn:
+        figures.append(
+            {
+                "title": "Other libraries",
+                "columns": 1,
+                "panels": [{"png": "peers.png", "caption": drawn["peers"] + "."}],
+                "caption": f"{grouped(data.peers['aortic']['nodes'])} nodes, one thread, the same triangles. "
+                "docs/performance.md has who is asked within the half thickness only, and which nodes are marked differently. "
+                + measured_text(data, "peers"),
+                "paper": "nothing: it compares with itself only.",
+            }
+        )
+    path = os.path.join(folder, "plots.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump({"figures": figures}, file, indent=2)
+        file.write("\n")
+    print(f"==> left: {path}, {len(figures)} figures")
 
 
 def page(data, folder):
-    of_searches, of_peers = figures(data, folder)
+    images = images_for_page(data, folder)
     sections = [
         "# Performance\n",
         "<!-- Made by bench/report.py (./run bench) from out/bench/*.json: edit the prose there. -->\n",
@@ -509,7 +592,7 @@ def page(data, folder):
             "only worth something where nothing else runs: the load before is that of the last minute."
         ),
         machine_section(data),
-        "## The paper's tables\n", searches_section(data, of_searches),
+        "## The paper's tables\n", searches_section(data, images),
         "## What the neighbour search costs once\n", once_section(data),
         "## Stage by stage\n", stages_section(data),
         "## A time step\n", marking_section(data),
@@ -517,7 +600,7 @@ def page(data, folder):
     ]  # fmt: skip
     if data.accuracy is not None:
         sections += [accuracy_section(data.accuracy)]
-    sections += ["## Others\n", peers_section(data, of_peers)]
+    sections += ["## Others\n", peers_section(data, images)]
     return "\n".join(section.rstrip("\n") + "\n" for section in sections)
 
 
@@ -526,8 +609,12 @@ def main(arguments):
     parser.add_argument("--data", default=os.path.join("out", "bench"), help="the folder of the JSON (%(default)s)")
     parser.add_argument("--page", default=os.path.join("docs", "performance.md"), help="the page to write (%(default)s)")
     parser.add_argument("--print", choices=("search", "marking", "peers"), help="print that section in place of writing the page")
+    parser.add_argument("--figures", metavar="FOLDER", help="only draw the plots of the figures' page there, with plots.json for it")
     options = parser.parse_args(arguments)
     data = Data(options.data)
+    if options.figures:
+        write_figures(data, options.figures)
+        return 0
     if options.print:
         print({"search": searches_section, "marking": marking_section, "peers": peers_section}[options.print](data))
         return 0

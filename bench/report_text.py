@@ -54,11 +54,13 @@ class figure:
         return True
 
     @staticmethod
-    def lines(panels, across, up, path):
+    def lines(panels, across, up, path, ticks=None, limit=None):
+        """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those across,
+        in place of powers of ten. limit: where across something ends, and what: (at, text)."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False
-        plot, axes = pyplot.subplots(1, len(panels), figsize=(8.5, 3.6), sharey=True, layout="constrained")
+        plot, ((*axes,),) = pyplot.subplots(1, len(panels), figsize=(8.5, 3.6), sharey=True, squeeze=False, layout="constrained")
         for axis, (title, lines) in zip(axes, panels):
             for index, (label, points, style) in enumerate(lines):
                 if not points:
@@ -66,6 +68,13 @@ class figure:
                 axis.loglog(*zip(*points), style, marker="o", markersize=3, linewidth=1, color=f"C{index}", label=label)
             axis.set(title=title, xlabel=across)
             axis.grid(True, which="major", linewidth=0.3)
+            if ticks:
+                for ruler in (axis.xaxis, axis.yaxis):
+                    ruler.set_major_locator(pyplot.FixedLocator(ticks))
+                    ruler.set_major_formatter("{x:g}")
+                    ruler.set_minor_locator(pyplot.NullLocator())
+            if limit:
+                axis.axvline(limit[0], color="0.5", linewidth=0.8, linestyle=":", label=limit[1])
         axes[0].set_ylabel(up)
         if axes[-1].get_legend_handles_labels()[1]:
             axes[-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1, 0.5))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures FILE.html: draws the geometry, the paper's figures of it first, into one page.
+// riis-figures FILE.html [PLOTS.json]: draws the geometry, the paper's figures of it first, into one page, and puts the plots that
+// the JSON names behind them.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "api/errors.hpp"
 #include "figures/figures.hpp"
+#include "figures/given_figures.hpp"
 #include "figures/shapes.hpp"
 #include "figures/text.hpp"
 #include "vtk/display.hpp"
@@ -33,9 +35,10 @@ std::string parameter_tables() {
   return html + "</section>\n";
 }
 
-void draw_page(const std::string &path, const riis::vtk::CaughtOutput &caught) {
+void draw_page(const std::string &path, const char *plots, const riis::vtk::CaughtOutput &caught) {
   const riis::vtk::HeldDisplay display;
   begin_page(path);
+  const std::vector<Figure> given = plots ? read_figures(plots) : std::vector<Figure>{};
   std::vector<Figure> figures;
   for (Figure (*draw)() : {bezier_figure, coons_figure, aortic_valve_figure, aortic_cusp_figure, mitral_curves_figure,
                            mitral_surfaces_figure, mitral_quads_figure, marking_figure, tolerance_figure,
@@ -45,20 +48,21 @@ void draw_page(const std::string &path, const riis::vtk::CaughtOutput &caught) {
     std::printf("figure %zu: %s\n", figures.size(), figures.back().title.c_str());
     std::fflush(stdout);
   }
+  figures.insert(figures.end(), given.begin(), given.end());
   write_page(path, figures, parameter_tables());
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: riis-figures FILE.html\n");
+  if (argc != 2 && argc != 3) {
+    std::fprintf(stderr, "usage: riis-figures FILE.html [PLOTS.json]\n");
     return 2;
   }
   try {
     const riis::FloatEnvironment environment;
     const riis::vtk::CaughtOutput caught;
-    draw_page(argv[1], caught);
+    draw_page(argv[1], argc == 3 ? argv[2] : nullptr, caught);
     return 0;
   } catch (const riis::Error &error) {
     std::fprintf(stderr, "riis-figures: %s\n", error.text);

@@ -16,7 +16,7 @@ constexpr const char *head = R"(<!DOCTYPE html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>riis: the geometry in figures</title>
+<title>riis in figures</title>
 <style>
 body { font: 16px/1.5 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; color: #222; background: #fff;
        max-width: 1240px; margin: 0 auto; padding: 1.5em; }
@@ -106,12 +106,13 @@ void begin_page(const std::string &path) {
 
 void write_page(const std::string &path, const std::vector<Figure> &figures, const std::string &appendix) {
   std::ofstream out(path, std::ios::binary);
-  out << head << "<h1>riis: the geometry in figures</h1>\n"
+  out << head << "<h1>riis in figures</h1>\n"
       << "<p>Every picture and every number on this page is computed by riis " << riis_version_string()
       << " itself: by the code that marks nodes, with the parameters of B. van der Vuurst, J. Kosinka and C. "
          "Bertoglio, "
          "<i>Fast generation of 3D flow obstacles from parametric surface models: application to cardiac valves</i> "
-         "(2025), “the paper”. Lengths are centimetres. The <i>tolerance</i> is the share of the half thickness, 0.1 "
+         "(2025), “the paper”; only what is called the paper's own time is not. Lengths are centimetres. The "
+         "<i>tolerance</i> is the share of the half thickness, 0.1 "
          "cm, "
          "by which distances to the triangles may differ from distances to the smooth surface: 5 % stands for 0.005 cm."
          "</p>\n<nav><ol>\n";

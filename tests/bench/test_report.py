@@ -8,6 +8,7 @@ import os
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
 import report
@@ -40,7 +41,9 @@ FILES = {
             "CPU": "A processor", "processors": 1, "caches": "L1 1K", "memory": "1 kB", "architecture": "x", "system": "y",
             "versions": {"Embree": "3.99"},
         },
-        "runs": {"searches": {"date": "2026-01-02 03:04 UTC", "command": "./run bench", "load_before": 0.25}},
+        "runs": dict.fromkeys(
+            ("searches", "peers"), {"date": "2026-01-02 03:04 UTC", "command": "./run bench", "load_before": 0.25}
+        ),
     },
     "searches": {"benchmarks": searches(1, 1) + searches(2, 1.6)},
     "marking": {
@@ -120,6 +123,41 @@ class Page(unittest.TestCase):
         self.assertIn("| CGAL | yes | 4 | 3 (2 float, 1 radius) | 1e-07 | 30.0 | 15.0 |  |", text)
         self.assertIn("| riis, every distance | no | 4 | 3 (2 float, 1 radius) | 1e-07 | 8.00 | 4.00 | 1.00 |", text)
         self.assertIn("Left out: VTK (built without VTK).", text)
+
+    def test_figures_of_the_plots(self):
+        """What is drawn and written for the page of figures; who draws is replaced: there may be no matplotlib."""
+        self.page()
+        drawn = {}
+
+        def draw(panels, *words):
+            drawn[os.path.basename(next(word for word in words if str(word).endswith(".png")))] = panels
+            return True
+
+        folder = os.path.join(self.folder, "plots")
+        with contextlib.redirect_stdout(io.StringIO()), unittest.mock.patch.multiple(report.figure, lines=draw, bars=draw):
+            self.assertEqual(report.main(["--data", self.folder, "--figures", folder]), 0)
+        with open(os.path.join(folder, "plots.json"), encoding="utf-8") as file:
+            figures = json.load(file)["figures"]
+        self.assertEqual([[panel["png"] for panel in each["panels"]] for each in figures], [["searches.png", "threads.png"], ["peers.png"]])
+        self.assertEqual(sorted(drawn), ["peers.png", "searches.png", "threads.png"])
+        self.assertIn("2026-01-02 03:04 UTC by <code>./run bench</code> on A processor, 1 processors", figures[0]["caption"])
+
+        seconds = {label: points for label, points, _ in drawn["searches.png"][0][1]}
+        self.assertEqual(seconds["paper, exhaustive"], [(1006781, 307.133)])
+        self.assertEqual(seconds["clusters"], [(1e6, 0.005)])
+        ((title, lines),) = drawn["threads.png"]  # the mitral valve was not measured
+        times = {label: points for label, points, _ in lines}
+        self.assertIn("aortic", title)
+        self.assertEqual(times["plain exhaustive"], [(1, 1), (2, 1.6)])
+        self.assertEqual(times["paper, neighbour"][-1], (12, 11.95 / 2.035))
+        self.assertEqual(drawn["peers.png"][1][1][0], ("CGAL", 30))
+
+    def test_no_plot_without_times(self):
+        self.page(())
+        with contextlib.redirect_stdout(io.StringIO()):
+            report.main(["--data", self.folder, "--figures", self.folder])
+        with open(os.path.join(self.folder, "plots.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file), {"figures": []})
 
     def test_the_papers_tables_are_whole(self):
         paper = report.Data(self.folder).paper

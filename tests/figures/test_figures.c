@@ -26,9 +26,24 @@ static int run_program(const char *arguments) {
   return WEXITSTATUS(status);
 }
 
+/* The same with plots of that JSON behind the figures. */
+static int run_with_plots(const char *name, const char *json) {
+  char arguments[1024];
+  scratch_write("plots.json", json, strlen(json));
+  const int n = snprintf(arguments, sizeof arguments, "%s ", scratch_path(name));
+  snprintf(arguments + n, sizeof arguments - (size_t)n, "%s", scratch_path("plots.json"));
+  return run_program(arguments);
+}
+
 static int draw_page(void **state) {
   scratch_setup(state);
-  if (run_program(scratch_path("figures.html")) != 0) {
+  const char plots[] =
+      "{\"figures\": [{\"title\": \"Costs\", \"columns\": 2, \"caption\": \"All of them.\", \"paper\": \"a table\", "
+      "\"panels\":"
+      " [{\"png\": \"" RIIS_TEST_PICTURE
+      "\", \"caption\": \"first\"},"
+      " {\"png\": \"" RIIS_TEST_PICTURE "\", \"caption\": \"second\"}]}]}";
+  if (run_with_plots("figures.html", plots) != 0) {
     fprintf(stderr, "%s\n", scratch_read(scratch_path("printed"), NULL));
     return -1;
   }
@@ -107,7 +122,7 @@ static void test_every_figure(void **state) {
     if (n_pictures < 4) fail_msg("figure %d has %d pictures", i, n_pictures);
   }
   char beyond[64];
-  snprintf(beyond, sizeof beyond, "<section id=\"figure-%d\">", n_figures + 1);
+  snprintf(beyond, sizeof beyond, "<section id=\"figure-%d\">", n_figures + 2); /* one is given */
   assert_null(strstr(page, beyond));
 }
 
@@ -123,6 +138,49 @@ static void test_page_stands_alone(void **state) {
   assert_non_null(strstr(page, "</html>"));
 }
 
+/* Figures that are drawn elsewhere stand behind the others. */
+static void test_given_figures(void **state) {
+  (void)state;
+  char start[64];
+  snprintf(start, sizeof start, "<section id=\"figure-%d\">", n_figures + 1);
+  const char *section = strstr(page, start);
+  assert_non_null(section);
+  const char *end = strstr(section, "</section>");
+  assert_non_null(find(section, end, "Costs</h2>"));
+  assert_non_null(find(section, end, "All of them."));
+  const char *first = find(section, end, "<img "), *second = find(first + 1, end, "<img ");
+  assert_non_null(second);
+  assert_non_null(find(second, end, "second</figcaption>"));
+  expect_picture(first, end);
+  expect_picture(second, end);
+}
+
+/* What is wrong with them is said before anything is drawn. */
+static void test_given_figures_refused(void **state) {
+  (void)state;
+  const struct {
+    const char *json, *text;
+  } wrong[] = {
+      {"{", "plots.json: "},
+      {"{}", "plots.json: "},
+      {"{\"figures\": [{\"title\": 3}]}", "plots.json: "},
+      {"{\"figures\": [{\"title\": \"\", \"columns\": 0, \"caption\": \"\", \"paper\": \"\", \"panels\": []}]}",
+       "plots.json: columns = 0 is not 1 to 4"},
+      {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
+       " [{\"png\": \"none.png\", \"caption\": \"\"}]}]}",
+       "none.png: cannot be read"},
+      {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
+       " [{\"png\": \"plots.json\", \"caption\": \"\"}]}]}",
+       "plots.json: no PNG"}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    assert_int_equal(run_with_plots("wrong.html", wrong[i].json), 1);
+    char *printed = scratch_read(scratch_path("printed"), NULL);
+    if (!strstr(printed, wrong[i].text)) fail_msg("%s: '%s' is not in '%s'", wrong[i].json, wrong[i].text, printed);
+    assert_null(strstr(printed, "figure 1"));
+    free(printed);
+  }
+}
+
 static void test_refusals(void **state) {
   (void)state;
   assert_int_equal(run_program(""), 2);
@@ -136,8 +194,8 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_figure),
-      cmocka_unit_test(test_page_stands_alone),
+      cmocka_unit_test(test_every_figure),  cmocka_unit_test(test_page_stands_alone),
+      cmocka_unit_test(test_given_figures), cmocka_unit_test(test_given_figures_refused),
       cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, draw_page, remove_page);
