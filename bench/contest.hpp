@@ -57,7 +57,8 @@ struct RatioBar {
 class Bars {
  public:
   void add(const std::string &name, double value, Wanted wanted, double bar);
-  void add(const Contest &contest, const RatioBar &ratio);
+  // The ratio counts scale times.
+  void add(const Contest &contest, const RatioBar &ratio, double scale = 1);
 
   void print() const;
   nlohmann::json json() const;
