@@ -49,8 +49,12 @@ class Data:
             raise SystemExit(f"report.py: {path}: ended early: {failed}")
         return times
 
+    def run(self, name):
+        """When, by which command and under which load it was measured; None if that is not known."""
+        return ((self.machine or {}).get("runs") or {}).get(name)
+
     def when(self, name):
-        run = ((self.machine or {}).get("runs") or {}).get(name)
+        run = self.run(name)
         if not run:
             return ""
         return paragraph(f"Measured {run['date']} by `{run['command']}`; the load of the machine before was {run['load_before']:.1f}.")
@@ -328,6 +332,25 @@ def query_ns(data):
     return 1e6 * least / data.marking["counts"]["asked_by_paper"]
 
 
+def floor_text(data):
+    """What of a step the bars that are not met would leave, and what its parts take: by the shares of design_steps.json."""
+    least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
+    step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
+    queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
+    if not all((step, fine, queries, cgal)):
+        return ""
+    share = {name: [part[name] / 100 for part in data.design["profile"]] for name in ("coarse", "fine")}
+    filtered, needed = share["coarse"][0] * step, sum(share["coarse"][:2]) * step
+    fine_ratio = fine / least["step, 2 threads"]
+    without = fine_ratio * (1 - share["fine"][-1]) / (1 - share["coarse"][-1])
+    return paragraph(
+        f"*Where the floor is.* By these shares the filter takes {filtered:.1f} of the step's {step:.1f} ms on one thread, and with the "
+        f"decision {needed:.1f}: that is what it takes to know the distance and the triangle of every node near the band. A ratio of 10 to "
+        f"point queries would leave a whole step {queries / 10:.1f} ms, one of 45 to CGAL {cgal / 45:.1f} ms. Fine triangles take "
+        f"{fine_ratio:.1f} times as long; were surfaces for nothing, it would be {without:.1f} times."
+    )
+
+
 def design_section(data):
     """What changes of the design bought, and where the time of a step is: measured once, kept in design_steps.json."""
     if not data.marking:
@@ -354,6 +377,7 @@ def design_section(data):
             "any call that its manual has (`bench/cgal_reference.hpp`). *Fine triangles* are fifteen times as many, each of which is "
             "made, grouped and enclosed in every step; and their groups are smaller than leaves, so that more of them are near each."
         ),
+        floor_text(data),
     ])
 
 
@@ -539,7 +563,10 @@ def images_for_page(data, folder):
 
 
 def measured_text(data, name):
-    run = data.machine["runs"][name]
+    """As Data.when, in HTML, with the machine, which has no table there."""
+    run = data.run(name)
+    if not run:
+        return ""
     machine = data.machine["machine"]
     return f"Measured {run['date']} by <code>{run['command']}</code> on {machine['CPU']}, {machine['processors']} processors, load before {run['load_before']:.1f}."
 

@@ -52,6 +52,10 @@ FILES = {
         },
         "times": {
             "step": {"least_ms": 1.5, "median_ms": 2, "turns": 40},
+            "step, 1 thread": {"least_ms": 2, "median_ms": 2, "turns": 40},
+            "step, 2 threads": {"least_ms": 1, "median_ms": 2, "turns": 40},
+            "step, 2 threads, fine triangles": {"least_ms": 3, "median_ms": 3, "turns": 40},
+            "CGAL, every node, 1 thread": {"least_ms": 63, "median_ms": 63, "turns": 20},
             "the paper's search, every triangle, 1 thread": {"least_ms": 0.00385, "median_ms": 1, "turns": 20},
             "the paper's search, point queries, 1 thread": {"least_ms": 0.0308, "median_ms": 1, "turns": 20},
         },
@@ -115,6 +119,7 @@ class Page(unittest.TestCase):
         self.assertIn("- is missed: 2.00\n", text)
         self.assertIn("at 5.00 ns a pair of a node and a triangle", text.replace("\n", " "))
         self.assertIn("takes 400 ns here", text.replace("\n", " "))
+        self.assertIn("one of 45 to CGAL 1.4 ms. Fine triangles take 3.0 times as long", text.replace("\n", " "))
         self.assertNotIn("- is met", text)
         self.assertIn("Left out: CGAL (not found).", text)
 
