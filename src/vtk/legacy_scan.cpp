@@ -74,6 +74,8 @@ bool is_number(std::string_view word, const std::string &type) {
   return error == std::errc() && end == last && value <= most && value >= -most - 1;
 }
 
+bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
+
 class Scan {
  public:
   Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
@@ -208,21 +210,27 @@ class Scan {
     if (width > 0 && n > n_bits_left() / width) refuse_end();
     skip_values(n * width, type);
     std::string_view behind = rest_;
-    if (lower_case(take_word(behind)) != "metadata") return;
+    if (!begins_with(lower_case(take_word(behind)), "metadata")) return;
     rest_ = behind;
     skip_metadata(width);
   }
 
   // A block of METADATA behind its keyword: it ends with a blank line. Names of components, though, have a line each, a
-  // blank one where a component has no name.
+  // blank one where a component has no name. Of keywords VTK looks at the beginning only: INFORMATION8 1 promises 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
       std::string_view text = line();
-      const std::string keyword = lower_case(take_word(text));
+      const std::string_view word = take_word(text);
+      const std::string keyword = lower_case(word);
       if (keyword.empty()) return;
-      if (keyword == "information") return skip_information(number_of(take_word(text)));
-      for (std::int64_t i = 0; keyword == "component_names" && i < n_components && !rest_.empty(); ++i) line();
+      constexpr std::string_view information = "information";
+      if (begins_with(keyword, information)) {
+        text = {word.data() + information.size(), word.size() - information.size() + text.size()};
+        return skip_information(number_of(take_word(text)));
+      }
+      const bool are_names = begins_with(keyword, "component_names");
+      for (std::int64_t i = 0; are_names && i < n_components && !rest_.empty(); ++i) line();
     }
   }
 
@@ -245,6 +253,10 @@ class Scan {
           refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' in the place of DATA");
         skip_data(key, text);
         key = nullptr;
+      } else if (const std::string lower = lower_case(keyword);
+                 begins_with(lower, "information") || begins_with(lower, "component_names")) {
+        // VTK would begin anew there.
+        refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' behind INFORMATION");
       }
     }
     if (n_found != n_keys || key)
