@@ -99,8 +99,13 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // In lower case, since the format does not distinguish; empty at the end.
-  std::string word() { return lower_case(take_word(rest_)); }
+  // In lower case, since the format does not distinguish; empty at the end. VTK takes what is longer for two words.
+  std::string word() {
+    constexpr std::size_t longest = 255;
+    const std::string_view text = take_word(rest_);
+    if (text.size() > longest) refuse("has a word of " + std::to_string(text.size()) + " characters, more than 255");
+    return lower_case(text);
+  }
 
   // A word that must be there.
   std::string next() {
@@ -303,7 +308,10 @@ class Scan {
     next();
     const std::int64_t n_arrays = count();
     for (std::int64_t i = 0; i < n_arrays; ++i) {
-      if (next() == "null_array") continue;
+      std::string_view name = rest_;
+      name = take_word(name);
+      next();
+      if (name == "NULL_ARRAY") continue;  // in capitals only
       const std::int64_t width = count();
       const std::int64_t n = count();
       skip_tuples(n, width, next());

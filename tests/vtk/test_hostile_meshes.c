@@ -254,6 +254,37 @@ static void test_endless_information(void **state) {
   }
 }
 
+/* Names as VTK reads them: the absent array's is in capitals, and what is longer than 255 characters is two words to it. */
+static void test_names_of_arrays(void **state) {
+  (void)state;
+  char longest[256], too_long[257];
+  memset(longest, 'n', sizeof longest);
+  memset(too_long, 'n', sizeof too_long);
+  longest[255] = too_long[256] = '\0';
+  const struct {
+    const char *name, *text;
+  } cases[] = {{"NULL_ARRAY b", NULL},
+               {"Null_Array", NULL},
+               {"NULL_ARRAY", "has 'int' for a number"},
+               {longest, NULL},
+               {too_long, "has a word of 256 characters, more than 255"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n0 0 0\nCELLS 1 2\n1 0\n"
+             "CELL_TYPES 1\n1\nPOINT_DATA 1\nFIELD FieldData %d\n%s 1 1 int\n7\n",
+             i == 0 || i == 2 ? 2 : 1, cases[i].name);
+    scratch_write_text("names.vtk", text);
+    if (cases[i].text) {
+      expect_file_error("names.vtk", cases[i].text);
+    } else {
+      riis_vtk_mesh *mesh = NULL;
+      expect_fine(read_mesh("names.vtk", &mesh));
+      riis_vtk_mesh_destroy(&mesh);
+    }
+  }
+}
+
 /* VTK closes a file at a word that is no number of its type, and reads on. */
 static void test_words_for_numbers(void **state) {
   (void)state;
@@ -295,11 +326,11 @@ static void test_truncated(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_not_files),         cmocka_unit_test(test_unreadable),
-      cmocka_unit_test(test_other_content),     cmocka_unit_test(test_promises),
-      cmocka_unit_test(test_broken_cells),      cmocka_unit_test(test_not_a_number_passes),
-      cmocka_unit_test(test_truncated),         cmocka_unit_test(test_endless_information),
-      cmocka_unit_test(test_words_for_numbers),
+      cmocka_unit_test(test_not_files),       cmocka_unit_test(test_unreadable),
+      cmocka_unit_test(test_other_content),   cmocka_unit_test(test_promises),
+      cmocka_unit_test(test_broken_cells),    cmocka_unit_test(test_not_a_number_passes),
+      cmocka_unit_test(test_truncated),       cmocka_unit_test(test_endless_information),
+      cmocka_unit_test(test_names_of_arrays), cmocka_unit_test(test_words_for_numbers),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }
