@@ -9,6 +9,7 @@
 #include <map>
 #include <string_view>
 
+#include <vtkCellType.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerVectorKey.h>
@@ -76,6 +77,38 @@ bool is_number(std::string_view word, const std::string &type) {
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
+// Whole numbers one behind another, which the scan has been past already: they are there, and they are numbers.
+class Numbers {
+ public:
+  // size: bytes of each in a binary file, 4 or 8; 0 in an ASCII file.
+  Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
+
+  std::int64_t next() {
+    if (size_ == 0) {
+      const std::string_view word = take_word(rest_);
+      std::int64_t n = 0;
+      std::from_chars(word.data() + (word[0] == '+'), word.data() + word.size(), n);
+      return n;
+    }
+    std::uint64_t bits = 0;
+    for (int i = 0; i < size_; ++i) bits = bits << 8 | static_cast<unsigned char>(rest_[static_cast<std::size_t>(i)]);
+    rest_.remove_prefix(static_cast<std::size_t>(size_));
+    return size_ == 4 ? static_cast<std::int32_t>(bits) : static_cast<std::int64_t>(bits);
+  }
+
+  void skip(std::int64_t n) {
+    if (size_ == 0) {
+      for (std::int64_t i = 0; i < n; ++i) take_word(rest_);
+    } else {
+      rest_.remove_prefix(static_cast<std::size_t>(n * size_));
+    }
+  }
+
+ private:
+  std::string_view rest_;
+  int size_;
+};
+
 class Scan {
  public:
   Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
@@ -90,6 +123,7 @@ class Scan {
       refuse("has " + std::to_string(std::max<std::int64_t>(n_types_, 0)) + " types for " + std::to_string(n_cells_) +
              " cells" + (n_types_ < 0 ? " (is it truncated?)" : ""));
     }
+    if (has_polyhedra()) check_polyhedra();
     return n_cells_;
   }
 
@@ -288,12 +322,15 @@ class Scan {
     if (keyword == "field") {
       field();
     } else if (keyword == "points") {
-      const std::int64_t n = count();
-      skip_tuples(n, 3, next());
+      n_points_ = count();
+      skip_tuples(n_points_, 3, next());
     } else if (keyword == "cells") {
+      if (n_cells_ >= 0) refuse("has CELLS twice");
       cells();
     } else if (keyword == "cell_types") {
+      if (n_types_ >= 0) refuse("has CELL_TYPES twice");
       n_types_ = count();
+      types_ = values_behind_line();
       skip_values(n_types_, "int");
     } else if (keyword == "point_data" || keyword == "cell_data") {
       n_tuples_ = count();
@@ -326,9 +363,14 @@ class Scan {
       n_cells_ = std::max<std::int64_t>(first - 1, 0);
       if (first == 0) return;
       if (next() != "offsets") refuse("has CELLS without OFFSETS");
-      skip_tuples(first, 1, next());
+      type_of_offsets_ = next();
+      offsets_ = values_behind_line();
+      skip_tuples(first, 1, type_of_offsets_);
       if (next() != "connectivity") refuse("has cell offsets without CONNECTIVITY");
-      skip_tuples(second, 1, next());
+      n_corners_ = second;
+      type_of_corners_ = next();
+      corners_ = values_behind_line();
+      skip_tuples(second, 1, type_of_corners_);
     } else {
       n_cells_ = first;
       counted_cells(first, second);
@@ -338,6 +380,7 @@ class Scan {
   // Up to version 4: each cell's number of corners, then its corners; n_values of both.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
     line();
+    corners_ = rest_;
     std::int64_t n_left = n_values;
     for (std::int64_t i = 0; i < n_cells; ++i) {
       const std::int64_t n_corners = binary_ ? binary_int() : number_of(next());
@@ -347,6 +390,71 @@ class Scan {
       binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners, "int");
     }
     if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");
+  }
+
+  // The values of an array whose type was read last: they begin on the next line.
+  std::string_view values_behind_line() const {
+    std::string_view values = rest_;
+    take_line(values);
+    return values;
+  }
+
+  Numbers numbers(std::string_view values, const std::string &type) const {
+    const int size = size_of_type(type);
+    if (size < 4 || type == "float" || type == "double") refuse("has polyhedra, and cells of type " + type);
+    return {values, binary_ ? size : 0};
+  }
+
+  // VTK, too, has a byte for each.
+  bool has_polyhedra() const {
+    Numbers types = numbers(types_, "int");
+    for (std::int64_t i = 0; i < n_types_; ++i)
+      if ((types.next() & 255) == VTK_POLYHEDRON) return true;
+    return false;
+  }
+
+  // VTK follows the faces of polyhedra as it reads them, wherever that leads.
+  void check_polyhedra() const {
+    Numbers types = numbers(types_, "int"), corners = numbers(corners_, type_of_corners_);
+    Numbers offsets = numbers(offsets_, type_of_offsets_);
+    std::int64_t offset = version_ >= 5 ? offsets.next() : 0;
+    if (offset != 0) refuse("has broken cell offsets");
+    for (std::int64_t i = 0; i < n_cells_; ++i) {
+      std::int64_t n = 0;
+      if (version_ >= 5) {
+        const std::int64_t next = offsets.next();
+        if (next < offset || next > n_corners_) refuse("has broken cell offsets");
+        n = next - offset;
+        offset = next;
+      } else {
+        n = corners.next();
+      }
+      if ((types.next() & 255) == VTK_POLYHEDRON)
+        check_polyhedron(i, n, corners);
+      else
+        corners.skip(n);
+    }
+  }
+
+  // Of n numbers: that of its faces, and for each face that of its points and these.
+  void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
+    const auto broken = [&] { refuse("cell " + std::to_string(cell) + " has broken polyhedron faces"); };
+    if (n < 1) broken();
+    std::int64_t n_left = n - 1;
+    const std::int64_t n_faces = corners.next();
+    for (std::int64_t face = 0; face < n_faces; ++face) {
+      if (n_left < 1) broken();
+      const std::int64_t n_points = corners.next();
+      if (n_points < 0 || n_points > --n_left) broken();
+      n_left -= n_points;
+      for (std::int64_t i = 0; i < n_points; ++i) {
+        const std::int64_t point = corners.next();
+        if (point < 0 || point >= n_points_)
+          refuse("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
+                 std::to_string(n_points_));
+      }
+    }
+    if (n_faces < 0 || n_left != 0) broken();
   }
 
   std::int32_t binary_int() {
@@ -408,6 +516,11 @@ class Scan {
   bool binary_ = false;
   std::int64_t n_cells_ = -1;  // unknown
   std::int64_t n_types_ = -1;
+  std::int64_t n_points_ = 0;
+  // Where they begin. Up to version 4 each cell's corners are behind their number, which is no offset then.
+  std::string_view types_, offsets_, corners_;
+  std::string type_of_offsets_ = "int", type_of_corners_ = "int";
+  std::int64_t n_corners_ = 0;
   std::int64_t n_tuples_ = 0;  // of the arrays of the POINT_DATA or CELL_DATA that the scan is in
 };
 

@@ -285,6 +285,92 @@ static void test_names_of_arrays(void **state) {
   }
 }
 
+/* Whole numbers of a text, as they are or as four bytes each, the first one first; returns how many bytes. */
+static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
+  if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
+  size_t n = 0;
+  for (char *rest; *numbers; numbers = rest) {
+    const uint32_t value = (uint32_t)strtol(numbers, &rest, 10);
+    for (int byte = 3; byte >= 0; --byte) to[n++] = (unsigned char)(value >> (8 * byte));
+  }
+  to[n++] = '\n';
+  return n;
+}
+
+/* VTK follows the faces of polyhedra as it reads them. As text and in bytes, by counts and, from version 5 on, by offsets; type 298 is
+ * 42 in a byte. */
+static void test_polyhedra(void **state) {
+  (void)state;
+  const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";
+  const struct {
+    const char *faces;
+    int type;
+    const char *text;
+  } cases[] = {{tetrahedron, 42, NULL},
+               {tetrahedron, 298, NULL},
+               {"4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 4", 42, "cell 1 names point 4 of 4"},
+               {"4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 -1", 42, "cell 1 names point -1 of 4"},
+               {"4 3 0 1 2 3 0 1 3 3 0 2 3 4 1 2 3", 42, "cell 1 has broken polyhedron faces"},
+               {"4 3 0 1 2 3 0 1 3 3 0 2 3 2 1 2 3", 42, "cell 1 has broken polyhedron faces"},
+               {"5 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3", 42, "cell 1 has broken polyhedron faces"},
+               {"3 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3", 298, "cell 1 has broken polyhedron faces"},
+               {"-1 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3", 42, "cell 1 has broken polyhedron faces"},
+               {"2147483647 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3", 42, "cell 1 has broken polyhedron faces"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+    for (int form = 0; form < 3; ++form) {
+      const int is_binary = form == 1, has_offsets = form == 2;
+      unsigned char bytes[2048];
+      size_t n =
+          (size_t)sprintf((char *)bytes, "# vtk DataFile Version %s\nx\n%s\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 int\n",
+                          has_offsets ? "5.1" : "3.0", is_binary ? "BINARY" : "ASCII");
+      const char *numbers = "0 0 0 1 0 0 0 1 0 0 0 1";
+      char cells[256], types[32];
+      snprintf(cells, sizeof cells, has_offsets ? "0 1 2 3 %s" : "4 0 1 2 3 17 %s", cases[i].faces);
+      snprintf(types, sizeof types, "10 %d", cases[i].type);
+      n += put_numbers(bytes + n, numbers, is_binary);
+      if (has_offsets)
+        n +=
+            (size_t)sprintf((char *)bytes + n, "CELLS 3 21\nOFFSETS vtktypeint64\n0 4 21\nCONNECTIVITY vtktypeint64\n");
+      else
+        n += (size_t)sprintf((char *)bytes + n, "CELLS 2 23\n");
+      n += put_numbers(bytes + n, cells, is_binary);
+      n += (size_t)sprintf((char *)bytes + n, "CELL_TYPES 2\n");
+      n += put_numbers(bytes + n, types, is_binary);
+      scratch_write("polyhedra.vtk", bytes, n);
+      if (cases[i].text) {
+        expect_file_error("polyhedra.vtk", cases[i].text);
+      } else {
+        riis_vtk_mesh *mesh = NULL;
+        expect_fine(read_mesh("polyhedra.vtk", &mesh));
+        riis_vtk_mesh_destroy(&mesh);
+      }
+    }
+}
+
+static void test_cells_of_polyhedra(void **state) {
+  (void)state;
+  const struct {
+    const char *cells, *text;
+  } cases[] = {
+      {"CELLS 3 21\nOFFSETS vtktypeint64\n0 22 21\nCONNECTIVITY vtktypeint64\n", "has broken cell offsets"},
+      {"CELLS 3 21\nOFFSETS vtktypeint64\n1 4 21\nCONNECTIVITY vtktypeint64\n", "has broken cell offsets"},
+      {"CELLS 3 21\nOFFSETS vtktypeint64\n0 4 22\nCONNECTIVITY vtktypeint64\n", "has broken cell offsets"},
+      {"CELLS 3 21\nOFFSETS double\n0 4 21\nCONNECTIVITY vtktypeint64\n", "has polyhedra, and cells of type double"},
+      {"CELLS 0 0\nCELLS 3 21\nOFFSETS vtktypeint64\n0 4 21\nCONNECTIVITY vtktypeint64\n", "has CELLS twice"},
+      {"CELL_TYPES 1\n1\nCELLS 3 21\nOFFSETS vtktypeint64\n0 4 21\nCONNECTIVITY vtktypeint64\n",
+       "has CELL_TYPES twice"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[1024];
+    snprintf(
+        text, sizeof text,
+        "# vtk DataFile Version 5.1\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 int\n0 0 0 1 0 0 0 1 0 0 0 1\n%s"
+        "0 1 2 3 4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3\nCELL_TYPES 2\n10 42\n",
+        cases[i].cells);
+    scratch_write_text("cells.vtk", text);
+    expect_file_error("cells.vtk", cases[i].text);
+  }
+}
+
 /* VTK closes a file at a word that is no number of its type, and reads on. */
 static void test_words_for_numbers(void **state) {
   (void)state;
@@ -326,11 +412,12 @@ static void test_truncated(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_not_files),       cmocka_unit_test(test_unreadable),
-      cmocka_unit_test(test_other_content),   cmocka_unit_test(test_promises),
-      cmocka_unit_test(test_broken_cells),    cmocka_unit_test(test_not_a_number_passes),
-      cmocka_unit_test(test_truncated),       cmocka_unit_test(test_endless_information),
-      cmocka_unit_test(test_names_of_arrays), cmocka_unit_test(test_words_for_numbers),
+      cmocka_unit_test(test_not_files),          cmocka_unit_test(test_unreadable),
+      cmocka_unit_test(test_other_content),      cmocka_unit_test(test_promises),
+      cmocka_unit_test(test_broken_cells),       cmocka_unit_test(test_not_a_number_passes),
+      cmocka_unit_test(test_truncated),          cmocka_unit_test(test_endless_information),
+      cmocka_unit_test(test_names_of_arrays),    cmocka_unit_test(test_polyhedra),
+      cmocka_unit_test(test_cells_of_polyhedra), cmocka_unit_test(test_words_for_numbers),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }
