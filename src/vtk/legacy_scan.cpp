@@ -384,9 +384,9 @@ class Scan {
     std::int64_t n_left = n_values;
     for (std::int64_t i = 0; i < n_cells; ++i) {
       const std::int64_t n_corners = binary_ ? binary_int() : number_of(next());
-      n_left -= 1 + n_corners;
-      if (n_corners < 0 || n_left < 0)
+      if (n_corners < 0 || n_corners >= n_left)
         refuse("cell " + std::to_string(i) + " has " + std::to_string(n_corners) + " points, more than CELLS has");
+      n_left -= 1 + n_corners;
       binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners, "int");
     }
     if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");

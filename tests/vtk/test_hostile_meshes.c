@@ -382,6 +382,8 @@ static void test_words_for_numbers(void **state) {
                {"0 0 1e39", "1 0", "has '1e39' for a number of type float"},
                {"0 0 1.5.5", "1 0", "has '1.5.5' for a number of type float"},
                {"0 0 0", "1 0.5", "has '0.5' for a number of type int"},
+               {"0 0 0", "2 0", "cell 0 has 2 points, more than CELLS has"},
+               {"0 0 0", "9223372036854775807 0", "cell 0 has 9223372036854775807 points, more than CELLS has"},
                {"0 0 0", "1 2147483648", "has '2147483648' for a number of type int"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     char text[512];
