@@ -7,6 +7,18 @@
 enum { n_points = 600 };
 static const double half = 0.1; /* thickness */
 
+/* n patches, each of four curves of its own; the arrays are borrowed. */
+static riis_patches sheets(int64_t n, const int32_t *degree, const double *control, const int32_t *curve_id) {
+  riis_patches patches;
+  CHECK_OK(riis_patches_init(&patches, sizeof patches));
+  patches.n_curves = 4 * n;
+  patches.degree = degree;
+  patches.control = control;
+  patches.n_patches = n;
+  patches.curve_id = curve_id;
+  return patches;
+}
+
 /* A parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1: with degree 2 no more than its control points. */
 static const double focal = 0.05;
 
@@ -17,14 +29,7 @@ static riis_patches parabola(void) {
   const double points[10][3] = {{-x, 0, z}, {0, 0, -z}, {x, 0, z},  {-x, 1, z}, {0, 1, -z},
                                 {x, 1, z},  {-x, 0, z}, {-x, 1, z}, {x, 0, z},  {x, 1, z}};
   memcpy(control, points, sizeof control);
-  riis_patches patches;
-  CHECK_OK(riis_patches_init(&patches, sizeof patches));
-  patches.n_curves = 4;
-  patches.degree = degree;
-  patches.control = control;
-  patches.n_patches = 1;
-  patches.curve_id = curve_id;
-  return patches;
+  return sheets(1, degree, control, curve_id);
 }
 
 /* From (x, z) to the parabola: the nearest of many points of it, and Newton's method from there. */
@@ -106,13 +111,7 @@ static void points_nearer_to_another_sheet_are_left_out(void **state) {
         *at++ = sheet * gap;
       }
     }
-  riis_patches patches;
-  CHECK_OK(riis_patches_init(&patches, sizeof patches));
-  patches.n_curves = 8;
-  patches.degree = degree;
-  patches.control = control;
-  patches.n_patches = 2;
-  patches.curve_id = curve_id;
+  const riis_patches patches = sheets(2, degree, control, curve_id);
   random_source rng = random_start("test_accuracy");
   const uint64_t seed = random_bits(&rng);
   known_truth truth;

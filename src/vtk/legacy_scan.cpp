@@ -133,20 +133,26 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // In lower case, since the format does not distinguish; empty at the end. VTK takes what is longer for two words.
-  std::string word() {
+  // Empty at the end. VTK takes what is longer for two words.
+  std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
-    if (text.size() > longest) refuse("has a word of " + std::to_string(text.size()) + " characters, more than 255");
-    return lower_case(text);
+    if (text.size() > longest) {
+      refuse("has a word of " + std::to_string(text.size()) + " characters, more than " + std::to_string(longest));
+    }
+    return text;
   }
 
-  // A word that must be there.
-  std::string next() {
-    std::string text = word();
+  // In lower case, since the format mostly does not distinguish; empty at the end.
+  std::string word() { return lower_case(word_as_it_is()); }
+
+  // Words that must be there.
+  std::string_view next_as_it_is() {
+    const std::string_view text = word_as_it_is();
     if (text.empty()) refuse_end();
     return text;
   }
+  std::string next() { return lower_case(next_as_it_is()); }
 
   std::int64_t number_of(std::string_view text) const {
     std::int64_t n = 0;
@@ -345,10 +351,7 @@ class Scan {
     next();
     const std::int64_t n_arrays = count();
     for (std::int64_t i = 0; i < n_arrays; ++i) {
-      std::string_view name = rest_;
-      name = take_word(name);
-      next();
-      if (name == "NULL_ARRAY") continue;  // in capitals only
+      if (next_as_it_is() == "NULL_ARRAY") continue;  // in capitals only
       const std::int64_t width = count();
       const std::int64_t n = count();
       skip_tuples(n, width, next());
