@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
 #include "cylinder.hpp"
-#include "distance/point_triangle.hpp"
 #include "references.hpp"
 
 namespace {

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
-#include "distance/point_triangle.hpp"
 #include "handles.hpp"
 
 namespace {

@@ -11,9 +11,9 @@
 #include <cstring>
 #include <vector>
 
+#include "../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
 #include "cylinder.hpp"
-#include "distance/point_triangle.hpp"
 #include "time_steps.hpp"
 
 namespace {

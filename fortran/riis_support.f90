@@ -41,7 +41,7 @@ module riis_support
 
   interface
     !> Makes the text the calling thread's last error, as the library's own errors are: so riis_last_error has those of
-    !! this layer, too, each thread its own. From the library's src/api/component.h.
+    !! this layer, too, each thread its own. From the library's src/base/component.h.
     function riis_component_error(status, text) result(same) bind(c, name='riis_component_error')
       import :: c_char, riis_status
       implicit none

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "api/structs.hpp"
-#include "distance/point_triangle.hpp"
+#include "base/errors.hpp"
+#include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 
 using riis::guarded;

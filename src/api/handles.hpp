@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
+#include "distance/surface.hpp"
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
-#include "surface/surface.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {

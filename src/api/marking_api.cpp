@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis_mesh_*, riis_adjacency_*, riis_mark_*: argument checks around marking.
-#include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "base/errors.hpp"
 #include "marking/mark_nodes.hpp"
 
 using riis::guarded;

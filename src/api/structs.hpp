@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

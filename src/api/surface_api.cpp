@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_surface_*: argument checks around the stages from parameters to the Embree scene.
+// riis_surface_*: argument checks around the pipeline (pipeline/make_surface.hpp).
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "api/errors.hpp"
 #include "api/handles.hpp"
-#include "api/log.hpp"
 #include "api/structs.hpp"
-#include "distance/make_distance.hpp"
+#include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
-#include "surface/triangulate.hpp"
-#include "surface/user_arrays.hpp"
-#include "valve/patches.hpp"
+#include "pipeline/make_surface.hpp"
 
 using riis::guarded;
 using riis::require;
@@ -30,17 +25,6 @@ const riis_surface_options default_options{
     RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO};
 const riis_surface_arrays default_arrays{
     sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr};
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check_range(const char *name, double value, double minimum, double maximum) {
   if (!(value >= minimum && value <= maximum))
@@ -113,31 +97,21 @@ int threads_for(const riis_surface &surface, const riis_surface_options &options
 // Above this many triangles, of some 300 bytes each, memory is worth more than the time to get it again.
 constexpr std::size_t max_triangles_kept = 1'000'000;
 
+riis::SurfaceRequest request_of(const riis_surface &surface, const riis_surface_options &options) {
+  return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, threads_for(surface, options)};
+}
+
 // Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
-template <class MakeTriangles, class MakeDistance>
-void fill(riis_surface &surface, const riis_surface_options &options, const MakeTriangles &make_triangles,
-          const MakeDistance &make_distance) {
-  Stopwatch stopwatch;
-  const int n_threads = threads_for(surface, options);
-  const riis::Placement placement = placement_of(options);
+template <class Make>
+void fill(riis_surface &surface, const riis_surface_options &options, const Make &make) {
+  const riis::SurfaceRequest request = request_of(surface, options);
   std::unique_ptr<riis::Surface> made = std::move(surface.before);
   if (!made) made = std::make_unique<riis::Surface>();
-  riis::TriangleSet triangles = make_triangles(placement, n_threads, made->take_triangles());
-  const double seconds_triangles = stopwatch.lap();
-  std::unique_ptr<const riis::PatchDistance> distance = make_distance(placement);
-  // Either's distance to the smooth surface, and their rounding.
-  const double triangle_error =
-      distance ? (options.tolerance * half_thickness_of(options) + distance->patches().largest_error()) * (1 + 1e-6)
-               : 0;
-  made->make(std::move(triangles), half_thickness_of(options), n_threads);
-  made->measure_by(std::move(distance), triangle_error);
-  const double seconds_scene = stopwatch.lap();
-  riis::log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s",
-                    made->triangles().n_triangles(), seconds_triangles, seconds_scene);
+  const riis::SurfaceSeconds seconds = make(request, *made);
   surface.before = std::exchange(surface.surface, std::move(made));
   surface.options = options;
-  surface.seconds_triangles = seconds_triangles;
-  surface.seconds_scene = seconds_scene;
+  surface.seconds_triangles = seconds.triangles;
+  surface.seconds_scene = seconds.scene;
   if (!surface.before) return;
   surface.before->measure_by(nullptr, 0);
   if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
@@ -146,25 +120,14 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options) {
   require_handle(valve, "valve");
   check_options(options);
-  const double triangle_error = options.tolerance * half_thickness_of(options);
-  const double distance_error = distance_error_of(options);
-  check_precision(options, "tolerance", triangle_error);
-  if (options.distance != RIIS_DISTANCE_TRIANGLES) check_precision(options, "distance_tolerance", distance_error);
-  const bool flip_normals = options.flip_normals != 0;
-  riis::PatchSet patches;
-  fill(
-      surface, options,
-      [&](const riis::Placement &placement, int n_threads, riis::TriangleSet memory) {
-        patches = valve->valve.make_patches();
-        riis::TriangleSet triangles = riis::triangulate(patches, triangle_error / options.scale, placement,
-                                                        flip_normals, n_threads, std::move(memory));
-        if (triangles.n_triangles() == 0) riis::fail(RIIS_INVALID_PARAMETER, "the valve has no area");
-        return triangles;
-      },
-      [&](const riis::Placement &placement) -> std::unique_ptr<const riis::PatchDistance> {
-        if (options.distance == RIIS_DISTANCE_TRIANGLES) return nullptr;
-        return riis::make_distance(patches, {options.distance, distance_error}, placement, flip_normals);
-      });
+  const riis::ValveAccuracy accuracy{options.tolerance * half_thickness_of(options), options.distance,
+                                     distance_error_of(options)};
+  check_precision(options, "tolerance", accuracy.triangle_error);
+  if (options.distance != RIIS_DISTANCE_TRIANGLES)
+    check_precision(options, "distance_tolerance", accuracy.distance_error);
+  fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
+    return riis::make_surface(valve->valve, request, accuracy, made);
+  });
 }
 
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
@@ -175,13 +138,9 @@ void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, 
                "options.distance is %d, which works on patches, but a surface from arrays has triangles only: it must "
                "be RIIS_DISTANCE_TRIANGLES, 0",
                options.distance);
-  fill(
-      surface, options,
-      [&](const riis::Placement &placement, int, riis::TriangleSet memory) {
-        return riis::triangles_from_arrays(whole, placement, options.zero_area == RIIS_ZERO_AREA_SKIP,
-                                           options.flip_normals != 0, std::move(memory));
-      },
-      [](const riis::Placement &) { return std::unique_ptr<const riis::PatchDistance>(); });
+  fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
+    return riis::make_surface(whole, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
+  });
 }
 
 template <class Fill>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis_valve_*: argument checks around valve/.
-#include "api/errors.hpp"
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "base/errors.hpp"
 #include "valve/user_patches.hpp"
 
 using riis::guarded;

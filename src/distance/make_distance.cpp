@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "api/errors.hpp"
-#include "api/log.hpp"
+#include "base/errors.hpp"
+#include "base/log.hpp"
 #include "distance/minimizer.hpp"
 #include "distance/sample_set.hpp"
 

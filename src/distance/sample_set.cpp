@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 
 namespace riis {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "figures/figures.hpp"
 #include "figures/given_figures.hpp"
 #include "figures/shapes.hpp"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 
 namespace riis {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 
 namespace riis {
 

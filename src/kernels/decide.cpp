@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double precision, eight at a time: the decision kernel, operation by operation as distance/point_triangle.cpp has it, so that every
+// Double precision, eight at a time: the decision kernel, operation by operation as geometry/point_triangle.cpp has it, so that every
 // lane has its bits; and the frames of triangles for the filter. Compiled for each instruction set, never contracted.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"

@@ -4,7 +4,7 @@
 //
 // filter_*: single precision, only to leave out what cannot matter: everything is right to `error` (docs/theory.md, section 8). In the
 // surface's frame: relative to its middle, scaled by a power of two to a half extent from 1/2 to 1.
-// decide: double precision, the decision kernel (distance/point_triangle.hpp) to the last bit.
+// decide: double precision, the decision kernel (geometry/point_triangle.hpp) to the last bit.
 #pragma once
 
 #include <stdint.h>

@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

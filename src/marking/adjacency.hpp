@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "api/integer_array.hpp"
+#include "base/integer_array.hpp"
 
 namespace riis {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "marking/search.hpp"
 #include "parallel/parallel_for.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "surface/surface.hpp"
+#include "distance/surface.hpp"
 
 namespace riis {
 

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "marking/distances.hpp"
 #include "parallel/parallel_for.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

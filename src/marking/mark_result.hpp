@@ -10,10 +10,10 @@
 #include <memory>
 #include <vector>
 
-#include "distance/point_triangle.hpp"
+#include "distance/surface.hpp"
+#include "geometry/point_triangle.hpp"
 #include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
-#include "surface/surface.hpp"
 
 namespace riis {
 

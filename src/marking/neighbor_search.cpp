@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "marking/distances.hpp"
 #include "marking/search.hpp"
 #include "parallel/concurrent_walk.hpp"

@@ -3,9 +3,9 @@
 // In: surface, nodes, limit. Out: nodes within the limit, ascending, with distance and triangle.
 #pragma once
 
+#include "distance/surface.hpp"
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
-#include "surface/surface.hpp"
 
 namespace riis {
 

@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "parallel/float_environment.hpp"
+#include "base/float_environment.hpp"
 #include "parallel/range.hpp"
 
 namespace riis {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <exception>
 
-#include "parallel/float_environment.hpp"
+#include "base/float_environment.hpp"
 #include "parallel/range.hpp"
 
 namespace riis {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "parallel/float_environment.hpp"
+#include "base/float_environment.hpp"
 #include "parallel/range.hpp"
 
 namespace riis {

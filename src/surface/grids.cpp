@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/triangle_set.hpp"
 

@@ -12,7 +12,7 @@
 #include <limits>
 #include <mutex>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 
 namespace riis {
 namespace {

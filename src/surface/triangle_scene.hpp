@@ -9,7 +9,7 @@
 
 #include <memory>
 
-#include "distance/point_triangle.hpp"
+#include "geometry/point_triangle.hpp"
 #include "surface/triangle_groups.hpp"
 #include "surface/triangle_set.hpp"
 

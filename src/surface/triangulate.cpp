@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/triangle_groups.hpp"

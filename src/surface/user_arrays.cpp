@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "api/integer_array.hpp"
-#include "api/log.hpp"
+#include "base/integer_array.hpp"
+#include "base/log.hpp"
 
 namespace riis {
 namespace {

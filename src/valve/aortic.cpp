@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
 

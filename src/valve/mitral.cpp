@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "api/integer_array.hpp"
+#include "base/integer_array.hpp"
 
 namespace riis {
 namespace {

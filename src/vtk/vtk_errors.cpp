@@ -10,7 +10,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 
-#include "api/component.h"
+#include "base/component.h"
 
 namespace riis::vtk {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <vtkSmartPointer.h>
 
-#include "parallel/float_environment.hpp"
+#include "base/float_environment.hpp"
 #include "vtk/numeric_locale.hpp"
 
 class vtkOutputWindow;

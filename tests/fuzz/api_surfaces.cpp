@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "api_state.hpp"
-#include "distance/point_triangle.hpp"
+#include "geometry/point_triangle.hpp"
 
 namespace fuzz {
 

@@ -12,7 +12,7 @@
 #include "accuracy/ground_truth.hpp"
 #include "accuracy/methods.hpp"
 #include "accuracy/smooth_surface.hpp"
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 #include "valve/user_patches.hpp"
 
 namespace {

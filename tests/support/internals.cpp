@@ -10,9 +10,9 @@
 #include <string_view>
 #include <thread>
 
-#include "api/errors.hpp"
 #include "api/handles.hpp"
-#include "distance/point_triangle.hpp"
+#include "base/errors.hpp"
+#include "brute_force.hpp"
 #include "distance/powell.hpp"
 #include "distance/sample_set.hpp"
 #include "geometry/bulge.hpp"

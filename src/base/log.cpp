@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/log.hpp"
-
-#include <riis/riis.h>
+#include "base/log.hpp"
 
 #include <cstdarg>
 #include <cstdio>
@@ -38,9 +36,9 @@ void log_message(std::int32_t level, const char *format, ...) noexcept {
   to.function(to.user_data, level, text);
 }
 
-}  // namespace riis
-
-extern "C" void riis_set_log(riis_log_function function, void *user_data) {
-  const std::lock_guard<std::mutex> lock(riis::sink_mutex);
-  riis::sink = {function, user_data};
+void set_log_function(riis_log_function function, void *user_data) noexcept {
+  const std::lock_guard<std::mutex> lock(sink_mutex);
+  sink = {function, user_data};
 }
+
+}  // namespace riis

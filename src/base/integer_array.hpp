@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "api/errors.hpp"
+#include "base/errors.hpp"
 
 namespace riis {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The decision kernel: the closest point of one triangle to one point, in double precision. Every mark and every
 // reported distance comes from it, so it is compiled once, for the baseline instruction set and without contraction:
-// the same bits whoever calls. Also the exhaustive loop over all triangles, slow and exact: the oracle of every faster
-// search.
+// the same bits whoever calls.
 #pragma once
 
 #include <array>
@@ -11,8 +10,6 @@
 #include "geometry/vec3.hpp"
 
 namespace riis {
-
-struct TriangleSet;
 
 struct PointOnTriangle {
   double distance_sq;
@@ -34,8 +31,5 @@ struct ClosestTriangle {
 inline bool is_closer(double distance_sq, std::int64_t triangle, const ClosestTriangle &best) {
   return distance_sq < best.distance_sq || (distance_sq == best.distance_sq && triangle < best.triangle);
 }
-
-// The oracle: every triangle is asked.
-ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p);
 
 }  // namespace riis

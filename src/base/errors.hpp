@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <new>
 
-#include "parallel/float_environment.hpp"
+#include "base/float_environment.hpp"
 
 namespace riis {
 
@@ -33,6 +33,9 @@ struct Number {
 
 // Stores the text as the calling thread's last error and returns the status.
 riis_status record_error(riis_status status, const char *text) noexcept;
+
+// The calling thread's last error, "" if it has none.
+const char *recorded_error() noexcept;
 
 // Status and text of the exception that is being handled.
 riis_status record_current_exception() noexcept;

@@ -3,8 +3,8 @@
  * For the project's own components, which are libraries of their own (riis_vtk): reports through the core's last error.
  * Exported, but not installed and not part of the public interface.
  */
-#ifndef RIIS_API_COMPONENT_H
-#define RIIS_API_COMPONENT_H
+#ifndef RIIS_BASE_COMPONENT_H
+#define RIIS_BASE_COMPONENT_H
 
 #include <riis/riis.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/surface.hpp"
+#include "distance/surface.hpp"
 
 #include <numeric>
 #include <utility>
 #include <vector>
 
-#include "distance/point_triangle.hpp"
+#include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "distance/point_triangle.hpp"
+#include "geometry/point_triangle.hpp"
 
 #include <cmath>
 #include <limits>
-
-#include "surface/triangle_set.hpp"
 
 namespace riis {
 namespace {
@@ -59,17 +57,6 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
       if (std::abs(rest.b) + std::abs(rest.c) <= 0x1p-50) break;
     }
     offer(a + (w.b * ab + w.c * ac), 1 - (w.b + w.c), w.b, w.c);
-  }
-  return best;
-}
-
-ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p) {
-  ClosestTriangle best{std::numeric_limits<double>::infinity(), -1};
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
-    const auto [a, b, c] = set.corners(i);
-    const double distance_sq = closest_point_on_triangle(p, a, b, c).distance_sq;
-    // Positions ascend, so the first of equals is the lowest.
-    if (distance_sq < best.distance_sq) best = {distance_sq, static_cast<std::int64_t>(i)};
   }
   return best;
 }

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/errors.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+
+#include "base/component.h"
+
+namespace riis {
+namespace {
+
+thread_local char last_error[error_text_size] = "";
+
+}  // namespace
+
+void fail(riis_status status, const char *format, ...) {
+  Error error{status, {}};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(error.text, sizeof error.text, format, arguments);
+  va_end(arguments);
+  throw error;
+}
+
+riis_status record_error(riis_status status, const char *text) noexcept {
+  std::snprintf(last_error, sizeof last_error, "%s", text);
+  return status;
+}
+
+const char *recorded_error() noexcept { return last_error; }
+
+riis_status record_current_exception() noexcept {
+  try {
+    throw;
+  } catch (const Error &error) {
+    return record_error(error.status, error.text);
+  } catch (const std::bad_alloc &) {
+    return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::length_error &) {  // a container asked for more than memory can hold
+    return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::exception &exception) {
+    char text[error_text_size];
+    std::snprintf(text, sizeof text, "internal error: %s", exception.what());
+    return record_error(RIIS_INTERNAL_ERROR, text);
+  } catch (...) {
+    return record_error(RIIS_INTERNAL_ERROR, "internal error: unknown exception");
+  }
+}
+
+}  // namespace riis
+
+extern "C" riis_status riis_component_error(riis_status status, const char *text) {
+  return riis::record_error(status, text);
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/make_surface.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "base/log.hpp"
+#include "distance/make_distance.hpp"
+#include "surface/triangulate.hpp"
+#include "surface/user_arrays.hpp"
+
+namespace riis {
+namespace {
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// The two approximations of the smooth surface differ by at most their own errors, and by rounding.
+double largest_difference(double triangle_error, const PatchDistance &distance) {
+  return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
+}
+
+SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
+  log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s",
+              surface.triangles().n_triangles(), seconds.triangles, seconds.scene);
+  return seconds;
+}
+
+}  // namespace
+
+SurfaceSeconds make_surface(const Valve &valve, const SurfaceRequest &request, const ValveAccuracy &accuracy,
+                            Surface &surface) {
+  const Placement &placement = request.placement;
+  Stopwatch stopwatch;
+  // Parameters to curves and patches.
+  const PatchSet patches = valve.make_patches();
+  // Curves to polylines, patches to quads, quads to triangles.
+  TriangleSet triangles = triangulate(patches, accuracy.triangle_error / placement.scale, placement,
+                                      request.flip_normals, request.n_threads, surface.take_triangles());
+  if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
+  const double seconds_triangles = stopwatch.lap();
+  // Another distance than the triangles', where one is wanted; it goes first, because it may be refused.
+  std::unique_ptr<const PatchDistance> distance;
+  if (accuracy.distance != RIIS_DISTANCE_TRIANGLES)
+    distance = make_distance(patches, {accuracy.distance, accuracy.distance_error}, placement, request.flip_normals);
+  // Triangles to the scene that answers closest points.
+  surface.make(std::move(triangles), request.half_thickness, request.n_threads);
+  if (distance) {
+    const double difference = largest_difference(accuracy.triangle_error, *distance);
+    surface.measure_by(std::move(distance), difference);
+  }
+  return logged(surface, {seconds_triangles, stopwatch.lap()});
+}
+
+SurfaceSeconds make_surface(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request,
+                            Surface &surface) {
+  Stopwatch stopwatch;
+  TriangleSet triangles =
+      triangles_from_arrays(arrays, request.placement, skip_zero_area, request.flip_normals, surface.take_triangles());
+  const double seconds_triangles = stopwatch.lap();
+  surface.make(std::move(triangles), request.half_thickness, request.n_threads);
+  return logged(surface, {seconds_triangles, stopwatch.lap()});
+}
+
+}  // namespace riis

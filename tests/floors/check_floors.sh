@@ -1,0 +1,35 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_floors.sh SOURCE_FOLDER
+# The folders of the library are floors, each built on those before it: no file includes a file of a later floor.
+set -euo pipefail
+cd "$1"
+floors=(base parallel geometry kernels valve surface distance marking pipeline api)
+
+floor_of() {
+  local i
+  for i in "${!floors[@]}"; do
+    [[ ${floors[i]} != "$1" ]] || { echo "$i"; return; }
+  done
+  echo "src/$1 is no floor: check_floors.sh has the list" >&2
+  return 1
+}
+
+failed=0 n=0
+for folder in */; do
+  folder=${folder%/}
+  # The component and the program stand on the library's public header.
+  [[ $folder != vtk && $folder != cli ]] || continue
+  own=$(floor_of "$folder") || { failed=1; continue; }
+  while IFS=: read -r file line included; do
+    other=$(floor_of "$included") || { failed=1; continue; }
+    n=$((n + 1))
+    if ((other > own)); then
+      echo "src/$file:$line includes src/$included, a floor above src/$folder" >&2
+      failed=1
+    fi
+  done < <(grep -rnoE '^ *# *include *"[a-z_]+/' "$folder" | sed -E 's/^([^:]*):([0-9]+):.*"([a-z_]+)\/$/\1:\2:\3/')
+done
+((n > 0)) || { echo "no include was read" >&2; exit 1; }
+((failed)) || echo "$n includes, none upwards"
+exit $failed

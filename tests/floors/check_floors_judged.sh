@@ -1,0 +1,34 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
+# check_floors.sh is content with the library, and refuses an include upwards and a folder that is no floor.
+set -euo pipefail
+check=$(dirname "$0")/check_floors.sh
+sources=$1 scratch=$2
+
+# refuses MESSAGE: the check fails on the scratch copy, and says so.
+refuses() {
+  local said
+  if said=$("$check" "$scratch" 2>&1); then
+    echo "not refused: $1" >&2
+    exit 1
+  fi
+  [[ $said == *"$1"* ]] || { echo "'$said' lacks '$1'" >&2; exit 1; }
+}
+
+copy() {
+  rm -rf "$scratch"
+  cp -r "$sources" "$scratch"
+}
+
+copy
+"$check" "$scratch"
+echo '#include "api/handles.hpp"' >>"$scratch/geometry/vec3.hpp"
+refuses "includes src/api, a floor above src/geometry"
+copy
+mkdir "$scratch/cellar"
+refuses "src/cellar is no floor"
+copy
+echo '#include "cellar/wine.hpp"' >>"$scratch/base/log.hpp"
+refuses "src/cellar is no floor"
+rm -rf "$scratch"

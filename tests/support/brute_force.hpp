@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The oracle of every search, for tests and benchmarks: a loop over all triangles with the library's decision kernel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "geometry/point_triangle.hpp"
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+
+// The lowest position among the closest triangles of the set, and the square of their distance.
+inline ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p) {
+  ClosestTriangle best{std::numeric_limits<double>::infinity(), -1};
+  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
+    const auto [a, b, c] = set.corners(i);
+    const double distance_sq = closest_point_on_triangle(p, a, b, c).distance_sq;
+    // Positions ascend, so the first of equals is the lowest.
+    if (distance_sq < best.distance_sq) best = {distance_sq, static_cast<std::int64_t>(i)};
+  }
+  return best;
+}
+
+}  // namespace riis
