@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Points of known distance (src/accuracy), for tests in C. */
+ * Points of known distance (bench/accuracy), for tests in C. */
 #ifndef RIIS_TEST_ACCURACY_H
 #define RIIS_TEST_ACCURACY_H
 
