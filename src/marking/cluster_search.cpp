@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "marking/cluster_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/errors.hpp"
-#include "marking/search.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
-
-typedef Collection::Clustered Clustered;
 
 // The mesh's frame in the surface's.
 struct Placing {
@@ -26,14 +25,14 @@ struct Placing {
 
 class ClusterSearch {
  public:
-  ClusterSearch(const SearchRequest &request, Collection &collection)
+  ClusterSearch(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch, FoundNodes &found)
       : request_(request),
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
-        clusters_(request.mesh.clusters(request.n_threads)),
+        clusters_(clusters),
         kernels_(kernels(request.instructions)),
-        collection_(collection),
-        own_(collection.clustered) {
+        found_(found),
+        own_(scratch) {
     const Frame &frame = groups_.frame;
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
@@ -50,7 +49,7 @@ class ClusterSearch {
     task_.margin = static_cast<float>(0.5 * error);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
-    collection.prepare(request.n_threads);
+    found.prepare(request.n_threads);
     own_.prepare(request.n_threads);
   }
 
@@ -62,7 +61,7 @@ class ClusterSearch {
     const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
     const auto n_regions = static_cast<std::int64_t>(clusters_.regions.size());
     const int n_ran = parallel_for_ranges(n_regions, 1, request_.n_threads, [&](const Range &range, int thread) {
-      Clustered::Thread &own = own_.threads[static_cast<std::size_t>(thread)];
+      ClusterScratch::Thread &own = own_.threads[static_cast<std::size_t>(thread)];
       for (std::int64_t region = range.begin; region < range.end; ++region) {
         const Clusters::Box &box = clusters_.boxes[static_cast<std::size_t>(region)];
         float centre[3], sum = 0, gap_sq = 0;
@@ -92,17 +91,17 @@ class ClusterSearch {
   }
 
   void search_near_clusters() {
-    std::vector<Clustered::Item> &items = own_.items;
+    std::vector<ClusterScratch::Item> &items = own_.items;
     items.clear();
     for (std::size_t thread = 0; thread < own_.threads.size(); ++thread)
-      for (Clustered::Item item : own_.threads[thread].items) {
+      for (ClusterScratch::Item item : own_.threads[thread].items) {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
     const int n_ran =
         parallel_for(static_cast<std::int64_t>(items.size()), request_.n_threads, [&](std::int64_t i, int thread) {
           search_cluster(items[static_cast<std::size_t>(i)], own_.threads[static_cast<std::size_t>(thread)],
-                         collection_.by_thread[static_cast<std::size_t>(thread)]);
+                         found_.by_thread[static_cast<std::size_t>(thread)]);
         });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -130,7 +129,7 @@ class ClusterSearch {
     return n_added;
   }
 
-  void add_cluster(std::int64_t cluster, std::int64_t bit, Clustered::Thread &own) {
+  void add_cluster(std::int64_t cluster, std::int64_t bit, ClusterScratch::Thread &own) {
     const std::size_t first = own.near_groups.size();
     const std::size_t n =
         add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
@@ -153,8 +152,8 @@ class ClusterSearch {
     std::uint32_t nodes[leaves_per_cluster] = {};  // that have, or had, some: a bit a node
   };
 
-  void search_cluster(const Clustered::Item &item, Clustered::Thread &own, std::vector<FoundNode> &found) {
-    const Clustered::Thread &from = own_.threads[static_cast<std::size_t>(item.thread)];
+  void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, std::vector<FoundNode> &found) {
+    const ClusterScratch::Thread &from = own_.threads[static_cast<std::size_t>(item.thread)];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
@@ -192,7 +191,7 @@ class ClusterSearch {
     bytes(clusters_.points[static_cast<std::size_t>(leaf)]);
   }
 
-  void filter_leaf(std::int64_t number, Clustered::Thread &own, Pairs &pairs) {
+  void filter_leaf(std::int64_t number, ClusterScratch::Thread &own, Pairs &pairs) {
     const Leaf &leaf = clusters_.leaves[static_cast<std::size_t>(number)];
     const int n_nodes = clusters_.n_nodes_of(number);
     LeafTask task;
@@ -208,7 +207,7 @@ class ClusterSearch {
     task.next_group = 0;
     task.rest = 0;
     while (task.next_group < task.n_groups) {
-      constexpr std::int32_t room = Clustered::room_for_pairs, enough = 1024;
+      constexpr std::int32_t room = ClusterScratch::room_for_pairs, enough = 1024;
       if (room - pairs.n < enough) decide(own, pairs);
       pairs.n += kernels_.filter_leaf(
           task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
@@ -216,7 +215,7 @@ class ClusterSearch {
     }
   }
 
-  void decide(Clustered::Thread &own, Pairs &pairs) {
+  void decide(ClusterScratch::Thread &own, Pairs &pairs) {
     kernels_.decide(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(),
                     clusters_.points[static_cast<std::size_t>(pairs.first_leaf)].xyz, groups_.corners.data(),
                     own.pair_decided.data());
@@ -235,8 +234,8 @@ class ClusterSearch {
   const TriangleGroups &groups_;
   const Clusters &clusters_;
   const Kernels &kernels_;
-  Collection &collection_;
-  Clustered &own_;
+  FoundNodes &found_;
+  ClusterScratch &own_;
   FilterTask task_;
   float reach_;
   int n_threads_ = 1;
@@ -244,17 +243,48 @@ class ClusterSearch {
 
 }  // namespace
 
-bool can_search_clusters(const SearchRequest &request) {
-  if (request.mesh.nodes().n > max_clustered_nodes) return false;
+void ClusterScratch::prepare(int n_threads) {
+  const auto n = static_cast<std::size_t>(n_threads);
+  if (threads.size() < n) threads.resize(n);
+  // As for FoundNodes: shares between threads differ from step to step.
+  const auto make_room = [this](auto member) {
+    std::size_t largest = 0;
+    for (const Thread &thread : threads)
+      largest = std::max({largest, 2 * (thread.*member).size(), (thread.*member).capacity()});
+    for (Thread &thread : threads) (thread.*member).reserve(largest);
+  };
+  make_room(&Thread::candidates);
+  make_room(&Thread::bits);
+  make_room(&Thread::items);
+  make_room(&Thread::near_groups);
+  make_room(&Thread::leaf_bits);
+  make_room(&Thread::leaf_groups);
+  make_room(&Thread::lower_bounds);
+  for (Thread &thread : threads) {
+    thread.items.clear();
+    thread.near_groups.clear();
+    thread.leaf_bits.clear();
+    // The kernels write whole registers.
+    constexpr std::size_t room = static_cast<std::size_t>(room_for_pairs) + 16;
+    thread.pair_nodes.resize(room);
+    thread.pair_triangles.resize(room);
+    thread.pair_decided.resize(room);
+    thread.closest.resize(static_cast<std::size_t>(nodes_per_cluster));
+    thread.n_queries = 0;
+  }
+}
+
+bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters) {
   const Frame &frame = request.surface.scene().groups().frame;
-  const Placing placing(request.mesh.clusters(request.n_threads), frame);
+  const Placing placing(clusters, frame);
   constexpr double large = 0x1p20;
   return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large &&
          request.distance_limit * frame.scale <= large;
 }
 
-SearchReport search_clusters(const SearchRequest &request, Collection &collection) {
-  ClusterSearch search(request, collection);
+SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch,
+                             FoundNodes &found) {
+  ClusterSearch search(request, clusters, scratch, found);
   search.find_near_clusters();
   search.search_near_clusters();
   return search.report();

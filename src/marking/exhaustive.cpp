@@ -16,16 +16,16 @@ namespace {
 constexpr std::int64_t nodes_per_block = 2048;
 
 template <class Distances>
-SearchReport ask_every_node(const SearchRequest &request, const Distances &distances, Collection &collection) {
+SearchReport query_every_node(const SearchRequest &request, const Distances &distances, FoundNodes &found) {
   const StridedPoints &nodes = request.mesh.nodes();
   const double limit = request.distance_limit;
 
-  collection.prepare(request.n_threads);
+  found.prepare(request.n_threads);
   std::atomic<std::int64_t> n_queries{0};
 
   const int n_ran =
       parallel_for_ranges(nodes.n, nodes_per_block, request.n_threads, [&](const Range &range, int thread) {
-        auto &found = collection.by_thread[static_cast<std::size_t>(thread)];
+        auto &own = found.by_thread[static_cast<std::size_t>(thread)];
         std::int64_t n_queries_here = 0;
         for (std::int64_t i = range.begin; i < range.end; ++i) {
           if (request.is_masked_out(i)) continue;
@@ -33,7 +33,7 @@ SearchReport ask_every_node(const SearchRequest &request, const Distances &dista
           if (!distances.may_be_within(p, limit)) continue;
           ++n_queries_here;
           const ClosestTriangle closest = distances.closest(p, limit);
-          if (closest.triangle >= 0) found.push_back({i, std::sqrt(closest.distance_sq), closest.triangle});
+          if (closest.triangle >= 0) own.push_back({i, std::sqrt(closest.distance_sq), closest.triangle});
         }
         n_queries.fetch_add(n_queries_here, std::memory_order_relaxed);
       });
@@ -42,9 +42,9 @@ SearchReport ask_every_node(const SearchRequest &request, const Distances &dista
 
 }  // namespace
 
-SearchReport search_exhaustively(const SearchRequest &request, Collection &collection) {
+SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found) {
   return with_distances(request.surface, request.instructions,
-                        [&](const auto &distances) { return ask_every_node(request, distances, collection); });
+                        [&](const auto &distances) { return query_every_node(request, distances, found); });
 }
 
 }  // namespace riis

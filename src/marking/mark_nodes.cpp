@@ -24,10 +24,9 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
     fail(RIIS_INVALID_ARGUMENT,
          "options.search is %d, clusters, which are decided on triangles, but the surface's distances are by %s",
          asked_for, other->name());
-  const bool pays = request.mesh.pays_for_clusters();
+  const bool is_first = !request.mesh.record_marking();
   if (asked_for == RIIS_SEARCH_AUTO)
-    asked_for = !other && pays && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
-  if (asked_for == RIIS_SEARCH_CLUSTERS && !can_search_clusters(request)) return RIIS_SEARCH_EXHAUSTIVE;
+    asked_for = !other && !is_first && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
   if (walks && !request.mesh.adjacency().has_value())
     fail(RIIS_INVALID_ARGUMENT,
@@ -37,20 +36,36 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   return asked_for;
 }
 
-SearchReport run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
+struct Ran {
+  std::int32_t search;
+  SearchReport report;
+};
+
+// Clusters, or the exhaustive search where clusters are too many or single precision is too coarse for them.
+Ran run_clusters(const SearchRequest &request, MarkResult &result) {
+  if (request.mesh.nodes().n <= max_clustered_nodes) {
+    const Clusters &clusters = request.mesh.clusters(request.n_threads);
+    if (separates_in_single_precision(request, clusters))
+      return {RIIS_SEARCH_CLUSTERS, search_clusters(request, clusters, result.cluster_scratch, result.found)};
+  }
+  return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, result.found)};
+}
+
+Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
   static const std::vector<std::int64_t> nowhere;
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
       // The last marking is where a moving valve is again, nearly; if it was of another mesh, its nodes are as good as any.
       const bool fits = result.stats.n_nodes == request.mesh.nodes().n;
-      return search_neighbors(request, fits ? result.within.node_id : nowhere, result.collection);
+      return {search,
+              search_neighbors(request, fits ? result.within.node_id : nowhere, result.neighbor_scratch, result.found)};
     }
     case RIIS_SEARCH_PAPER:
-      return search_as_the_paper(request, result.collection);
+      return {search, search_as_the_paper(request, result.neighbor_scratch, result.found)};
     case RIIS_SEARCH_CLUSTERS:
-      return search_clusters(request, result.collection);
+      return run_clusters(request, result);
     default:
-      return search_exhaustively(request, result.collection);
+      return {search, search_exhaustively(request, result.found)};
   }
 }
 
@@ -58,10 +73,10 @@ SearchReport run(const SearchRequest &request, std::int32_t search, MarkResult &
 
 void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult &result) {
   const auto start = std::chrono::steady_clock::now();
-  const std::int32_t search = search_for(request, asked_for);
-  const SearchReport report = run(request, search, result);
+  const auto [search, report] = run(request, search_for(request, asked_for), result);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
-  put_in_order(request.surface, limit_is_wider, request.mesh.nodes().n, request.n_threads, result);
+  put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
+               result.order_scratch, result.within, result.marked);
   result.limit_is_wider = limit_is_wider;
   result.distance_limit = request.distance_limit;
   result.n_threads = request.n_threads;

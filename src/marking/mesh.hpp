@@ -37,8 +37,8 @@ class Mesh {
   // The same in clusters, for at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
 
-  // Counts a marking of these nodes; true if it is not the first, or if clusters were made before: then they pay.
-  bool pays_for_clusters() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
+  // Records a marking of these nodes. Returns true if one was recorded before, or if clusters were made: then clusters pay.
+  bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
  private:
   StridedPoints nodes_;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "marking/neighbor_search.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -6,27 +8,26 @@
 
 #include "base/errors.hpp"
 #include "marking/distances.hpp"
-#include "marking/search.hpp"
 #include "parallel/concurrent_walk.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
 
-constexpr std::int64_t nodes_per_range = Collection::Walked::nodes_per_range, groups_per_block = 16;
+constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, groups_per_block = 16;
 
 template <class Distances>
 class NeighborSearch {
  public:
-  NeighborSearch(const SearchRequest &request, const Distances &distances, Collection &collection)
+  NeighborSearch(const SearchRequest &request, const Distances &distances, NeighborScratch &scratch, FoundNodes &found)
       : request_(request),
         nodes_(request.mesh.nodes()),
         adjacency_(*request.mesh.adjacency()),
         distances_(distances),
         limit_(request.distance_limit),
-        collection_(collection),
-        walked_(collection.walked) {
-    collection.prepare(request.n_threads);
+        found_(found),
+        walked_(scratch) {
+    found.prepare(request.n_threads);
     walked_.prepare(nodes_.n, request.n_threads);
   }
 
@@ -69,11 +70,11 @@ class NeighborSearch {
 
   // The groups of nodes that may have one within the limit, each with the distance of its centre, or less.
   void find_near_groups(const NodeGroups &groups) {
-    std::vector<Collection::NearGroup> &near = walked_.near_groups;
+    std::vector<NearGroup> &near = walked_.near_groups;
     near.clear();
     const auto n = static_cast<std::int64_t>(groups.supergroups.size());
     const int n_ran = parallel_for_ranges(n, groups_per_block, request_.n_threads, [&](const Range &block, int thread) {
-      Collection::Walked::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
+      NeighborScratch::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
       const auto is_near = [&](const Ball &ball, double &distance) {
         const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
         if (!distances_.may_be_within(ball.centre, within)) return false;
@@ -98,7 +99,7 @@ class NeighborSearch {
 
   // Begins in every group that the surface may be near to.
   void begin_in_near_groups(const NodeGroups &groups) {
-    for (const Collection::NearGroup &near : walked_.near_groups) {
+    for (const NearGroup &near : walked_.near_groups) {
       const Range range = groups.nodes_of(near.group);
       for (std::int64_t k = range.begin; k < range.end; ++k) {
         const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
@@ -113,9 +114,9 @@ class NeighborSearch {
   void prove(const NodeGroups &groups) {
     const auto n = static_cast<std::int64_t>(walked_.near_groups.size());
     const int n_ran = parallel_for_ranges(n, groups_per_block, request_.n_threads, [&](const Range &block, int thread) {
-      const std::size_t n_before = collection_.by_thread[static_cast<std::size_t>(thread)].size();
+      const std::size_t n_before = found_.by_thread[static_cast<std::size_t>(thread)].size();
       for (std::int64_t g = block.begin; g < block.end; ++g) {
-        const Collection::NearGroup &near = walked_.near_groups[static_cast<std::size_t>(g)];
+        const NearGroup &near = walked_.near_groups[static_cast<std::size_t>(g)];
         const Range range = groups.nodes_of(near.group);
         for (std::int64_t k = range.begin; k < range.end; ++k) {
           const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
@@ -124,7 +125,7 @@ class NeighborSearch {
         }
       }
       n_unreached_.fetch_add(
-          static_cast<std::int64_t>(collection_.by_thread[static_cast<std::size_t>(thread)].size() - n_before),
+          static_cast<std::int64_t>(found_.by_thread[static_cast<std::size_t>(thread)].size() - n_before),
           std::memory_order_relaxed);
     });
     n_threads_ = std::max(n_threads_, n_ran);
@@ -144,13 +145,13 @@ class NeighborSearch {
     ++walked_.threads[static_cast<std::size_t>(thread)].n_queries;
     const ClosestTriangle closest = distances_.closest(p, limit_);
     if (closest.triangle < 0) return false;
-    collection_.by_thread[static_cast<std::size_t>(thread)].push_back(
+    found_.by_thread[static_cast<std::size_t>(thread)].push_back(
         {node, std::sqrt(closest.distance_sq), closest.triangle});
     return true;
   }
 
   // Farther from the surface than the limit, whatever direction it is in: the centre's distance less its own from the centre.
-  bool is_far(const NodeGroups &groups, const Collection::NearGroup &near, std::int64_t node) const {
+  bool is_far(const NodeGroups &groups, const NearGroup &near, std::int64_t node) const {
     const Vec3 centre = groups.groups[static_cast<std::size_t>(near.group)].centre;
     const double from_centre = distance(centre, nodes_[node]);
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
@@ -168,19 +169,39 @@ class NeighborSearch {
   const Adjacency &adjacency_;
   const Distances distances_;
   double limit_;
-  Collection &collection_;
-  Collection::Walked &walked_;
+  FoundNodes &found_;
+  NeighborScratch &walked_;
   std::atomic<std::int64_t> n_queued_{0}, n_unreached_{0};
   int n_threads_ = 1;
 };
 
 }  // namespace
 
+void NeighborScratch::prepare(std::int64_t n_nodes, int n_threads) {
+  const auto n = static_cast<std::size_t>(n_nodes), n_slots = static_cast<std::size_t>(n_threads);
+  if (n_nodes != n_marks_ || walk_ == 255) {
+    if (n_nodes != n_marks_) marks_ = std::make_unique<std::atomic<std::uint8_t>[]>(n);
+    n_marks_ = n_nodes;
+    for (std::size_t i = 0; i < n; ++i) marks_[i].store(0, std::memory_order_relaxed);
+    walk_ = 0;
+  }
+  ++walk_;
+  queue.resize(n);
+  if (threads.size() < n_slots) threads.resize(n_slots);
+  std::size_t largest = 0;
+  for (const Thread &thread : threads) largest = std::max(largest, thread.near_groups.capacity());
+  for (Thread &thread : threads) {
+    thread.clear();
+    thread.next.reserve(static_cast<std::size_t>(nodes_per_range));
+    thread.near_groups.reserve(largest);
+  }
+}
+
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
-                              Collection &collection) {
+                              NeighborScratch &scratch, FoundNodes &found) {
   const NodeGroups &groups = request.mesh.groups(request.n_threads);
   return with_distances(request.surface, request.instructions, [&](const auto &distances) {
-    NeighborSearch search(request, distances, collection);
+    NeighborSearch search(request, distances, scratch, found);
     search.find_near_groups(groups);
     for (const std::int64_t node : last) search.begin_at(node);
     if (last.empty()) search.begin_in_near_groups(groups);
@@ -190,7 +211,7 @@ SearchReport search_neighbors(const SearchRequest &request, const std::vector<st
   });
 }
 
-SearchReport search_as_the_paper(const SearchRequest &request, Collection &collection) {
+SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found) {
   const StridedPoints &nodes = request.mesh.nodes();
   const Vec3 start = request.surface.triangles().corners(0)[0];
   std::int64_t nearest = -1;
@@ -200,7 +221,7 @@ SearchReport search_as_the_paper(const SearchRequest &request, Collection &colle
     if (!request.is_masked_out(i) && from_start < least) least = from_start, nearest = i;
   }
   return with_distances(request.surface, request.instructions, [&](const auto &distances) {
-    NeighborSearch search(request, distances, collection);
+    NeighborSearch search(request, distances, scratch, found);
     if (nearest >= 0) search.begin_at(nearest);
     search.walk();
     return search.report(false);

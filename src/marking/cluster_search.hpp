@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search over clusters of nodes, and the memory that it reuses from marking to marking. It filters in single precision, sixteen
+// triangles at a time, and decides in double (docs/theory.md, section 8).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/point_triangle.hpp"
+#include "kernels/kernels.hpp"
+#include "marking/found_nodes.hpp"
+#include "marking/search.hpp"
+
+namespace riis {
+
+struct ClusterScratch {
+  static constexpr std::int32_t room_for_pairs = 4096;
+
+  // A near cluster, and the thread and places of its near groups.
+  struct Item {
+    std::int64_t cluster;
+    std::size_t first, n;
+    int thread;
+  };
+  struct alignas(64) Thread {
+    std::vector<std::int32_t> candidates;  // groups near a region
+    std::vector<std::uint16_t> bits;       // the clusters of the region that each candidate is near to
+    std::vector<Item> items;
+    std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
+    std::vector<std::uint16_t> leaf_bits;   // the leaves that each near group is near to
+    std::vector<std::int32_t> leaf_groups;
+    struct alignas(64) NodeBounds {
+      float of_node[nodes_per_leaf];
+    };
+    std::vector<NodeBounds> lower_bounds;  // of a leaf's nodes, for each of its groups
+    std::vector<std::int32_t> pair_nodes, pair_triangles;
+    std::vector<double> pair_decided;      // squares of distances
+    std::vector<ClosestTriangle> closest;  // of a cluster's nodes
+    std::int64_t n_queries = 0;
+
+    float *room_for_bounds(std::size_t n_groups) {
+      if (lower_bounds.size() < n_groups) lower_bounds.resize(n_groups + n_groups / 2);
+      return lower_bounds.data()->of_node;
+    }
+  };
+  std::vector<Thread> threads;
+  std::vector<Item> items;
+
+  void prepare(int n_threads);
+};
+
+// False where single precision does not separate near from far: the mesh is a million times as large as the surface, far from it or
+// smaller than it, or the limit is that large.
+bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
+
+// The clusters are those of the request's mesh, and separates_in_single_precision is true of them.
+SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch,
+                             FoundNodes &found);
+
+}  // namespace riis

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nodes that a search finds, listed by the thread that found them. The memory is reused: a steady step allocates nothing of the
+// library's own.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+
+// More than any memory holds the coordinates of.
+inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
+
+// A node within the distance limit. The triangle is a position in the surface's set; where triangles do not measure the distances it
+// is the position of a patch.
+struct FoundNode {
+  std::uint64_t node : 40, triangle : 24;
+  double distance;
+
+  FoundNode() = default;
+  FoundNode(std::int64_t node_id, double node_distance, std::int64_t position)
+      : node(static_cast<std::uint64_t>(node_id) & (max_nodes - 1)),
+        triangle(static_cast<std::uint64_t>(position) & (max_triangles - 1)),
+        distance(node_distance) {}
+};
+static_assert(sizeof(FoundNode) == 16);
+
+// Lists in no particular order, one a thread.
+struct FoundNodes {
+  std::vector<std::vector<FoundNode>> by_thread;
+
+  // Empties the lists. Shares between threads differ from step to step, so each list gets room for twice the longest one.
+  void prepare(int n_threads) {
+    const auto n = static_cast<std::size_t>(n_threads);
+    if (by_thread.size() < n) by_thread.resize(n);
+    std::size_t largest = 0;
+    for (const auto &found : by_thread) largest = std::max({largest, 2 * found.size(), found.capacity()});
+    for (auto &found : by_thread) {
+      found.clear();
+      found.reserve(largest);
+    }
+  }
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    for (const auto &found : by_thread) n += found.size();
+    return n;
+  }
+};
+
+}  // namespace riis

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The searches that walk along the mesh's adjacency, and the memory that they reuse from marking to marking.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "marking/found_nodes.hpp"
+#include "marking/search.hpp"
+#include "parallel/range.hpp"
+
+namespace riis {
+
+// A group of nodes that may have some within the limit, and a lower bound on the distance of its centre.
+struct NearGroup {
+  std::int64_t group;
+  double distance;
+};
+
+class NeighborScratch {
+ public:
+  // A thread's own; on cache lines of its own.
+  struct alignas(64) Thread {
+    std::vector<std::int64_t> next;
+    std::vector<NearGroup> near_groups;
+    std::int64_t n_queries = 0;
+
+    void clear() {
+      next.clear();
+      near_groups.clear();
+      n_queries = 0;
+    }
+  };
+  std::vector<Thread> threads;
+  std::vector<std::int64_t> queue;  // nodes in the order in which they were claimed
+  std::vector<Range> ranges;
+  std::vector<NearGroup> near_groups;
+
+  // Nodes that a thread hands on together.
+  static constexpr std::int64_t nodes_per_range = 128;
+
+  void prepare(std::int64_t n_nodes, int n_threads);
+  // True for the first thread that claims the node.
+  bool claim(std::int64_t node) {
+    std::atomic<std::uint8_t> &mark = marks_[static_cast<std::size_t>(node)];
+    return mark.load(std::memory_order_relaxed) != walk_ && mark.exchange(walk_, std::memory_order_relaxed) != walk_;
+  }
+  bool is_claimed(std::int64_t node) const {
+    return marks_[static_cast<std::size_t>(node)].load(std::memory_order_relaxed) == walk_;
+  }
+
+ private:
+  std::unique_ptr<std::atomic<std::uint8_t>[]> marks_;  // the number of the walk that claimed the node
+  std::int64_t n_marks_ = 0;
+  std::uint8_t walk_ = 0;
+};
+
+// From neighbour to neighbour; nodes that the walk does not reach are proven far (paper, 4.2.2 "Recursive neighbor search";
+// docs/theory.md, section 7). The walk starts at the nodes of `last`, such as those of the last marking. The mesh has an adjacency.
+SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
+                              NeighborScratch &scratch, FoundNodes &found);
+
+// The paper's algorithm to the letter.
+SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
+
+}  // namespace riis

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/put_in_order.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// Each node of a stretch is a bit while it is put in order.
+constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
+constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
+
+// The set of a stretch's found nodes, and the rank of each in it.
+class Ranks {
+ public:
+  void clear() { bits_.fill(0); }
+  void add(std::int64_t node) { bits_[word(node)] |= bit(node); }
+  void count() {
+    std::uint32_t n = 0;
+    for (std::size_t i = 0; i < n_words; ++i) {
+      before_[i] = n;
+      n += n_bits(bits_[i]);
+    }
+  }
+  std::size_t operator()(std::int64_t node) const {
+    const std::size_t i = word(node);
+    return before_[i] + n_bits(bits_[i] & (bit(node) - 1));
+  }
+
+ private:
+  static std::size_t word(std::int64_t node) {
+    return static_cast<std::size_t>(node % nodes_per_stretch / bits_per_word);
+  }
+  static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
+  // On an x86-64 without the instruction for it the compiler would call a function.
+  static std::uint32_t n_bits(std::uint64_t x) {
+    x -= x >> 1 & 0x5555555555555555;
+    x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
+    return static_cast<std::uint32_t>(((x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
+  }
+
+  std::array<std::uint64_t, n_words> bits_;
+  std::array<std::uint32_t, n_words> before_;
+};
+
+std::size_t stretch_of(const FoundNode &found) { return static_cast<std::size_t>(found.node / nodes_per_stretch); }
+
+class Ordering {
+ public:
+  Ordering(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+           OrderScratch &scratch)
+      : triangles_(surface.triangles()),
+        other_(surface.other_distance()),
+        half_thickness_(surface.half_thickness()),
+        found_(found),
+        limit_is_wider_(limit_is_wider),
+        n_threads_(n_threads),
+        n_lists_(found.by_thread.size()),
+        n_stretches_((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch),
+        scratch_(scratch) {}
+
+  // Pass 1. Counts the nodes of each list in each stretch, then makes the counts the places where they begin. Returns the sums.
+  OrderScratch::Counts count() {
+    scratch_.counts.assign(static_cast<std::size_t>(n_stretches_) * n_lists_ + 1, {0, 0});
+    for_each_list([&](std::size_t list, const FoundNode &found) {
+      OrderScratch::Counts &counts = counts_of(found, list);
+      ++counts.n_within;
+      counts.n_marked += is_marked(found);
+    });
+    OrderScratch::Counts sum{0, 0};
+    for (OrderScratch::Counts &counts : scratch_.counts) {
+      const OrderScratch::Counts n = counts;
+      counts = sum;
+      sum.n_within += n.n_within;
+      sum.n_marked += n.n_marked;
+    }
+    return sum;
+  }
+
+  // Pass 2. Copies the found nodes stretch by stretch. The place of each list moves on to its end.
+  void gather() {
+    for_each_list([&](std::size_t list, const FoundNode &found) {
+      std::int64_t &at = counts_of(found, list).n_within;
+      scratch_.by_stretch[static_cast<std::size_t>(at++)] = found;
+    });
+  }
+
+  // Pass 3. Writes each stretch's nodes in their order.
+  void write(NodeList &within, NodeList &marked) {
+    parallel_for(n_stretches_, n_threads_, [&](std::int64_t stretch, int) {
+      const OrderScratch::Counts *lists = scratch_.counts.data() + static_cast<std::size_t>(stretch) * n_lists_;
+      // A stretch begins where the one before it ends.
+      const std::int64_t begin = stretch == 0 ? 0 : lists[-1].n_within, end = lists[n_lists_ - 1].n_within;
+      if (begin == end) return;
+      const FoundNode *nodes = scratch_.by_stretch.data();
+      write_ranked(nodes + begin, nodes + end, static_cast<std::size_t>(begin), within,
+                   [](const FoundNode &) { return true; });
+      if (!limit_is_wider_) return;
+      write_ranked(nodes + begin, nodes + end, static_cast<std::size_t>(lists[0].n_marked), marked,
+                   [&](const FoundNode &found) { return is_marked(found); });
+    });
+  }
+
+ private:
+  bool is_marked(const FoundNode &found) const { return found.distance <= half_thickness_; }
+
+  OrderScratch::Counts &counts_of(const FoundNode &found, std::size_t list) const {
+    return scratch_.counts[stretch_of(found) * n_lists_ + list];
+  }
+
+  template <class Visit>
+  void for_each_list(const Visit &visit) const {
+    parallel_for(static_cast<std::int64_t>(n_lists_), n_threads_, [&](std::int64_t i, int) {
+      const auto list = static_cast<std::size_t>(i);
+      for (const FoundNode &found : found_.by_thread[list]) visit(list, found);
+    });
+  }
+
+  // Writes the wanted nodes of a stretch to the list, from position `first` on, by their ranks.
+  template <class IsWanted>
+  void write_ranked(const FoundNode *begin, const FoundNode *end, std::size_t first, NodeList &list,
+                    const IsWanted &is_wanted) const {
+    Ranks ranks;
+    ranks.clear();
+    for (const FoundNode *found = begin; found != end; ++found)
+      if (is_wanted(*found)) ranks.add(static_cast<std::int64_t>(found->node));
+    ranks.count();
+    for (const FoundNode *found = begin; found != end; ++found)
+      if (is_wanted(*found)) put(*found, first + ranks(static_cast<std::int64_t>(found->node)), list);
+  }
+
+  void put(const FoundNode &found, std::size_t at, NodeList &list) const {
+    const auto position = static_cast<std::size_t>(found.triangle);
+    list.set(at, static_cast<std::int64_t>(found.node), found.distance, other_ ? -1 : triangles_.triangle_id[position],
+             other_ ? other_->patches().patches[position].leaflet_id : triangles_.leaflet_id[position]);
+  }
+
+  const TriangleSet &triangles_;
+  const PatchDistance *other_;
+  double half_thickness_;
+  const FoundNodes &found_;
+  bool limit_is_wider_;
+  int n_threads_;
+  std::size_t n_lists_;
+  std::int64_t n_stretches_;
+  OrderScratch &scratch_;
+};
+
+}  // namespace
+
+void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
+                  int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked) {
+  const std::size_t n_within = found.size();
+  constexpr std::size_t few = 4096;  // other threads would come too late
+  Ordering ordering(surface, found, limit_is_wider, n_nodes, n_within < few ? 1 : n_threads, scratch);
+  const OrderScratch::Counts sum = ordering.count();
+  const std::size_t n_marked = limit_is_wider ? static_cast<std::size_t>(sum.n_marked) : 0;
+  within.reserve(n_within);
+  marked.reserve(n_marked);
+  if (scratch.by_stretch.size() < n_within) scratch.by_stretch.resize(n_within + n_within / 2);
+  within.resize(n_within);
+  marked.resize(n_marked);
+  ordering.gather();
+  ordering.write(within, marked);
+}
+
+}  // namespace riis
