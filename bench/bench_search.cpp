@@ -250,7 +250,7 @@ void search_groups(benchmark::State &state) {
   const double *xyz = mesh.xyz().data();
   for (auto _ : state) {
     const riis::Mesh fresh(riis::StridedPoints{mesh.n_nodes(), xyz, xyz + 1, xyz + 2, 3});
-    benchmark::DoNotOptimize(&fresh.groups(threads_of(state)));
+    benchmark::DoNotOptimize(&fresh.balls(threads_of(state)));
   }
   state.counters["nodes"] = static_cast<double>(mesh.n_nodes());
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));

@@ -18,8 +18,8 @@ struct Placing {
   double largest_shift;
 
   Placing(const Clusters &clusters, const Frame &frame)
-      : ratio(frame.scale / clusters.scale),
-        shift(frame.scale * (clusters.centre - frame.centre)),
+      : ratio(frame.scale / clusters.frame.scale),
+        shift(frame.scale * (clusters.frame.centre - frame.centre)),
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
 };
 

@@ -10,6 +10,7 @@
 #include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "kernels/kernels.hpp"
+#include "marking/node_order.hpp"
 #include "parallel/range.hpp"
 
 namespace riis {
@@ -23,9 +24,7 @@ struct Clusters {
   static constexpr std::int64_t clusters_per_region = 16;
 
   std::int64_t n_nodes = 0;
-  // Coordinates in leaves and boxes are (x - centre) * scale, scale a power of two that brings them between -1 and 1.
-  Vec3 centre{0, 0, 0};
-  double scale = 1;
+  NodeFrame frame;  // of the coordinates in leaves and boxes
   std::int64_t n_leaves = 0;
   std::unique_ptr<Leaf[]> leaves;
   std::unique_ptr<LeafPoints[]> points;  // of leaves
@@ -35,7 +34,7 @@ struct Clusters {
     float lower[3], upper[3];
   };
   std::vector<Box> boxes;      // of regions
-  std::vector<Bounds> blocks;  // of nodes by their numbers, while their frame is sought
+  std::vector<Bounds> blocks;  // memory of frame_of
 
   Range leaves_of(std::int64_t cluster) const;
   Range clusters_of(std::int64_t region) const;

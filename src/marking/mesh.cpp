@@ -6,7 +6,7 @@ namespace riis {
 void Mesh::set_nodes(const StridedPoints &nodes) {
   if (nodes.n != nodes_.n) {
     adjacency_.reset();
-    groups_.order.clear();
+    balls_.order.clear();
     clusters_.n_nodes = 0;
     was_marked_.store(false, std::memory_order_relaxed);
   }
@@ -14,16 +14,16 @@ void Mesh::set_nodes(const StridedPoints &nodes) {
   forget_places();
 }
 
-const NodeGroups &Mesh::groups(int n_threads) const {
-  if (has_groups_.load(std::memory_order_acquire)) return groups_;
-  const std::lock_guard<std::mutex> lock(groups_mutex_);
-  if (!has_groups_.load(std::memory_order_relaxed)) {
+const NodeBalls &Mesh::balls(int n_threads) const {
+  if (has_balls_.load(std::memory_order_acquire)) return balls_;
+  const std::lock_guard<std::mutex> lock(balls_mutex_);
+  if (!has_balls_.load(std::memory_order_relaxed)) {
     // Nodes that moved keep their order: it stays good as long as they do not mix.
-    if (groups_.order.empty()) sort_into_groups(nodes_, n_threads, groups_);
-    enclose(nodes_, n_threads, groups_);
-    has_groups_.store(true, std::memory_order_release);
+    if (balls_.order.empty()) sort_into_balls(nodes_, n_threads, balls_);
+    enclose(nodes_, n_threads, balls_);
+    has_balls_.store(true, std::memory_order_release);
   }
-  return groups_;
+  return balls_;
 }
 
 const Clusters &Mesh::clusters(int n_threads) const {

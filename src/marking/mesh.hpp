@@ -11,7 +11,7 @@
 #include "geometry/strided.hpp"
 #include "marking/adjacency.hpp"
 #include "marking/clusters.hpp"
-#include "marking/node_groups.hpp"
+#include "marking/node_balls.hpp"
 
 namespace riis {
 
@@ -24,7 +24,7 @@ class Mesh {
 
   // What is known of where the nodes are no longer holds.
   void forget_places() {
-    has_groups_.store(false, std::memory_order_relaxed);
+    has_balls_.store(false, std::memory_order_relaxed);
     has_clusters_.store(false, std::memory_order_relaxed);
   }
 
@@ -32,8 +32,8 @@ class Mesh {
   void set_nodes(const StridedPoints &nodes);
   void set_adjacency(const std::optional<Adjacency> &adjacency) { adjacency_ = adjacency; }
 
-  // The nodes in groups of near ones. May be asked for by several threads at once.
-  const NodeGroups &groups(int n_threads) const;
+  // The nodes in balls of near ones. Several threads may call it at once.
+  const NodeBalls &balls(int n_threads) const;
   // The same in clusters, for at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
 
@@ -43,9 +43,9 @@ class Mesh {
  private:
   StridedPoints nodes_;
   std::optional<Adjacency> adjacency_;
-  mutable std::mutex groups_mutex_;
-  mutable NodeGroups groups_;
-  mutable std::atomic<bool> has_groups_{false};
+  mutable std::mutex balls_mutex_;
+  mutable NodeBalls balls_;
+  mutable std::atomic<bool> has_balls_{false};
   mutable std::mutex clusters_mutex_;
   mutable Clusters clusters_;
   mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};

@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, groups_per_block = 16;
+constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
 
 template <class Distances>
 class NeighborSearch {
@@ -68,12 +68,12 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // The groups of nodes that may have one within the limit, each with the distance of its centre, or less.
-  void find_near_groups(const NodeGroups &groups) {
-    std::vector<NearGroup> &near = walked_.near_groups;
+  // Finds the balls that may hold a node within the limit, each with a lower bound on the distance of its centre.
+  void find_near_balls(const NodeBalls &balls) {
+    std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
-    const auto n = static_cast<std::int64_t>(groups.supergroups.size());
-    const int n_ran = parallel_for_ranges(n, groups_per_block, request_.n_threads, [&](const Range &block, int thread) {
+    const auto n = static_cast<std::int64_t>(balls.large_balls.size());
+    const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
       NeighborScratch::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
       const auto is_near = [&](const Ball &ball, double &distance) {
         const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
@@ -84,43 +84,43 @@ class NeighborSearch {
       };
       for (std::int64_t s = block.begin; s < block.end; ++s) {
         double distance;
-        if (!is_near(groups.supergroups[static_cast<std::size_t>(s)], distance)) continue;
-        const Range range = groups.groups_of(s);
-        for (std::int64_t group = range.begin; group < range.end; ++group)
-          if (is_near(groups.groups[static_cast<std::size_t>(group)], distance))
-            own.near_groups.push_back({group, distance});
+        if (!is_near(balls.large_balls[static_cast<std::size_t>(s)], distance)) continue;
+        const Range range = balls.balls_of(s);
+        for (std::int64_t ball = range.begin; ball < range.end; ++ball)
+          if (is_near(balls.balls[static_cast<std::size_t>(ball)], distance))
+            own.near_balls.push_back({ball, distance});
       }
     });
     n_threads_ = std::max(n_threads_, n_ran);
-    for (const auto &own : walked_.threads) near.insert(near.end(), own.near_groups.begin(), own.near_groups.end());
+    for (const auto &own : walked_.threads) near.insert(near.end(), own.near_balls.begin(), own.near_balls.end());
     // In an order that does not depend on the threads.
-    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.group < b.group; });
+    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // Begins in every group that the surface may be near to.
-  void begin_in_near_groups(const NodeGroups &groups) {
-    for (const NearGroup &near : walked_.near_groups) {
-      const Range range = groups.nodes_of(near.group);
+  // Begins in every ball that the surface may be near to.
+  void begin_in_near_balls(const NodeBalls &balls) {
+    for (const NearBall &near : walked_.near_balls) {
+      const Range range = balls.nodes_of(near.ball);
       for (std::int64_t k = range.begin; k < range.end; ++k) {
-        const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
-        if (request_.is_masked_out(node) || is_far(groups, near, node)) continue;
+        const std::int64_t node = balls.order[static_cast<std::size_t>(k)];
+        if (request_.is_masked_out(node) || is_far(balls, near, node)) continue;
         begin_at(node);
         break;
       }
     }
   }
 
-  // Every node that was not walked to is proven far, by the distance of its group's centre, or asked.
-  void prove(const NodeGroups &groups) {
-    const auto n = static_cast<std::int64_t>(walked_.near_groups.size());
-    const int n_ran = parallel_for_ranges(n, groups_per_block, request_.n_threads, [&](const Range &block, int thread) {
+  // Proves that every node that was not walked to is far, by its ball's centre, or queries it.
+  void prove(const NodeBalls &balls) {
+    const auto n = static_cast<std::int64_t>(walked_.near_balls.size());
+    const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
       const std::size_t n_before = found_.by_thread[static_cast<std::size_t>(thread)].size();
       for (std::int64_t g = block.begin; g < block.end; ++g) {
-        const NearGroup &near = walked_.near_groups[static_cast<std::size_t>(g)];
-        const Range range = groups.nodes_of(near.group);
+        const NearBall &near = walked_.near_balls[static_cast<std::size_t>(g)];
+        const Range range = balls.nodes_of(near.ball);
         for (std::int64_t k = range.begin; k < range.end; ++k) {
-          const std::int64_t node = groups.order[static_cast<std::size_t>(k)];
-          if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(groups, near, node)) continue;
+          const std::int64_t node = balls.order[static_cast<std::size_t>(k)];
+          if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(balls, near, node)) continue;
           ask(node, thread);
         }
       }
@@ -151,8 +151,8 @@ class NeighborSearch {
   }
 
   // Farther from the surface than the limit, whatever direction it is in: the centre's distance less its own from the centre.
-  bool is_far(const NodeGroups &groups, const NearGroup &near, std::int64_t node) const {
-    const Vec3 centre = groups.groups[static_cast<std::size_t>(near.group)].centre;
+  bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
+    const Vec3 centre = balls.balls[static_cast<std::size_t>(near.ball)].centre;
     const double from_centre = distance(centre, nodes_[node]);
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
@@ -189,24 +189,24 @@ void NeighborScratch::prepare(std::int64_t n_nodes, int n_threads) {
   queue.resize(n);
   if (threads.size() < n_slots) threads.resize(n_slots);
   std::size_t largest = 0;
-  for (const Thread &thread : threads) largest = std::max(largest, thread.near_groups.capacity());
+  for (const Thread &thread : threads) largest = std::max(largest, thread.near_balls.capacity());
   for (Thread &thread : threads) {
     thread.clear();
     thread.next.reserve(static_cast<std::size_t>(nodes_per_range));
-    thread.near_groups.reserve(largest);
+    thread.near_balls.reserve(largest);
   }
 }
 
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found) {
-  const NodeGroups &groups = request.mesh.groups(request.n_threads);
+  const NodeBalls &balls = request.mesh.balls(request.n_threads);
   return with_distances(request.surface, request.instructions, [&](const auto &distances) {
     NeighborSearch search(request, distances, scratch, found);
-    search.find_near_groups(groups);
+    search.find_near_balls(balls);
     for (const std::int64_t node : last) search.begin_at(node);
-    if (last.empty()) search.begin_in_near_groups(groups);
+    if (last.empty()) search.begin_in_near_balls(balls);
     search.walk();
-    search.prove(groups);
+    search.prove(balls);
     return search.report(true);
   });
 }

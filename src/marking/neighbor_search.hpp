@@ -13,9 +13,9 @@
 
 namespace riis {
 
-// A group of nodes that may have some within the limit, and a lower bound on the distance of its centre.
-struct NearGroup {
-  std::int64_t group;
+// A ball that may hold nodes within the limit, and a lower bound on the distance of its centre.
+struct NearBall {
+  std::int64_t ball;
   double distance;
 };
 
@@ -24,19 +24,19 @@ class NeighborScratch {
   // A thread's own; on cache lines of its own.
   struct alignas(64) Thread {
     std::vector<std::int64_t> next;
-    std::vector<NearGroup> near_groups;
+    std::vector<NearBall> near_balls;
     std::int64_t n_queries = 0;
 
     void clear() {
       next.clear();
-      near_groups.clear();
+      near_balls.clear();
       n_queries = 0;
     }
   };
   std::vector<Thread> threads;
   std::vector<std::int64_t> queue;  // nodes in the order in which they were claimed
   std::vector<Range> ranges;
-  std::vector<NearGroup> near_groups;
+  std::vector<NearBall> near_balls;
 
   // Nodes that a thread hands on together.
   static constexpr std::int64_t nodes_per_range = 128;

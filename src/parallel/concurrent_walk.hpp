@@ -8,7 +8,6 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for_each.h>
-#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -77,16 +76,6 @@ int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body)
   int n_ran = 0;
   for (const auto &bits : ran) n_ran += __builtin_popcountll(bits.load(std::memory_order_relaxed));
   return n_ran < 1 ? 1 : n_ran;
-}
-
-template <class Iterator, class Less>
-void concurrent_sort(Iterator begin, Iterator end, int n_threads, const Less &less) {
-  if (n_threads == 1) {
-    std::sort(begin, end, less);
-    return;
-  }
-  Arena arena(n_threads);
-  arena.run([&] { tbb::parallel_sort(begin, end, less); });
 }
 
 }  // namespace riis

@@ -98,9 +98,4 @@ int concurrent_walk(const std::vector<Range> &ranges, int n_threads, const Body 
   return std::max(n_ran.load(), 1);
 }
 
-template <class Iterator, class Less>
-void concurrent_sort(Iterator begin, Iterator end, int, const Less &less) {
-  std::sort(begin, end, less);
-}
-
 }  // namespace riis

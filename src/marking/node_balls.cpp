@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/node_balls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/bounds.hpp"
+#include "marking/node_order.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+template <class Visit>
+void for_each(std::int64_t n, int n_threads, const Visit &visit) {
+  constexpr std::int64_t per_block = 4096;
+  parallel_for_ranges(n, per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) visit(i);
+  });
+}
+
+// A ball's radius is right to a few units of rounding of the coordinates.
+double rounded_up(double radius, Vec3 centre) {
+  return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
+}
+
+// The ball around the middle of the range's balls; nodes are balls without radius.
+template <class BallAt>
+Ball ball_around(const Range &range, const BallAt &ball_at) {
+  Bounds box;
+  for (std::int64_t i = range.begin; i < range.end; ++i) box.add(ball_at(i).centre);
+  Ball ball{box.middle(), 0};
+  for (std::int64_t i = range.begin; i < range.end; ++i) {
+    const Ball inner = ball_at(i);
+    ball.radius = std::max(ball.radius, distance(ball.centre, inner.centre) + inner.radius);
+  }
+  return {ball.centre, rounded_up(ball.radius, ball.centre)};
+}
+
+std::size_t n_parts(std::size_t n, std::int64_t size) {
+  return (n + static_cast<std::size_t>(size) - 1) / static_cast<std::size_t>(size);
+}
+
+}  // namespace
+
+Range NodeBalls::nodes_of(std::int64_t ball) const {
+  return {ball * nodes_per_ball, std::min((ball + 1) * nodes_per_ball, static_cast<std::int64_t>(order.size()))};
+}
+
+Range NodeBalls::balls_of(std::int64_t large_ball) const {
+  return {large_ball * balls_per_large_ball,
+          std::min((large_ball + 1) * balls_per_large_ball, static_cast<std::int64_t>(balls.size()))};
+}
+
+void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
+  std::vector<Bounds> blocks;
+  NodeSorter<std::int64_t> sorter(items_of<std::int64_t>(nodes, frame_of(nodes, n_threads, blocks), n_threads),
+                                  n_threads);
+  const std::vector<NodeItem<std::int64_t>> &sorted = sorter.sort();
+  balls.order.resize(sorted.size());
+  for_each(nodes.n, n_threads, [&](std::int64_t i) {
+    balls.order[static_cast<std::size_t>(i)] = sorted[static_cast<std::size_t>(i)].node;
+  });
+}
+
+void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
+  balls.balls.resize(n_parts(balls.order.size(), NodeBalls::nodes_per_ball));
+  balls.large_balls.resize(n_parts(balls.balls.size(), NodeBalls::balls_per_large_ball));
+  for_each(static_cast<std::int64_t>(balls.balls.size()), n_threads, [&](std::int64_t ball) {
+    balls.balls[static_cast<std::size_t>(ball)] = ball_around(balls.nodes_of(ball), [&](std::int64_t at) {
+      return Ball{node_at(nodes, balls.order[static_cast<std::size_t>(at)]), 0};
+    });
+  });
+  for_each(static_cast<std::int64_t>(balls.large_balls.size()), n_threads, [&](std::int64_t large_ball) {
+    balls.large_balls[static_cast<std::size_t>(large_ball)] = ball_around(
+        balls.balls_of(large_ball), [&](std::int64_t ball) { return balls.balls[static_cast<std::size_t>(ball)]; });
+  });
+}
+
+}  // namespace riis

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// An order of nodes in which near ones follow each other, and the frame and boxes that it needs: what clusters and balls share.
+// In: the caller's nodes. Out: their numbers in that order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "geometry/bounds.hpp"
+#include "geometry/strided.hpp"
+#include "kernels/kernels.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+
+inline constexpr std::int64_t nodes_per_sorting_block = 32768;
+
+// Fails with RIIS_INVALID_MESH for a coordinate that became unusable after the nodes were checked.
+inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
+  return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+}
+
+// Coordinates of a mesh: (x - centre) * scale, scale a power of two that brings them between -1 and 1.
+struct NodeFrame {
+  Vec3 centre{0, 0, 0};
+  double scale = 1;
+
+  void operator()(Vec3 p, float *x) const {
+    const Vec3 q = scale * (p - centre);
+    x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
+  }
+};
+
+// `blocks` is memory that is reused.
+inline NodeFrame frame_of(const StridedPoints &nodes, int n_threads, std::vector<Bounds> &blocks) {
+  blocks.resize(static_cast<std::size_t>((nodes.n + nodes_per_sorting_block - 1) / nodes_per_sorting_block));
+  parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
+    Bounds bounds;
+    for (std::int64_t i = range.begin; i < range.end; ++i) bounds.add(node_at(nodes, i));
+    blocks[static_cast<std::size_t>(range.begin / nodes_per_sorting_block)] = bounds;
+  });
+  Bounds all;
+  for (const Bounds &block : blocks) all.add(block);
+  const Vec3 extent = all.half_extent();
+  int exponent = 0;
+  std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
+  return {all.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};  // a denormal extent would make it infinite
+}
+
+// A box in the frame of the mesh, in single precision.
+struct NodeBox {
+  static constexpr float inf = std::numeric_limits<float>::infinity();
+  float lower[3] = {inf, inf, inf}, upper[3] = {-inf, -inf, -inf};
+
+  void add(const float *x) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = x[i] < lower[i] ? x[i] : lower[i];
+      upper[i] = x[i] > upper[i] ? x[i] : upper[i];
+    }
+  }
+  void add(const NodeBox &box) {
+    add(box.lower);
+    add(box.upper);
+  }
+  int longest_axis() const {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if (upper[i] - lower[i] > upper[axis] - lower[axis]) axis = i;
+    return axis;
+  }
+};
+
+// A node by its number, Node, which is wide enough for all of the mesh.
+template <class Node>
+struct NodeItem {
+  float x[3];
+  Node node;
+};
+
+// Sorts nodes so that near ones follow each other: by counting along the longest axis of their box, cut where parts are multiples of a
+// unit, clusters of leaves first, then leaves. Items go from one array to the other and back.
+template <class Node>
+class NodeSorter {
+ public:
+  typedef NodeItem<Node> Item;
+
+  NodeSorter(std::vector<Item> items, int n_threads)
+      : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
+
+  const std::vector<Item> &sort() {
+    // While parts are fewer than threads want, threads share a part; then each takes whole ones.
+    Item *at = items_.data(), *other = buffer_.data();
+    std::vector<Part> parts{{0, static_cast<std::int64_t>(items_.size())}}, next;
+    const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
+    while (static_cast<std::int64_t>(parts.size()) < enough && parts.front().size() > 8 * nodes_per_sorting_block) {
+      next.clear();
+      for (const Part &part : parts) {
+        ManyBlocks blocks(part, n_threads_);
+        sort_once(part, at, other, blocks);
+        for_each_cut(part, [&](const Part &cut) { next.push_back(cut); });
+      }
+      std::swap(parts, next);
+      std::swap(at, other);
+    }
+    parallel_for(static_cast<std::int64_t>(parts.size()), n_threads_,
+                 [&](std::int64_t i, int) { sort_alone(parts[static_cast<std::size_t>(i)], at, other); });
+    return items_;
+  }
+
+ private:
+  static constexpr int n_bins = 256;
+  typedef std::array<Node, n_bins> Counts;
+  struct Part {
+    std::int64_t begin, end;
+    std::int64_t size() const { return end - begin; }
+  };
+  struct Bins {
+    int axis;
+    float from, per_unit;
+
+    explicit Bins(const NodeBox &box) : axis(box.longest_axis()), from(box.lower[axis]) {
+      const float extent = box.upper[axis] - from;
+      per_unit = extent > 0 ? n_bins / extent : 0;
+      if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
+    }
+    std::size_t operator()(const Item &item) const {
+      const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
+      return static_cast<std::size_t>(bin < n_bins ? bin : n_bins - 1);
+    }
+  };
+
+  // A part in blocks that threads share, each with its box and counts; or in one block, for one thread.
+  struct ManyBlocks {
+    const Part &part;
+    int n_threads;
+    std::vector<NodeBox> boxes;
+    std::vector<Counts> at;
+
+    ManyBlocks(const Part &of, int threads)
+        : part(of),
+          n_threads(threads),
+          boxes(static_cast<std::size_t>((of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block)),
+          at(boxes.size()) {}
+    template <class Visit>
+    void for_each(const Visit &visit) const {
+      parallel_for_ranges(part.size(), nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
+        visit(static_cast<std::size_t>(range.begin / nodes_per_sorting_block),
+              Part{part.begin + range.begin, part.begin + range.end});
+      });
+    }
+  };
+  struct OneBlock {
+    const Part &part;
+    std::array<NodeBox, 1> boxes;
+    std::array<Counts, 1> at;
+
+    explicit OneBlock(const Part &of) : part(of) {}
+    template <class Visit>
+    void for_each(const Visit &visit) const {
+      visit(0, part);
+    }
+  };
+
+  // Cuts into as many parts as keep the cuts at multiples of a unit: clusters, and within a cluster leaves.
+  template <class Visit>
+  static void for_each_cut(const Part &part, const Visit &visit) {
+    const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
+    const std::int64_t n_units = (part.size() + unit - 1) / unit;
+    const std::int64_t n_parts = n_units >= 8 ? 4 : 2;
+    std::int64_t begin = part.begin;
+    for (std::int64_t i = 1; i <= n_parts; ++i) {
+      const std::int64_t end = std::min(part.begin + n_units * i / n_parts * unit, part.end);
+      visit(Part{begin, end});
+      begin = end;
+    }
+  }
+
+  // Sorts into bins of the longest axis. Within a bin items keep their order, however many the blocks.
+  template <class Blocks>
+  static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
+    blocks.for_each([&](std::size_t block, const Part &of_block) {
+      NodeBox box;
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) box.add(from[i].x);
+      blocks.boxes[block] = box;
+    });
+    NodeBox box;
+    for (const NodeBox &of_block : blocks.boxes) box.add(of_block);
+    const Bins bins(box);
+    blocks.for_each([&](std::size_t block, const Part &of_block) {
+      Counts &counts = blocks.at[block];
+      counts.fill(0);
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) ++counts[bins(from[i])];
+    });
+    Node n = 0;
+    for (std::size_t bin = 0; bin < n_bins; ++bin)
+      for (Counts &counts : blocks.at) {
+        const Node count = counts[bin];
+        counts[bin] = n;
+        n += count;
+      }
+    blocks.for_each([&](std::size_t block, const Part &of_block) {
+      Counts &next = blocks.at[block];
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i)
+        to[part.begin + static_cast<std::int64_t>(next[bins(from[i])]++)] = from[i];
+    });
+  }
+
+  // Sorts down to leaves, on one thread.
+  void sort_alone(const Part &part, Item *at, Item *other) {
+    if (part.size() <= nodes_per_leaf) {
+      if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);
+      return;
+    }
+    OneBlock block(part);
+    sort_once(part, at, other, block);
+    for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
+  }
+
+  std::vector<Item> items_, buffer_;
+  int n_threads_;
+};
+
+template <class Node>
+std::vector<NodeItem<Node>> items_of(const StridedPoints &nodes, const NodeFrame &frame, int n_threads) {
+  std::vector<NodeItem<Node>> items(static_cast<std::size_t>(nodes.n));
+  parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      NodeItem<Node> &item = items[static_cast<std::size_t>(i)];
+      frame(node_at(nodes, i), item.x);
+      item.node = static_cast<Node>(i);
+    }
+  });
+  return items;
+}
+
+}  // namespace riis
