@@ -65,7 +65,7 @@ int main(int argc, char **argv) {
     draw_page(argv[1], argc == 3 ? argv[2] : nullptr, caught);
     return 0;
   } catch (const riis::Error &error) {
-    std::fprintf(stderr, "riis-figures: %s\n", error.text);
+    std::fprintf(stderr, "riis-figures: %s\n", error.message.text());
   } catch (const riis::vtk::Failure &failure) {
     std::fprintf(stderr, "riis-figures: %s\n", failure.text.c_str());
   } catch (const std::exception &exception) {

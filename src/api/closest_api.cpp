@@ -71,9 +71,8 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Pa
 void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
   for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
     if (name)
-      riis::fail(RIIS_INVALID_ARGUMENT,
-                 "arrays.%s is given, but the surface's distances are by %s: that is of triangles", name,
-                 method.name());
+      riis::fail(RIIS_INVALID_ARGUMENT, "arrays.", name, " is given, but the surface's distances are by ",
+                 method.name(), ": that is of triangles");
 }
 
 void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
@@ -90,8 +89,7 @@ void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distanc
 double limit_of(const riis_closest_options &options) {
   if (options.distance_limit == RIIS_AUTO) return std::numeric_limits<double>::infinity();
   if (!(options.distance_limit >= 0))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %s; it must be at least 0",
-               riis::Number(options.distance_limit).text);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
   // Without a limit no point is far, whatever far points get.
   if (std::isfinite(options.distance_limit))
     riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
@@ -136,10 +134,10 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const riis::Surface &content = riis::content_of(surface);
     const riis_closest_options whole = riis::completed<options_size>(options, "options", default_options);
     const riis_closest_arrays to = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
-    if (n_points < 0)
-      riis::fail(RIIS_INVALID_ARGUMENT, "n_points is %lld; it must be at least 0", static_cast<long long>(n_points));
+    if (n_points < 0) riis::fail(RIIS_INVALID_ARGUMENT, "n_points is ", n_points, "; it must be at least 0");
     const int n_threads = riis::threads_asked_for(whole.n_threads, "options.n_threads");
-    if (whole.reserved != 0) riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is %d; it must be 0", whole.reserved);
+    if (whole.reserved != 0)
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is ", whole.reserved, "; it must be 0");
     const double limit = limit_of(whole);
     if (const riis::PatchDistance *method = content.other_distance()) refuse_what_is_of_triangles(to, *method);
     if (n_points == 0) return;

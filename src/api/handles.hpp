@@ -34,7 +34,7 @@ struct Handle {
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   require(handle, argument);
-  if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, "%s is a handle of another kind", argument);
+  if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
   return handle;
 }
 

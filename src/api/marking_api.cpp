@@ -24,34 +24,32 @@ const riis_faces default_faces{sizeof(riis_faces), 0, 0, nullptr, nullptr, 1, 32
 double limit_of(const riis_mark_options &options, double half_thickness) {
   if (options.distance_limit == RIIS_AUTO) return half_thickness;
   if (!(options.distance_limit >= half_thickness && options.distance_limit <= 1e60))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is %s; it must be from the half thickness, %s, to 1e+60",
-               riis::Number(options.distance_limit).text, riis::Number(half_thickness).text);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit,
+               "; it must be from the half thickness, ", half_thickness, ", to 1e+60");
   return options.distance_limit;
 }
 
 riis::StridedPoints checked_nodes(const riis::StridedPoints &nodes) {
-  if (nodes.n < 1)
-    riis::fail(RIIS_INVALID_MESH, "n_nodes is %lld; a mesh has at least 1 node", static_cast<long long>(nodes.n));
+  if (nodes.n < 1) riis::fail(RIIS_INVALID_MESH, "n_nodes is ", nodes.n, "; a mesh has at least 1 node");
   if (nodes.n > riis::max_nodes)
-    riis::fail(RIIS_LIMIT_EXCEEDED, "n_nodes is %lld; it must be at most %lld", static_cast<long long>(nodes.n),
-               static_cast<long long>(riis::max_nodes));
+    riis::fail(RIIS_LIMIT_EXCEEDED, "n_nodes is ", nodes.n, "; it must be at most ", riis::max_nodes);
   riis::check_points(nodes, "node", RIIS_INVALID_MESH);
   return nodes;
 }
 
 void check_search(std::int32_t search) {
   if (search < RIIS_SEARCH_AUTO || search > RIIS_SEARCH_CLUSTERS)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.search is %d; it must be one of RIIS_SEARCH_*", search);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.search is ", search, "; it must be one of RIIS_SEARCH_*");
 }
 
 riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   if (instructions < RIIS_INSTRUCTIONS_AUTO || instructions > RIIS_INSTRUCTIONS_AVX512)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.instructions is %d; it must be one of RIIS_INSTRUCTIONS_*",
-               instructions);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.instructions is ", instructions,
+               "; it must be one of RIIS_INSTRUCTIONS_*");
   if (instructions == RIIS_INSTRUCTIONS_AUTO) return riis::best_instruction_set();
   const auto set = static_cast<riis::InstructionSet>(instructions - RIIS_INSTRUCTIONS_BASELINE);
   if (!riis::has(set))
-    riis::fail(RIIS_UNAVAILABLE, "options.instructions is %d, which this processor has not", instructions);
+    riis::fail(RIIS_UNAVAILABLE, "options.instructions is ", instructions, ", which this processor has not");
   return set;
 }
 
@@ -91,8 +89,8 @@ riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
     const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     const int n = riis::threads_asked_for(n_threads, "n_threads");
     if (content.nodes().n > riis::max_clustered_nodes)
-      riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of %lld nodes is not made clusters of: at most %lld",
-                 static_cast<long long>(content.nodes().n), static_cast<long long>(riis::max_clustered_nodes));
+      riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n, " nodes is not made clusters of: at most ",
+                 riis::max_clustered_nodes);
     content.clusters(n);
   });
 }
@@ -212,8 +210,8 @@ riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nod
   return guarded([&] {
     const riis::MarkResult &content = require_handle(result, "result")->result;
     if (n_nodes != content.stats.n_nodes)
-      riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is %lld; the result is of a mesh with %lld nodes",
-                 static_cast<long long>(n_nodes), static_cast<long long>(content.stats.n_nodes));
+      riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is ", n_nodes, "; the result is of a mesh with ",
+                 content.stats.n_nodes, " nodes");
     riis::check_far_distance("far_distance", far_distance, content.distance_limit);
     riis::write_dense(content, far_distance, mark, distance, triangle_id, leaflet_id);
   });

@@ -17,11 +17,8 @@ void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && first_size <= sizeof(Struct) && sizeof(Struct) % 8 == 0);
   constexpr std::size_t size_here = sizeof(Struct);
   if (size < static_cast<std::int64_t>(first_size) || size > static_cast<std::int64_t>(size_here) || size % 8 != 0)
-    fail(RIIS_INVALID_STRUCT_SIZE,
-         "the struct size of %s is %lld; riis %s knows %lld to %lld: use its init function, and a header no newer than "
-         "the library",
-         name, static_cast<long long>(size), riis_version_string(), static_cast<long long>(first_size),
-         static_cast<long long>(size_here));
+    fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of ", name, " is ", size, "; riis ", riis_version_string(),
+         " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
 // The body of an init function.
@@ -62,14 +59,14 @@ void put(T *to, T value) {
 // A far distance must not be mistaken for a near one.
 inline void check_far_distance(const char *name, double far_distance, double distance_limit) {
   if (far_distance >= 0 && far_distance <= distance_limit)
-    fail(RIIS_INVALID_ARGUMENT, "%s is %s; it must not lie between 0 and the distance limit %s", name,
-         Number(far_distance).text, Number(distance_limit).text);
+    fail(RIIS_INVALID_ARGUMENT, name, " is ", far_distance, "; it must not lie between 0 and the distance limit ",
+         distance_limit);
 }
 
 // The number of threads that an option asks for, with 0 for the processors that the calling thread may use.
 inline int threads_asked_for(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
-    fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be from 1 to 1024, or 0 for the default", name, n_threads);
+    fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");
   return n_threads ? n_threads : default_thread_count();
 }
 

@@ -28,12 +28,12 @@ const riis_surface_arrays default_arrays{
 
 void check_range(const char *name, double value, double minimum, double maximum) {
   if (!(value >= minimum && value <= maximum))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.%s is %s; it must be from %s to %s", name, riis::Number(value).text,
-               riis::Number(minimum).text, riis::Number(maximum).text);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be from ", minimum, " to ", maximum);
 }
 
 void check_flag(const char *name, std::int32_t value) {
-  if (value != 0 && value != 1) riis::fail(RIIS_INVALID_ARGUMENT, "options.%s is %d; it must be 0 or 1", name, value);
+  if (value != 0 && value != 1)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
 }
 
 void check_options(const riis_surface_options &options) {
@@ -45,12 +45,12 @@ void check_options(const riis_surface_options &options) {
   for (const double value : options.translation) check_range("translation", value, -1e50, 1e50);
   const double *axis = options.rotation_axis;
   if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (%s, %s, %s); it must be at least 1e-50 long",
-               riis::Number(axis[0]).text, riis::Number(axis[1]).text, riis::Number(axis[2]).text);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2],
+               "); it must be at least 1e-50 long");
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
   if (options.distance < RIIS_DISTANCE_TRIANGLES || options.distance > RIIS_DISTANCE_MINIMIZATION)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is %d; it must be one of RIIS_DISTANCE_*", options.distance);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance, "; it must be one of RIIS_DISTANCE_*");
   riis::threads_asked_for(options.n_threads, "options.n_threads");
   if (options.distance_tolerance != RIIS_AUTO) check_range("distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
 }
@@ -79,10 +79,8 @@ void check_precision(const riis_surface_options &options, const char *name, doub
   const double *t = options.translation;
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
   if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * wanted)
-    riis::fail(RIIS_INVALID_ARGUMENT,
-               "options.translation moves the valve by %s, where coordinates round by more than a thousandth of "
-               "%s * half_thickness, %s",
-               riis::Number(largest).text, name, riis::Number(wanted).text);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.translation moves the valve by ", largest,
+               ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
 // Where it is not said: so many that starting them pays, going by the last content.
@@ -134,10 +132,9 @@ void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, 
   const riis_surface_arrays whole = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
   check_options(options);
   if (options.distance != RIIS_DISTANCE_TRIANGLES)
-    riis::fail(RIIS_INVALID_ARGUMENT,
-               "options.distance is %d, which works on patches, but a surface from arrays has triangles only: it must "
-               "be RIIS_DISTANCE_TRIANGLES, 0",
-               options.distance);
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance,
+               ", which works on patches, but a surface from arrays has triangles only: it must be "
+               "RIIS_DISTANCE_TRIANGLES, 0");
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(whole, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
   });

@@ -78,9 +78,8 @@ riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, 
     require_handle(valve, "valve");
     const auto &specs = valve->valve.kind().parameters;
     if (parameter_id < 0 || parameter_id >= static_cast<int64_t>(specs.size()))
-      riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is %lld; the %s valve has parameters 0 to %lld",
-                 static_cast<long long>(parameter_id), valve->valve.kind().name,
-                 static_cast<long long>(specs.size()) - 1);
+      riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is ", parameter_id, "; the ", valve->valve.kind().name,
+                 " valve has parameters 0 to ", specs.size() - 1);
     const riis::ParameterSpec &spec = specs[static_cast<std::size_t>(parameter_id)];
     const auto &defaults = spec.default_values;
     riis::write_struct<72>(parameter, struct_size, "parameter",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/errors.hpp"
 
-#include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -12,18 +11,9 @@
 namespace riis {
 namespace {
 
-thread_local char last_error[error_text_size] = "";
+thread_local char last_error[message_size] = "";
 
 }  // namespace
-
-void fail(riis_status status, const char *format, ...) {
-  Error error{status, {}};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(error.text, sizeof error.text, format, arguments);
-  va_end(arguments);
-  throw error;
-}
 
 riis_status record_error(riis_status status, const char *text) noexcept {
   std::snprintf(last_error, sizeof last_error, "%s", text);
@@ -36,15 +26,13 @@ riis_status record_current_exception() noexcept {
   try {
     throw;
   } catch (const Error &error) {
-    return record_error(error.status, error.text);
+    return record_error(error.status, error.message.text());
   } catch (const std::bad_alloc &) {
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::length_error &) {  // a container asked for more than memory can hold
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &exception) {
-    char text[error_text_size];
-    std::snprintf(text, sizeof text, "internal error: %s", exception.what());
-    return record_error(RIIS_INTERNAL_ERROR, text);
+    return record_error(RIIS_INTERNAL_ERROR, Message("internal error: ", exception.what()).text());
   } catch (...) {
     return record_error(RIIS_INTERNAL_ERROR, "internal error: unknown exception");
   }

@@ -1,37 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a failure travels: fail() throws, guarded() is the wall that turns whatever is thrown into a status and a text.
-// The text has a fixed size and lives in the exception and in the thread, so that reporting an error allocates nothing
-// of the library's own.
+// How a failure travels: fail() throws, guarded() is the wall that turns any exception into a status and a message. The message
+// lives in the exception and in the thread, so that reporting an error allocates nothing of the library's own.
 #pragma once
 
 #include <riis/riis.h>
 
-#include <charconv>
-#include <cstddef>
 #include <new>
 
 #include "base/float_environment.hpp"
+#include "base/message.hpp"
 
 namespace riis {
 
-inline constexpr std::size_t error_text_size = 512;
-
 struct Error {
   riis_status status;
-  char text[error_text_size];
+  Message message;
 };
 
-// A number as the shortest text that reads back as the same number, for the texts of errors: two different numbers never look
-// the same.
-struct Number {
-  explicit Number(double value) noexcept { *std::to_chars(text, text + sizeof text - 1, value).ptr = '\0'; }
-  char text[32];
-};
+// Throws an Error. Its message, which names the argument and its value, is put together from words and numbers.
+template <class... Parts>
+[[noreturn]] void fail(riis_status status, const Parts &...parts) {
+  throw Error{status, Message(parts...)};
+}
 
-// Throws an Error. The text names the argument and its value.
-[[noreturn]] void fail(riis_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-// Stores the text as the calling thread's last error and returns the status.
+// Makes the text the calling thread's last error and returns the status.
 riis_status record_error(riis_status status, const char *text) noexcept;
 
 // The calling thread's last error, "" if it has none.
@@ -54,7 +46,7 @@ riis_status guarded(Body &&body) noexcept {
 
 template <class T>
 T *require(T *pointer, const char *argument) {
-  if (!pointer) fail(RIIS_INVALID_ARGUMENT, "%s is NULL", argument);
+  if (!pointer) fail(RIIS_INVALID_ARGUMENT, argument, " is NULL");
   return pointer;
 }
 

@@ -18,15 +18,15 @@ struct IntegerArray {
 };
 
 inline void check_bits(const char *field, std::int32_t bits) {
-  if (bits != 32 && bits != 64) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 32 or 64", field, bits);
+  if (bits != 32 && bits != 64) fail(RIIS_INVALID_ARGUMENT, field, " is ", bits, "; it must be 32 or 64");
 }
 
 inline void check_base(const char *field, std::int32_t base) {
-  if (base != 0 && base != 1) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 0 or 1", field, base);
+  if (base != 0 && base != 1) fail(RIIS_INVALID_ARGUMENT, field, " is ", base, "; it must be 0 or 1");
 }
 
 inline void check_reserved(const char *field, std::int32_t value) {
-  if (value != 0) fail(RIIS_INVALID_ARGUMENT, "%s is %d; it must be 0", field, value);
+  if (value != 0) fail(RIIS_INVALID_ARGUMENT, field, " is ", value, "; it must be 0");
 }
 
 }  // namespace riis

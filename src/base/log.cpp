@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.hpp"
 
-#include <cstdarg>
-#include <cstdio>
 #include <mutex>
 
 namespace riis {
@@ -24,16 +22,10 @@ Sink current_sink() noexcept {
 
 }  // namespace
 
-void log_message(std::int32_t level, const char *format, ...) noexcept {
+void log_message(std::int32_t level, const Message &message) noexcept {
   // The function is called without the lock, so that it may take its time or set another one.
   const Sink to = current_sink();
-  if (!to.function) return;
-  char text[512];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  to.function(to.user_data, level, text);
+  if (to.function) to.function(to.user_data, level, message.text());
 }
 
 void set_log_function(riis_log_function function, void *user_data) noexcept {

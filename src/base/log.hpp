@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library would like to say goes to the caller's log function, or nowhere.
+// Messages that go to the caller's log function, or nowhere.
 #pragma once
 
 #include <riis/riis.h>
 
 #include <cstdint>
 
+#include "base/message.hpp"
+
 namespace riis {
 
-void log_message(std::int32_t level, const char *format, ...) noexcept __attribute__((format(printf, 2, 3)));
+void log_message(std::int32_t level, const Message &message) noexcept;
 
-// NULL is silence. Both functions are safe from any thread.
+template <class... Parts>
+void log_message(std::int32_t level, const Parts &...parts) noexcept {
+  log_message(level, Message(parts...));
+}
+
+// NULL is silence. Any thread may call these functions.
 void set_log_function(riis_log_function function, void *user_data) noexcept;
 
 }  // namespace riis

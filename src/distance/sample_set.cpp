@@ -47,10 +47,8 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
     n += counts_.back().n();
   }
   if (!(n <= static_cast<double>(max_samples)))
-    fail(RIIS_LIMIT_EXCEEDED,
-         "sampling needs more than %lld samples, about %s, to be right to %s, which is "
-         "distance_tolerance * half_thickness",
-         static_cast<long long>(max_samples), Number(std::ceil(n)).text, Number(max_error).text);
+    fail(RIIS_LIMIT_EXCEEDED, "sampling needs more than ", max_samples, " samples, about ", std::ceil(n),
+         ", to be right to ", max_error, ", which is distance_tolerance * half_thickness");
   xyz_.reserve(3 * static_cast<std::size_t>(n));
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }

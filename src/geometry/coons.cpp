@@ -79,11 +79,9 @@ class ArcRefinement {
     constexpr int max_depth = 24;
     if (depth == max_depth) {
       const Vec3 where = bulge_.on_base(from);
-      fail(RIIS_INVALID_PARAMETER,
-           "near (%s, %s, %s), before the translation, the line from annulus to free edge runs along the annulus, "
-           "where a "
-           "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there",
-           Number(where.x).text, Number(where.y).text, Number(where.z).text);
+      fail(RIIS_INVALID_PARAMETER, "near (", where.x, ", ", where.y, ", ", where.z,
+           "), before the translation, the line from annulus to free edge runs along the annulus, where a "
+           "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there");
     }
     const double u = cut(from, to.middle);
     add_up_to({u, u, u}, bulge_.at(u), depth + 1);

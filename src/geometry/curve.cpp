@@ -73,9 +73,8 @@ class Flattening {
 
   void check(int depth) const {
     if (depth == max_depth)
-      fail(RIIS_LIMIT_EXCEEDED,
-           "a curve needs more than %d points to be right to %s: tolerance * half_thickness is too small for it",
-           1 << max_depth, Number(max_error_).text);
+      fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than ", 1 << max_depth, " points to be right to ", max_error_,
+           ": tolerance * half_thickness is too small for it");
   }
 
   // A curve is no farther from a segment than its control points are.

@@ -13,14 +13,11 @@
 namespace riis {
 namespace {
 
-using Long = long long;
-
 constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max() / 64;
 
 void check_count(const char *field, std::int64_t n, std::int64_t least) {
   if (n < least || n > max_count)
-    fail(RIIS_INVALID_ARGUMENT, "%s is %lld; it must be from %lld to %lld", field, static_cast<Long>(n),
-         static_cast<Long>(least), static_cast<Long>(max_count));
+    fail(RIIS_INVALID_ARGUMENT, field, " is ", n, "; it must be from ", least, " to ", max_count);
 }
 
 constexpr std::int64_t rows_per_block = 4096;
@@ -141,10 +138,10 @@ class Cells {
       offsets_ = {cells.offsets, cells.id_bits == 64};
       first_offset_ = offsets_[0];
       if (first_offset_ != 0 && first_offset_ != base_)
-        fail(RIIS_INVALID_MESH, "cells.offsets begins with %lld; it must begin with 0 or with index_base, %lld",
-             static_cast<Long>(first_offset_), static_cast<Long>(base_));
+        fail(RIIS_INVALID_MESH, "cells.offsets begins with ", first_offset_,
+             "; it must begin with 0 or with index_base, ", base_);
     } else if (!shape_of(cells.nodes_per_cell))
-      fail(RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is %d; it must be 4, 5, 6 or 8", cells.nodes_per_cell);
+      fail(RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is ", cells.nodes_per_cell, "; it must be 4, 5, 6 or 8");
     // All offsets before any node: only then is it known where the nodes end.
     if (offsets_.data)
       for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_size(cell);
@@ -162,18 +159,16 @@ class Cells {
   void check_size(std::int64_t cell) const {
     const std::int64_t from = offsets_[cell], to = offsets_[cell + 1];
     if (to < from || !shape_of(to - from))
-      fail(RIIS_INVALID_MESH,
-           "the nodes of cell %lld are given from %lld to %lld; there are cells of 4, 5, 6 and 8 nodes",
-           static_cast<Long>(cell), static_cast<Long>(from), static_cast<Long>(to));
+      fail(RIIS_INVALID_MESH, "the nodes of cell ", cell, " are given from ", from, " to ", to,
+           "; there are cells of 4, 5, 6 and 8 nodes");
   }
 
   void check_nodes(std::int64_t cell) const {
     for (std::int64_t k = 0; k < size(cell); ++k) {
       const std::int64_t given = nodes_[begin(cell) + k];
       if (given < base_ || given >= cells_.n_nodes + base_)
-        fail(RIIS_INVALID_MESH, "node %lld of cell %lld is %lld; there are nodes %lld to %lld", static_cast<Long>(k),
-             static_cast<Long>(cell), static_cast<Long>(given), static_cast<Long>(base_),
-             static_cast<Long>(cells_.n_nodes - 1 + base_));
+        fail(RIIS_INVALID_MESH, "node ", k, " of cell ", cell, " is ", given, "; there are nodes ", base_, " to ",
+             cells_.n_nodes - 1 + base_);
     }
   }
 
@@ -186,12 +181,11 @@ class Cells {
 
 Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
   if (csr.n_rows != n_nodes)
-    fail(RIIS_INVALID_ARGUMENT, "csr.n_rows is %lld; the mesh has %lld nodes", static_cast<Long>(csr.n_rows),
-         static_cast<Long>(n_nodes));
+    fail(RIIS_INVALID_ARGUMENT, "csr.n_rows is ", csr.n_rows, "; the mesh has ", n_nodes, " nodes");
   const std::int64_t n_all = csr.n_all == 0 ? csr.n_rows : csr.n_all;
   if (n_all < csr.n_rows || n_all > max_count)
-    fail(RIIS_INVALID_ARGUMENT, "csr.n_all is %lld; it must be at least n_rows, which is %lld, and at most %lld",
-         static_cast<Long>(csr.n_all), static_cast<Long>(csr.n_rows), static_cast<Long>(max_count));
+    fail(RIIS_INVALID_ARGUMENT, "csr.n_all is ", csr.n_all, "; it must be at least n_rows, which is ", csr.n_rows,
+         ", and at most ", max_count);
   check_bits("csr.offset_bits", csr.offset_bits);
   check_bits("csr.column_bits", csr.column_bits);
   check_base("csr.index_base", csr.index_base);
@@ -201,13 +195,11 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
                        {csr.columns, csr.column_bits == 64},
                        csr.index_base};
   if (made.offsets[0] != made.base)
-    fail(RIIS_INVALID_MESH, "csr.offsets begins with %lld; it must begin with %lld", static_cast<Long>(made.offsets[0]),
-         static_cast<Long>(made.base));
+    fail(RIIS_INVALID_MESH, "csr.offsets begins with ", made.offsets[0], "; it must begin with ", made.base);
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
     const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
     if (end < begin)
-      fail(RIIS_INVALID_MESH, "row %lld of the adjacency ends at %lld, before it begins, at %lld", static_cast<Long>(i),
-           static_cast<Long>(end), static_cast<Long>(begin));
+      fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency ends at ", end, ", before it begins, at ", begin);
   }
   // Now that all rows are in order, none reaches beyond the columns that the last offset promises.
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
@@ -216,9 +208,8 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
     for (std::int64_t k = begin - made.base; k < end - made.base; ++k) {
       const std::int64_t given = made.columns[k];
       if (given < made.base || given >= n_all + made.base)
-        fail(RIIS_INVALID_MESH, "row %lld of the adjacency has the column %lld; there are nodes %lld to %lld",
-             static_cast<Long>(i), static_cast<Long>(given), static_cast<Long>(made.base),
-             static_cast<Long>(n_all - 1 + made.base));
+        fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency has the column ", given, "; there are nodes ", made.base,
+             " to ", n_all - 1 + made.base);
     }
   }
   return made;
@@ -265,7 +256,7 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
   check_bits("faces.id_bits", faces.id_bits);
   check_base("faces.index_base", faces.index_base);
   if (faces.stride < 1 || faces.stride > 1024)
-    fail(RIIS_INVALID_ARGUMENT, "faces.stride is %lld; it must be from 1 to 1024", static_cast<Long>(faces.stride));
+    fail(RIIS_INVALID_ARGUMENT, "faces.stride is ", faces.stride, "; it must be from 1 to 1024");
   check_reserved("faces.reserved", faces.reserved);
   if (faces.n_faces > 0) {
     require(faces.owner, "faces.owner");
@@ -278,8 +269,8 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)
-      fail(RIIS_INVALID_MESH, "%s of face %lld is %lld; there are cells %lld to %lld%s", which, static_cast<Long>(face),
-           static_cast<Long>(given), static_cast<Long>(base), static_cast<Long>(faces.n_cells - 1 + base),
+      fail(RIIS_INVALID_MESH, which, " of face ", face, " is ", given, "; there are cells ", base, " to ",
+           faces.n_cells - 1 + base,
            least == base ? ""
            : base == 1   ? ", and 0 for the boundary"
                          : ", and -1 for the boundary");
@@ -309,8 +300,7 @@ OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t 
   check_count("nj", nj, 1);
   check_count("nk", nk, 1);
   if (nj > max_count / ni || nk > max_count / (ni * nj))
-    fail(RIIS_INVALID_ARGUMENT, "a grid of %lld * %lld * %lld nodes is more than memory can hold",
-         static_cast<Long>(ni), static_cast<Long>(nj), static_cast<Long>(nk));
+    fail(RIIS_INVALID_ARGUMENT, "a grid of ", ni, " * ", nj, " * ", nk, " nodes is more than memory can hold");
   return rows_of(ni * nj * nk, n_threads, [&](std::int64_t node, std::vector<std::int64_t> &neighbors) {
     const std::int64_t i = node % ni, j = node / ni % nj, k = node / (ni * nj);
     if (i > 0) neighbors.push_back(node - 1);

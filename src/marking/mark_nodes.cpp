@@ -21,18 +21,15 @@ bool has_few_near(const SearchRequest &request) {
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)
-    fail(RIIS_INVALID_ARGUMENT,
-         "options.search is %d, clusters, which are decided on triangles, but the surface's distances are by %s",
-         asked_for, other->name());
+    fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
+         ", clusters, which are decided on triangles, but the surface's distances are by ", other->name());
   const bool is_first = !request.mesh.record_marking();
   if (asked_for == RIIS_SEARCH_AUTO)
     asked_for = !other && !is_first && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
   if (walks && !request.mesh.adjacency().has_value())
-    fail(RIIS_INVALID_ARGUMENT,
-         "options.search is %d, which walks along the mesh's adjacency, but the mesh has none: "
-         "see riis_mesh_set_adjacency",
-         asked_for);
+    fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
+         ", which walks along the mesh's adjacency, but the mesh has none: see riis_mesh_set_adjacency");
   return asked_for;
 }
 

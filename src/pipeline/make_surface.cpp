@@ -31,8 +31,8 @@ double largest_difference(double triangle_error, const PatchDistance &distance) 
 }
 
 SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
-  log_message(RIIS_LOG_INFO, "surface: %zu triangles in %.3g s, Embree scene in %.3g s",
-              surface.triangles().n_triangles(), seconds.triangles, seconds.scene);
+  log_message(RIIS_LOG_INFO, "surface: ", surface.triangles().n_triangles(), " triangles in ",
+              rounded(seconds.triangles, 3), " s, Embree scene in ", rounded(seconds.scene, 3), " s");
   return seconds;
 }
 

@@ -146,14 +146,11 @@ class GridMaker {
         }
     }
     if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * max_error_)
-      fail(RIIS_LIMIT_EXCEEDED,
-           "control points have coordinates up to %s, which round by more than a thousandth of tolerance * "
-           "half_thickness before scaling, %s",
-           Number(largest).text, Number(max_error_).text);
+      fail(RIIS_LIMIT_EXCEEDED, "control points have coordinates up to ", largest,
+           ", which round by more than a thousandth of tolerance * half_thickness before scaling, ", max_error_);
     if (longest * 1e-12 > 1e-2 * max_error_)
-      fail(RIIS_LIMIT_EXCEEDED,
-           "a curve is %s long, which is not known to a hundredth of tolerance * half_thickness before scaling, %s",
-           Number(longest).text, Number(max_error_).text);
+      fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
+           " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error_);
   }
 
   // Of all images of a patch, if no quad is split.
@@ -186,10 +183,9 @@ std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const st
 
 void check_count(double n_triangles, double max_error) {
   if (!(n_triangles <= static_cast<double>(max_triangles)))
-    fail(RIIS_LIMIT_EXCEEDED,
-         "the surface needs more than %lld triangles, about %s, to be right to %s, which is tolerance * half_thickness "
-         "before scaling",
-         static_cast<long long>(max_triangles), Number(std::ceil(n_triangles)).text, Number(max_error).text);
+    fail(RIIS_LIMIT_EXCEEDED, "the surface needs more than ", max_triangles, " triangles, about ",
+         std::ceil(n_triangles), ", to be right to ", max_error,
+         ", which is tolerance * half_thickness before scaling");
 }
 
 }  // namespace riis

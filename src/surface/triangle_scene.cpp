@@ -21,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail_embree(RTCError error, const char *what) {
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  fail(RIIS_INTERNAL_ERROR, "Embree failed to %s (error %d)", what, static_cast<int>(error));
+  fail(RIIS_INTERNAL_ERROR, "Embree failed to ", what, " (error ", static_cast<int>(error), ")");
 }
 
 struct Release {

@@ -314,8 +314,8 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
     // Patches thinner than the tolerance lose their area where their sides become the same chords: these have to be finer.
     constexpr int max_attempts = 12;
     if (attempt == max_attempts)
-      fail(RIIS_INVALID_PARAMETER, "patch %d has no area, at least in part: a surface is no curve",
-           set.patches[vanished.front()].images.front().patch_id);
+      fail(RIIS_INVALID_PARAMETER, "patch ", set.patches[vanished.front()].images.front().patch_id,
+           " has no area, at least in part: a surface is no curve");
     for (const std::size_t i : vanished)
       for (const Side &side : {set.patches[i].v0, set.patches[i].v1, set.patches[i].u0, set.patches[i].u1})
         tightness[side.curve] *= 0.1;

@@ -10,42 +10,37 @@
 namespace riis {
 namespace {
 
-using ll = long long;
-
 void check_fields(const riis_surface_arrays &arrays) {
   require(arrays.x, "arrays.x");
   require(arrays.y, "arrays.y");
   require(arrays.z, "arrays.z");
   require(arrays.vertex_ids, "arrays.vertex_ids");
-  if (arrays.stride < 1) fail(RIIS_INVALID_ARGUMENT, "arrays.stride is %lld; it must be at least 1", ll{arrays.stride});
+  if (arrays.stride < 1) fail(RIIS_INVALID_ARGUMENT, "arrays.stride is ", arrays.stride, "; it must be at least 1");
   check_bits("arrays.vertex_id_bits", arrays.vertex_id_bits);
   check_base("arrays.index_base", arrays.index_base);
   if (arrays.corners_per_face != 3 && arrays.corners_per_face != 4)
-    fail(RIIS_INVALID_ARGUMENT, "arrays.corners_per_face is %d; it must be 3 or 4", arrays.corners_per_face);
+    fail(RIIS_INVALID_ARGUMENT, "arrays.corners_per_face is ", arrays.corners_per_face, "; it must be 3 or 4");
   check_reserved("arrays.reserved", arrays.reserved);
   if (arrays.n_vertices < 1)
-    fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is %lld; it must be at least 1", ll{arrays.n_vertices});
+    fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is ", arrays.n_vertices, "; it must be at least 1");
   if (arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
-    fail(RIIS_LIMIT_EXCEEDED, "arrays.n_vertices is %lld; it must be at most 2147483647", ll{arrays.n_vertices});
+    fail(RIIS_LIMIT_EXCEEDED, "arrays.n_vertices is ", arrays.n_vertices, "; it must be at most 2147483647");
   if (arrays.stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
-    fail(RIIS_INVALID_ARGUMENT, "arrays.stride is %lld: %lld vertices apart by it are more than memory can hold",
-         ll{arrays.stride}, ll{arrays.n_vertices});
+    fail(RIIS_INVALID_ARGUMENT, "arrays.stride is ", arrays.stride, ": ", arrays.n_vertices,
+         " vertices apart by it are more than memory can hold");
   const std::int64_t max_faces = max_triangles / (arrays.corners_per_face - 2);
-  if (arrays.n_faces < 1)
-    fail(RIIS_INVALID_SURFACE, "arrays.n_faces is %lld; it must be at least 1", ll{arrays.n_faces});
+  if (arrays.n_faces < 1) fail(RIIS_INVALID_SURFACE, "arrays.n_faces is ", arrays.n_faces, "; it must be at least 1");
   if (arrays.n_faces > max_faces)
-    fail(RIIS_LIMIT_EXCEEDED, "arrays.n_faces is %lld; it must be at most %lld", ll{arrays.n_faces}, ll{max_faces});
+    fail(RIIS_LIMIT_EXCEEDED, "arrays.n_faces is ", arrays.n_faces, "; it must be at most ", max_faces);
 }
 
 std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
   const std::int64_t number = IntegerArray{arrays.vertex_ids, arrays.vertex_id_bits == 64}[i];
   const std::int64_t base = arrays.index_base;
   if (number < base || number - base >= arrays.n_vertices)
-    fail(RIIS_INVALID_SURFACE,
-         "arrays.vertex_ids: corner %lld of face %lld is %lld; it must be from %lld to %lld, counting from "
-         "arrays.index_base = %lld",
-         ll{i % arrays.corners_per_face}, ll{i / arrays.corners_per_face}, ll{number}, ll{base},
-         ll{arrays.n_vertices - 1 + base}, ll{base});
+    fail(RIIS_INVALID_SURFACE, "arrays.vertex_ids: corner ", i % arrays.corners_per_face, " of face ",
+         i / arrays.corners_per_face, " is ", number, "; it must be from ", base, " to ", arrays.n_vertices - 1 + base,
+         ", counting from arrays.index_base = ", base);
   return number - base;
 }
 
@@ -60,8 +55,8 @@ void place_vertices(const riis_surface_arrays &arrays, const Placement &placemen
     const Vec3 placed = place(placement, p);
     const auto check = [&](const char *axis, double value, const char *when) {
       if (!is_usable(value))
-        fail(RIIS_INVALID_SURFACE, "%s of vertex %lld%s is %s; it must be finite and at most %s in magnitude", axis,
-             ll{i}, when, Number(value).text, Number(max_coordinate).text);
+        fail(RIIS_INVALID_SURFACE, axis, " of vertex ", i, when, " is ", value, "; it must be finite and at most ",
+             max_coordinate, " in magnitude");
     };
     check("x", p.x, ""), check("y", p.y, ""), check("z", p.z, "");
     check("x", placed.x, ", placed,"), check("y", placed.y, ", placed,"), check("z", placed.z, ", placed,");
@@ -85,16 +80,15 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
   for (std::int64_t face = 0; face < arrays.n_faces; ++face) {
     const std::int32_t leaflet_id = arrays.leaflet_id ? arrays.leaflet_id[face] : 0;
     if (leaflet_id < 0)
-      fail(RIIS_INVALID_SURFACE, "arrays.leaflet_id of face %lld is %d; it must be at least 0", ll{face}, leaflet_id);
+      fail(RIIS_INVALID_SURFACE, "arrays.leaflet_id of face ", face, " is ", leaflet_id, "; it must be at least 0");
     for (std::int64_t half = 0; half < halves; ++half) {
       const std::int64_t a = vertex_id_at(arrays, face * corners);
       std::int64_t b = vertex_id_at(arrays, face * corners + half + 1);
       std::int64_t c = vertex_id_at(arrays, face * corners + half + 2);
       if (has_zero_area(set.vertex(a), set.vertex(b), set.vertex(c))) {
         if (!skip_zero_area)
-          fail(RIIS_INVALID_SURFACE, "face %lld (vertices %lld, %lld, %lld%s) has zero area%s", ll{face},
-               ll{a + arrays.index_base}, ll{b + arrays.index_base}, ll{c + arrays.index_base},
-               corners == 4 ? ", one half of a quad" : "",
+          fail(RIIS_INVALID_SURFACE, "face ", face, " (vertices ", a + arrays.index_base, ", ", b + arrays.index_base,
+               ", ", c + arrays.index_base, corners == 4 ? ", one half of a quad" : "", ") has zero area",
                has_zero_area(given(arrays, a), given(arrays, b), given(arrays, c)) ? "" : " once it is placed");
         ++set.n_zero_area;
         continue;
@@ -106,10 +100,10 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
     }
   }
   set.patch_id.assign(set.triangle_id.size(), 0);
-  if (set.n_triangles() == 0) fail(RIIS_INVALID_SURFACE, "none of the %lld faces has any area", ll{arrays.n_faces});
+  if (set.n_triangles() == 0) fail(RIIS_INVALID_SURFACE, "none of the ", arrays.n_faces, " faces has any area");
   if (set.n_zero_area > 0)
-    log_message(RIIS_LOG_WARNING, "%lld of %lld triangles have zero area and were left out", ll{set.n_zero_area},
-                ll{arrays.n_faces * halves});
+    log_message(RIIS_LOG_WARNING, set.n_zero_area, " of ", arrays.n_faces * halves,
+                " triangles have zero area and were left out");
   return set;
 }
 

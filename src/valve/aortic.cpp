@@ -148,10 +148,9 @@ void check_reach(const Bezier &curve, const char *what, const char *parameters, 
   for (int i = 0; i <= curve.degree; ++i) {
     const double reach = length(curve.control[static_cast<std::size_t>(i)]);
     if (!(reach <= 5 * size))
-      fail(RIIS_INVALID_PARAMETER,
-           "the %s cusp's %s curve reaches %s from the root's middle, more than 5 times %s, the larger of root_radius "
-           "and leaflet_height: look at %s",
-           cusp_names[cusp], what, Number(reach).text, Number(size).text, parameters);
+      fail(RIIS_INVALID_PARAMETER, "the ", cusp_names[cusp], " cusp's ", what, " curve reaches ", reach,
+           " from the root's middle, more than 5 times ", size,
+           ", the larger of root_radius and leaflet_height: look at ", parameters);
   }
 }
 

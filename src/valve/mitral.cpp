@@ -117,11 +117,9 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
 double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
   const double length = arc_length(edge);
   if (!(length >= 1e-6 * arc_length(annulus)))
-    fail(
-        RIIS_INVALID_PARAMETER,
-        "the %s free edge is %s long, nothing beside the annulus: look at anterior_ratio, ALPM_diameter, the leaflets' "
-        "lengths and leaflet_inward_angle",
-        which, Number(length).text);
+    fail(RIIS_INVALID_PARAMETER, "the ", which, " free edge is ", length,
+         " long, nothing beside the annulus: look at anterior_ratio, ALPM_diameter, the leaflets' lengths and "
+         "leaflet_inward_angle");
   return length;
 }
 
@@ -201,9 +199,8 @@ void check_values(const ParameterValues &values) {
   check(translation, 0, 100);
   const double ratio = values[anterior_ratio][0], triangle = values[triangle_size_ratio][0];
   if (!(ratio - 2 * triangle >= 0.02))
-    fail(RIIS_INVALID_PARAMETER,
-         "triangle_size_ratio is %s; twice that must leave at least 0.02 of anterior_ratio, which is %s",
-         Number(triangle).text, Number(ratio).text);
+    fail(RIIS_INVALID_PARAMETER, "triangle_size_ratio is ", triangle,
+         "; twice that must leave at least 0.02 of anterior_ratio, which is ", ratio);
 }
 
 // Cuts an edge at the plane of symmetry.

@@ -16,9 +16,7 @@ constexpr double max_control = 1e30;
 constexpr std::array<const char *, 4> side_names{"v = 0", "v = 1", "u = 0", "u = 1"};
 
 void check_n(const char *field, std::int64_t n, std::int64_t most) {
-  if (n < 1 || n > most)
-    fail(RIIS_INVALID_ARGUMENT, "patches.%s is %lld; it must be from 1 to %lld", field, static_cast<long long>(n),
-         static_cast<long long>(most));
+  if (n < 1 || n > most) fail(RIIS_INVALID_ARGUMENT, "patches.", field, " is ", n, "; it must be from 1 to ", most);
 }
 
 std::vector<Bezier> curves_of(const riis_patches &arrays) {
@@ -28,15 +26,13 @@ std::vector<Bezier> curves_of(const riis_patches &arrays) {
   for (std::int64_t i = 0; i < arrays.n_curves; ++i) {
     const std::int32_t degree = degrees[i];
     if (degree < 1 || degree > 3)
-      fail(RIIS_INVALID_PARAMETER, "degree of curve %lld is %d; it must be 1, 2 or 3", static_cast<long long>(i),
-           degree);
+      fail(RIIS_INVALID_PARAMETER, "degree of curve ", i, " is ", degree, "; it must be 1, 2 or 3");
     std::array<Vec3, 4> q{};
     for (std::int32_t k = 0; k <= degree; ++k, control += 3) {
       for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(control[axis]) <= max_control))
-          fail(RIIS_INVALID_PARAMETER,
-               "%c of control point %d of curve %lld is %s; it must be finite and at most %s in magnitude", "xyz"[axis],
-               k, static_cast<long long>(i), Number(control[axis]).text, Number(max_control).text);
+          fail(RIIS_INVALID_PARAMETER, "xyz"[axis], " of control point ", k, " of curve ", i, " is ", control[axis],
+               "; it must be finite and at most ", max_control, " in magnitude");
       q[static_cast<std::size_t>(k)] = {control[0], control[1], control[2]};
     }
     curves.push_back(degree == 1   ? Bezier::line(q[0], q[1])
@@ -73,8 +69,7 @@ class PatchReader {
     check_corner(patch, sides, 1, true, 3, true);
     const std::int32_t leaflet_id = arrays_.leaflet_id ? arrays_.leaflet_id[patch] : 0;
     if (leaflet_id < 0)
-      fail(RIIS_INVALID_PARAMETER, "leaflet_id of patch %lld is %d; it must be at least 0",
-           static_cast<long long>(patch), leaflet_id);
+      fail(RIIS_INVALID_PARAMETER, "leaflet_id of patch ", patch, " is ", leaflet_id, "; it must be at least 0");
     return {sides[0],
             sides[1],
             sides[2],
@@ -87,13 +82,12 @@ class PatchReader {
     const std::size_t at = 4 * static_cast<std::size_t>(patch) + k;
     const std::int64_t given = arrays_.curve_id[at], curve = given - arrays_.index_base;
     if (curve < 0 || curve >= arrays_.n_curves)
-      fail(RIIS_INVALID_PARAMETER, "side %s of patch %lld is curve %lld; there are curves %d to %lld", side_names[k],
-           static_cast<long long>(patch), static_cast<long long>(given), arrays_.index_base,
-           static_cast<long long>(arrays_.n_curves - 1 + arrays_.index_base));
+      fail(RIIS_INVALID_PARAMETER, "side ", side_names[k], " of patch ", patch, " is curve ", given,
+           "; there are curves ", arrays_.index_base, " to ", arrays_.n_curves - 1 + arrays_.index_base);
     const std::int32_t reversed = arrays_.reversed ? arrays_.reversed[at] : 0;
     if (reversed != 0 && reversed != 1)
-      fail(RIIS_INVALID_PARAMETER, "reversed of side %s of patch %lld is %d; it must be 0 or 1", side_names[k],
-           static_cast<long long>(patch), reversed);
+      fail(RIIS_INVALID_PARAMETER, "reversed of side ", side_names[k], " of patch ", patch, " is ", reversed,
+           "; it must be 0 or 1");
     return {static_cast<std::size_t>(curve), reversed == 1};
   }
 
@@ -106,13 +100,10 @@ class PatchReader {
                     bool b_last) const {
     const Vec3 p = end_of(sides[a], a_last), q = end_of(sides[b], b_last);
     if (!(distance(p, q) <= max_gap_))
-      fail(RIIS_INVALID_PARAMETER,
-           "patch %lld does not close: side %s %s in (%s, %s, %s), side %s %s in (%s, %s, %s); if a curve runs the "
-           "other way, "
-           "reverse it",
-           static_cast<long long>(patch), side_names[a], a_last ? "ends" : "begins", Number(p.x).text, Number(p.y).text,
-           Number(p.z).text, side_names[b], b_last ? "ends" : "begins", Number(q.x).text, Number(q.y).text,
-           Number(q.z).text);
+      fail(RIIS_INVALID_PARAMETER, "patch ", patch, " does not close: side ", side_names[a], " ",
+           a_last ? "ends" : "begins", " in (", p.x, ", ", p.y, ", ", p.z, "), side ", side_names[b], " ",
+           b_last ? "ends" : "begins", " in (", q.x, ", ", q.y, ", ", q.z,
+           "); if a curve runs the other way, reverse it");
   }
 
   const riis_patches &arrays_;
@@ -131,21 +122,20 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 void check_states(const ValveState &closed, const ValveState &open) {
   const PatchSet &from = closed.patches, &to = open.patches;
   if (from.curves.size() != to.curves.size() || from.patches.size() != to.patches.size())
-    fail(RIIS_INVALID_PARAMETER,
-         "the open state has %zu curves and %zu patches, the valve %zu and %zu: they must be built alike",
-         to.curves.size(), to.patches.size(), from.curves.size(), from.patches.size());
+    fail(RIIS_INVALID_PARAMETER, "the open state has ", to.curves.size(), " curves and ", to.patches.size(),
+         " patches, the valve ", from.curves.size(), " and ", from.patches.size(), ": they must be built alike");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
     // Lines are quadratics here, and may become one.
     const int degree = from.curves[i].pieces().front().degree, open_degree = to.curves[i].pieces().front().degree;
     if (degree != open_degree)
-      fail(RIIS_INVALID_PARAMETER, "curve %zu is cubic in the %s only: the degree must be the same", i,
-           open_degree == 3 ? "open state" : "valve");
+      fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in the ", open_degree == 3 ? "open state" : "valve",
+           " only: the degree must be the same");
   }
   for (std::size_t i = 0; i < from.patches.size(); ++i) {
     const Patch &a = from.patches[i], &b = to.patches[i];
     const auto same = [](const Side &s, const Side &t) { return s.curve == t.curve && s.reversed == t.reversed; };
     if (!same(a.v0, b.v0) || !same(a.v1, b.v1) || !same(a.u0, b.u0) || !same(a.u1, b.u1))
-      fail(RIIS_INVALID_PARAMETER, "patch %zu has other sides in the open state than in the valve", i);
+      fail(RIIS_INVALID_PARAMETER, "patch ", i, " has other sides in the open state than in the valve");
   }
 }
 
@@ -168,7 +158,7 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
   }
   const auto unused = std::find(is_used.begin(), is_used.end(), false);
   if (unused != is_used.end())
-    fail(RIIS_INVALID_PARAMETER, "curve %lld is a side of no patch", static_cast<long long>(unused - is_used.begin()));
+    fail(RIIS_INVALID_PARAMETER, "curve ", unused - is_used.begin(), " is a side of no patch");
   return set;
 }
 

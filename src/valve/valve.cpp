@@ -12,19 +12,12 @@
 namespace riis {
 namespace {
 
-// A name as it appears in an error: cut, because it may be anything.
-struct Shown {
-  explicit Shown(std::string_view text)
-      : size(static_cast<int>(std::min<std::size_t>(text.size(), 80))), data(text.data()) {}
-  int size;
-  const char *data;
-};
+// A name as it appears in a message: cut, because it may be anything.
+std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
-  const Shown shown(name);
-  fail(RIIS_INVALID_PARAMETER,
-       "'%.*s' is not a parameter of the %s valve; riis_valve_parameter and riis-mark --print-params list them",
-       shown.size, shown.data, kind.name);
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name,
+       " valve; riis_valve_parameter and riis-mark --print-params list them");
 }
 
 // Whether the spec's name is a leaflet's name, a dot, and the given name.
@@ -35,14 +28,13 @@ bool is_of_a_leaflet(const ParameterSpec &spec, std::string_view name) {
 }
 
 void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_values, const double *values) {
-  const Shown shown(name);
   if (n_values != spec.n_values)
-    fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' has %d value%s, not %lld", shown.size, shown.data, spec.n_values,
-         spec.n_values == 1 ? "" : "s", static_cast<long long>(n_values));
+    fail(RIIS_INVALID_PARAMETER, "parameter '", shown(name), "' has ", spec.n_values, " value",
+         spec.n_values == 1 ? "" : "s", ", not ", n_values);
   for (int i = 0; i < spec.n_values; ++i)
     if (!(values[i] >= spec.minimum && values[i] <= spec.maximum))
-      fail(RIIS_INVALID_PARAMETER, "parameter '%.*s' is %s; it must be from %s to %s", shown.size, shown.data,
-           Number(values[i]).text, Number(spec.minimum).text, Number(spec.maximum).text);
+      fail(RIIS_INVALID_PARAMETER, "parameter '", shown(name), "' is ", values[i], "; it must be from ", spec.minimum,
+           " to ", spec.maximum);
 }
 
 }  // namespace
@@ -50,8 +42,7 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
 const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
   if (name == "mitral") return mitral_valve_kind();
-  const Shown shown(name);
-  fail(RIIS_INVALID_PARAMETER, "'%.*s' is not a kind of valve; there are: aortic, mitral", shown.size, shown.data);
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a kind of valve; there are: aortic, mitral");
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {
@@ -74,23 +65,22 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (specs[i].name != name) continue;
     if (n_values != specs[i].n_values)
-      fail(RIIS_INVALID_PARAMETER, "parameter '%s' has %d value%s, not %lld", specs[i].name.c_str(), specs[i].n_values,
-           specs[i].n_values == 1 ? "" : "s", static_cast<long long>(n_values));
+      fail(RIIS_INVALID_PARAMETER, "parameter '", specs[i].name, "' has ", specs[i].n_values, " value",
+           specs[i].n_values == 1 ? "" : "s", ", not ", n_values);
     std::copy_n(state_.values[i].begin(), n_values, out);
     return;
   }
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec, name))
-      fail(RIIS_INVALID_PARAMETER, "parameter '%s' belongs to one leaflet each: ask for '%s'",
-           spec.name.c_str() + (spec.name.size() - name.size()), spec.name.c_str());
+      fail(RIIS_INVALID_PARAMETER, "parameter '", spec.name.c_str() + (spec.name.size() - name.size()),
+           "' belongs to one leaflet each: ask for '", spec.name, "'");
   fail_unknown(*kind_, name);
 }
 
 void Valve::set_open_state(const Valve &open) {
   if (open.kind_ != kind_)
-    fail(RIIS_INVALID_PARAMETER,
-         "the open state is of the kind %s, the valve of the kind %s: a valve opens to one of its own",
-         open.kind_->name, kind_->name);
+    fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
+         kind_->name, ": a valve opens to one of its own");
   if (kind_->check_states) kind_->check_states(state_, open.state_);
   open_ = ValveState(open.state_);  // copied aside: assigned member by member it could stop half way
 }
@@ -98,11 +88,9 @@ void Valve::set_open_state(const Valve &open) {
 PatchSet Valve::make_patches() const {
   const double opening = state_.values[kind_->opening][0];
   if (opening != 0 && !open_ && !kind_->opens_by_itself)
-    fail(
-        RIIS_INVALID_PARAMETER,
-        "opening is %s, but the %s valve has one state only: give it another to open to with riis_valve_set_open_state "
-        "or riis-mark --params-open",
-        Number(opening).text, kind_->name);
+    fail(RIIS_INVALID_PARAMETER, "opening is ", opening, ", but the ", kind_->name,
+         " valve has one state only: give it another to open to with riis_valve_set_open_state or riis-mark "
+         "--params-open");
   if (kind_->check_values) {
     kind_->check_values(state_.values);
     if (open_) check_open_values();
@@ -114,7 +102,7 @@ void Valve::check_open_values() const {
   try {
     kind_->check_values(open_->values);
   } catch (const Error &error) {
-    fail(error.status, "in the open state: %s", error.text);
+    fail(error.status, "in the open state: ", error.message.text());
   }
 }
 
@@ -134,8 +122,8 @@ void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values,
   for (int i = 0; i < spec.n_values; ++i) {
     const double value = values[static_cast<std::size_t>(i)];
     if (!(std::abs(value) >= least * measure.size && std::abs(value) <= most * measure.size))
-      fail(RIIS_INVALID_PARAMETER, "%s is %s; it must be from %s to %s times %s, which is %s", spec.name.c_str(),
-           Number(value).text, Number(least).text, Number(most).text, measure.name, Number(measure.size).text);
+      fail(RIIS_INVALID_PARAMETER, spec.name, " is ", value, "; it must be from ", least, " to ", most, " times ",
+           measure.name, ", which is ", measure.size);
   }
 }
 

@@ -37,7 +37,7 @@ int reported(const Body &body) {
     body();
     return 0;
   } catch (const riis::Error &error) {
-    std::fprintf(stderr, "%s\n", error.text);
+    std::fprintf(stderr, "%s\n", error.message.text());
   } catch (const std::exception &error) {
     std::fprintf(stderr, "%s\n", error.what());
   }

@@ -309,7 +309,7 @@ double powell_minimum(double (*f)(double u, double v), double enough, double ste
 riis_status wall_meets(const char *exception) {
   const std::string_view kind = exception;
   return guarded([&] {
-    if (kind == "error") fail(RIIS_INVALID_MESH, "error %d", 7);
+    if (kind == "error") fail(RIIS_INVALID_MESH, "error ", 7);
     if (kind == "memory") throw std::bad_alloc();
     if (kind == "standard") throw std::runtime_error("boom");
     if (kind == "other") throw 42;
@@ -326,7 +326,7 @@ riis_status wall_meets(const char *exception) {
           std::this_thread::yield();
         if (block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
         has_failed = true;
-        fail(RIIS_INVALID_MESH, "error of block %d", static_cast<int>(block));
+        fail(RIIS_INVALID_MESH, "error of block ", static_cast<int>(block));
       });
     }
   });
