@@ -48,26 +48,35 @@ refused() {
   fi
 }
 
+# Two of the sources with their templates are enough to be damaged.
 copy() {
+  local name
   rm -rf "$scratch/copy"
-  cp -r "$folder" "$scratch/copy"
+  mkdir -p "$scratch/copy/templates"
+  cp "$folder/expand_templates.sh" "$scratch/copy"
+  cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
+  for name in riis_meshes riis_f77_marking; do
+    cp "$folder/$name.f90" "$scratch/copy"
+    cp "$folder/templates/$name.fypp" "$scratch/copy/templates"
+  done
 }
 
 check "$folder" >&2
 ls "$scratch/expanded"
 copy
-sed -i 's/must be 2/must be two/' "$scratch/copy/riis_adjacencies.f90"
-refused 'riis_adjacencies.f90 is not what its template expands to'
+check "$scratch/copy" >&2
+sed -i 's/must be one more/must be more/' "$scratch/copy/riis_meshes.f90"
+refused 'riis_meshes.f90 is not what its template expands to'
 copy
-sed -i 's/must be 2/must be two/' "$scratch/copy/templates/riis_adjacencies.fypp"
-refused 'riis_adjacencies.f90 is not what its template expands to'
+sed -i 's/must be one more/must be more/' "$scratch/copy/templates/riis_meshes.fypp"
+refused 'riis_meshes.f90 is not what its template expands to'
 copy
 rm "$scratch/copy/templates/riis_meshes.fypp"
 refused 'riis_meshes.f90 says that it is generated, and has no template'
 copy
-echo '#:endfor' >>"$scratch/copy/templates/riis_marking.fypp"
-refused "riis_marking.fypp:$(wc -l <"$scratch/copy/templates/riis_marking.fypp"): error:"
+echo '#:endfor' >>"$scratch/copy/templates/riis_meshes.fypp"
+refused "riis_meshes.fypp:$(wc -l <"$scratch/copy/templates/riis_meshes.fypp"): error:"
 copy
-printf '! %130d\n' 0 >>"$scratch/copy/templates/riis_marking.fypp"
+printf '! %130d\n' 0 >>"$scratch/copy/templates/riis_meshes.fypp"
 "$scratch/copy/expand_templates.sh"
 refused '132 columns; at most 130'
