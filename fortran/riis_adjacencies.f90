@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_adjacencies.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> Adjacencies: the part of module riis that is riis_adjacency_* in riis.h.
 module riis_adjacencies
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
@@ -55,7 +56,7 @@ contains
   !! argument out of range, RIIS_INVALID_MESH naming the cell, counted from 0, and its value.
   subroutine adjacency_cells_int32_int32(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
@@ -75,7 +76,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_cells_int32_int64(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
@@ -95,7 +96,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_cells_int64_int32(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
@@ -115,7 +116,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_cells_int64_int64(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
@@ -136,7 +137,7 @@ contains
   !! offsets begins with 1.
   subroutine adjacency_mixed_int32_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
@@ -164,7 +165,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_mixed_int32_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
@@ -192,7 +193,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_mixed_int64_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
@@ -220,7 +221,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_mixed_int64_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< Of the mesh, >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
@@ -273,7 +274,7 @@ contains
   !! only; a section that is not contiguous is copied for it. Errors as of %create_from_cells.
   subroutine adjacency_faces_int32_int32(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -299,7 +300,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_faces_int32_int64(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -325,7 +326,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_faces_int64_int32(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -351,7 +352,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_faces_int64_int64(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -377,7 +378,7 @@ contains
   !> The same with both sides of a face in arrays of their own.
   subroutine adjacency_owner_int32_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -401,7 +402,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_owner_int32_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int32), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -425,7 +426,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_owner_int64_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
@@ -449,7 +450,7 @@ contains
   !> The same for other kinds.
   subroutine adjacency_owner_int64_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Empty before.
-    integer(int64), intent(in) :: n_cells                    !< >= 1: the nodes of the mesh are cell centres.
+    integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.

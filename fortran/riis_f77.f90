@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_f77.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> riis for codes that cannot use modules: external subroutines, to be called with implicit interfaces from Fortran 77, fixed
 !! or free form. `include 'riisf.h'` gives the constants.
 !!
@@ -107,10 +108,10 @@ end subroutine riisf_valve_destroy
 !! option out of range, RIIS_INVALID_PARAMETER for parameters that do not go together.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, surface, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_create, riis_surface_options_init
-  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_create
+  use riis_support, only: c_handle_of, get_placement, handle_of
   implicit none
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
@@ -124,14 +125,8 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   type(c_ptr) :: c_handle
-  status = riis_surface_options_init(options, c_sizeof(options))
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
   if (status /= RIIS_OK) return
-  options%half_thickness = half_thickness
-  options%tolerance = tolerance
-  options%scale = scale
-  options%rotation_axis = rotation_axis
-  options%rotation_angle = rotation_angle
-  options%translation = translation
   c_handle = c_null_ptr
   status = riis_surface_create(c_handle_of(valve), options, c_handle)
   if (status == RIIS_OK) surface = handle_of(c_handle)
@@ -152,10 +147,10 @@ end subroutine riisf_surface_update
 !> The same with other options. They are those of riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update, riis_surface_options_init
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
+  use riis_support, only: c_handle_of, get_placement
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
@@ -168,24 +163,18 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
-  status = riis_surface_options_init(options, c_sizeof(options))
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
   if (status /= RIIS_OK) return
-  options%half_thickness = half_thickness
-  options%tolerance = tolerance
-  options%scale = scale
-  options%rotation_axis = rotation_axis
-  options%rotation_angle = rotation_angle
-  options%translation = translation
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_place
 
 !> The same with another way of measuring distances, which later updates by riisf_surface_update keep.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, distance, distance_tolerance, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update, riis_surface_options_init
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
+  use riis_support, only: c_handle_of, get_placement
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
@@ -201,14 +190,8 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
                                                           !! Not used for RIIS_DISTANCE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
-  status = riis_surface_options_init(options, c_sizeof(options))
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
   if (status /= RIIS_OK) return
-  options%half_thickness = half_thickness
-  options%tolerance = tolerance
-  options%scale = scale
-  options%rotation_axis = rotation_axis
-  options%rotation_angle = rotation_angle
-  options%translation = translation
   options%distance = distance
   options%distance_tolerance = distance_tolerance
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
@@ -266,7 +249,8 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
   c_handle = c_null_ptr
-  status = riis_mesh_create(n_nodes, location_of(x), location_of(y), location_of(z), stride, c_handle)
+  status = riis_mesh_create(int(n_nodes, int64), location_of(x), location_of(y), location_of(z), int(stride, int64), &
+    c_handle)
   if (status == RIIS_OK) mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
@@ -303,8 +287,8 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), &
-    stride)
+  status = riis_mesh_update(c_handle_of(mesh), int(n_nodes, int64), location_of(x), location_of(y), location_of(z), &
+    int(stride, int64))
 end subroutine riisf_mesh_update_64
 
 !> Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does.

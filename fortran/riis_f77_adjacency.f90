@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_f77_adjacency.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for adjacencies. The conventions are those of riis_f77.f90.
 
 !> Gives the mesh its adjacency as compressed sparse rows, which are borrowed: the neighbours of node i are
@@ -117,8 +118,7 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
 end subroutine riisf_adjacency_from_cells
 
 !> The same.
-subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, &
-    status)
+subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_cells_init

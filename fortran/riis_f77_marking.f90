@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_f77_marking.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for marking. The conventions are those of riis_f77.f90.
 
 !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. To be
@@ -96,7 +97,7 @@ subroutine riisf_marked_64(result, length, n, node_num, distance, status)
   found = 0
   status = riis_mark_result_marked(c_handle_of(result), found, node_ids, distances)
   if (status /= RIIS_OK) return
-  n = found
+  n = int(min(found, int(huge(n), int64)), int64)
   if (found > length) then
     status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
       text_of(found))
@@ -105,7 +106,7 @@ subroutine riisf_marked_64(result, length, n, node_num, distance, status)
   if (found == 0) return
   call c_f_pointer(node_ids, ids, [found])
   call c_f_pointer(distances, near, [found])
-  node_num(:n) = ids(:n) + 1
+  node_num(:n) = int(ids(:n) + 1, int64)
   distance(:n) = near
 end subroutine riisf_marked_64
 
@@ -172,7 +173,7 @@ subroutine riisf_within_limit_64(result, length, n, node_num, distance, status)
   found = 0
   status = riis_mark_result_within_limit(c_handle_of(result), found, node_ids, distances)
   if (status /= RIIS_OK) return
-  n = found
+  n = int(min(found, int(huge(n), int64)), int64)
   if (found > length) then
     status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
       text_of(found))
@@ -181,7 +182,7 @@ subroutine riisf_within_limit_64(result, length, n, node_num, distance, status)
   if (found == 0) return
   call c_f_pointer(node_ids, ids, [found])
   call c_f_pointer(distances, near, [found])
-  node_num(:n) = ids(:n) + 1
+  node_num(:n) = int(ids(:n) + 1, int64)
   distance(:n) = near
 end subroutine riisf_within_limit_64
 

@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_marking.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> Marking: the part of module riis that is riis_mark_* in riis.h.
 module riis_marking
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
@@ -77,8 +78,8 @@ contains
                                                             !! calling thread may use.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
-    integer(riis_status) :: code
     integer :: stat
+    integer(riis_status) :: code
     code = RIIS_OK
     if (present(node_mask)) then
       allocate (bytes(size(node_mask, kind=int64)), stat=stat)
@@ -119,9 +120,9 @@ contains
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
                                                             !! calling thread may use.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
-    integer(int8), allocatable :: bytes(:)
-    integer(riis_status) :: code
+    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
     integer :: stat
+    integer(riis_status) :: code
     allocate (bytes(size(node_mask, kind=int64)), stat=stat)
     code = out_of_memory(stat)
     if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask /= 0)
@@ -309,7 +310,7 @@ contains
       code = out_of_memory(stat)
     end if
     if (code == RIIS_OK) then
-      node_num = ids + 1
+      node_num = int(ids + 1, int64)
       code = copy_list(list, distance, triangle_id, leaflet_id)
     end if
     call finish(code, status)
@@ -371,7 +372,7 @@ contains
       code = out_of_memory(stat)
     end if
     if (code == RIIS_OK) then
-      node_num = ids + 1
+      node_num = int(ids + 1, int64)
       code = copy_list(list, distance, triangle_id, leaflet_id)
     end if
     call finish(code, status)
@@ -390,7 +391,7 @@ contains
     integer :: stat
     call point_to(list, distance=distances, triangle_id=triangles, leaflet_id=leaflets)
     stat = 0
-    if (present(distance)) then
+    if (present(distance) .and. stat == 0) then
       if (allocated(distance)) then
         if (size(distance, kind=int64) /= list%n) deallocate (distance)
       end if

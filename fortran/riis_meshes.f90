@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_meshes.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> Meshes: the part of module riis that is riis_mesh_* in riis.h.
 module riis_meshes
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
@@ -34,8 +35,8 @@ module riis_meshes
                                                                         !< Borrows coordinates.
     generic :: update => update_xyz, update_x_y_z, update_first_int32, update_first_int64
                                                                         !< Tells that the coordinates moved.
-    generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, &
-      adjacency_int64_int64, adjacency_handle                  !< Gives what the neighbour search walks along.
+    generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, adjacency_int64_int64, &
+      adjacency_handle                                         !< Gives what the neighbour search walks along.
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes it away.
     procedure, non_overridable :: prepare => mesh_prepare               !< Makes what RIIS_SEARCH_CLUSTERS wants, now.
     procedure, non_overridable :: n_nodes => mesh_n_nodes               !< How many nodes.
@@ -46,10 +47,10 @@ module riis_meshes
     procedure, private, non_overridable :: assign => mesh_assign
     procedure, private, non_overridable :: create_xyz => mesh_create_xyz
     procedure, private, non_overridable :: create_x_y_z => mesh_create_x_y_z
-    procedure, private, non_overridable :: update_xyz => mesh_update_xyz
-    procedure, private, non_overridable :: update_x_y_z => mesh_update_x_y_z
     procedure, private, non_overridable :: create_first_int32 => mesh_create_first_int32
     procedure, private, non_overridable :: create_first_int64 => mesh_create_first_int64
+    procedure, private, non_overridable :: update_xyz => mesh_update_xyz
+    procedure, private, non_overridable :: update_x_y_z => mesh_update_x_y_z
     procedure, private, non_overridable :: update_first_int32 => mesh_update_first_int32
     procedure, private, non_overridable :: update_first_int64 => mesh_update_first_int64
     procedure, private, non_overridable :: adjacency_int32_int32 => mesh_adjacency_int32_int32
@@ -93,11 +94,11 @@ contains
   !! compiler can check that there are so many.
   subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Empty before.
-    integer(int32), intent(in) :: n_nodes                    !< >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< >= 1.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int32), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(int32), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -108,11 +109,11 @@ contains
   !> The same for integer(int64).
   subroutine mesh_create_first_int64(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Empty before.
-    integer(int64), intent(in) :: n_nodes                    !< >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< >= 1.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int64), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(int64), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -150,11 +151,11 @@ contains
   !> The same for coordinates in an array of a derived type.
   subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int32), intent(in) :: n_nodes                    !< >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< >= 1.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int32), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(int32), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -165,11 +166,11 @@ contains
   !> The same for integer(int64).
   subroutine mesh_update_first_int64(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int64), intent(in) :: n_nodes                    !< >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< >= 1.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int64), intent(in) :: stride                     !< From one node to the next, in reals, >= 1.
+    integer(int64), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -204,8 +205,8 @@ contains
   !! naming the row, counted from 0, and its value; the mesh then keeps what it had.
   subroutine mesh_adjacency_int32_int32(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int32), intent(in), target :: offsets(:)         !< (n_nodes + 1), ascending from index_base; borrowed.
-    integer(int32), intent(in), target :: columns(:)         !< (>= offsets(n_nodes + 1) - index_base), from index_base;
+    integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
+    integer(int32), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
                                                             !! begin with. Default 1.
@@ -232,8 +233,8 @@ contains
   !> The same for other kinds.
   subroutine mesh_adjacency_int32_int64(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int32), intent(in), target :: offsets(:)         !< (n_nodes + 1), ascending from index_base; borrowed.
-    integer(int64), intent(in), target :: columns(:)         !< (>= offsets(n_nodes + 1) - index_base), from index_base;
+    integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
+    integer(int64), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
                                                             !! begin with. Default 1.
@@ -260,8 +261,8 @@ contains
   !> The same for other kinds.
   subroutine mesh_adjacency_int64_int32(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int64), intent(in), target :: offsets(:)         !< (n_nodes + 1), ascending from index_base; borrowed.
-    integer(int32), intent(in), target :: columns(:)         !< (>= offsets(n_nodes + 1) - index_base), from index_base;
+    integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
+    integer(int32), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
                                                             !! begin with. Default 1.
@@ -288,8 +289,8 @@ contains
   !> The same for other kinds.
   subroutine mesh_adjacency_int64_int64(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int64), intent(in), target :: offsets(:)         !< (n_nodes + 1), ascending from index_base; borrowed.
-    integer(int64), intent(in), target :: columns(:)         !< (>= offsets(n_nodes + 1) - index_base), from index_base;
+    integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
+    integer(int64), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
                                                             !! begin with. Default 1.

@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_surfaces.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> Surfaces and closest points: the part of module riis that is riis_surface_* and riis_closest_* in riis.h.
 module riis_surfaces
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
@@ -156,7 +157,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -185,7 +187,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -216,7 +219,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -247,7 +251,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -276,7 +281,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -305,7 +311,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -336,7 +343,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 32, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -367,7 +375,8 @@ contains
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), 64, leaflet_id, index_base, arrays, code)
+    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+      arrays, code)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
       translation, flip_normals, code)
@@ -582,8 +591,8 @@ contains
   !! that are not contiguous are copied to and fro by the compiler. None may overlap another or the coordinates, which are
   !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side where distances are by
   !! sampling or minimisation; nothing is then written.
-  subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, distance, point, &
-      barycentric, normal, triangle_id, leaflet_id, side, status)
+  subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, &
+      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
@@ -610,8 +619,8 @@ contains
   end subroutine surface_closest_points_xyz
 
   !> The same for separate coordinates.
-  subroutine surface_closest_points_x_y_z(this, x, y, z, distance_limit, far_distance, n_threads, distance, point, &
-      barycentric, normal, triangle_id, leaflet_id, side, status)
+  subroutine surface_closest_points_x_y_z(this, x, y, z, distance_limit, far_distance, n_threads, &
+      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.

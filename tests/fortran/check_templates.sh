@@ -1,0 +1,82 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_templates.sh FORTRAN_FOLDER SCRATCH
+# The generated sources are what their templates expand to, and fit the line length; the comparison refuses what it is for.
+# Skipped (77) where fypp is not installed.
+set -euo pipefail
+folder=$1 scratch=$2
+if ! command -v fypp >/dev/null; then
+  echo "skipped: fypp was not found, so the generated Fortran sources are not compared with their templates"
+  exit 77
+fi
+
+# check FOLDER: whether the sources in FOLDER are those of the templates in FOLDER.
+check() {
+  local name status=0
+  rm -rf "$scratch/expanded"
+  mkdir -p "$scratch/expanded"
+  "$1/expand_templates.sh" "$scratch/expanded" || return 1
+  for name in $(cd "$scratch/expanded" && ls); do
+    if ! diff -u "$1/$name" "$scratch/expanded/$name"; then
+      echo "$name is not what its template expands to: edit the template, then run fortran/expand_templates.sh"
+      status=1
+    fi
+  done
+  for name in $(cd "$1" && grep -l '^! Generated from fortran/templates/' ./*.f90); do
+    if [ ! -e "$scratch/expanded/$name" ]; then
+      echo "$name says that it is generated, and has no template"
+      status=1
+    fi
+  done
+  if ! awk 'length > 130 { print FILENAME ":" FNR ": " length " columns; at most 130"; long = 1 } END { exit long }' \
+      "$1"/templates/*.fypp "$scratch"/expanded/*.f90; then
+    status=1
+  fi
+  return "$status"
+}
+
+# refused TEXT: check refuses $scratch/copy, with an error that has the text.
+refused() {
+  local errors
+  if errors=$(check "$scratch/copy" 2>&1); then
+    echo "accepted, though: $1" >&2
+    exit 1
+  fi
+  if ! grep -q -F -- "$1" <<<"$errors"; then
+    printf 'refused without "%s": %s\n' "$1" "$errors" >&2
+    exit 1
+  fi
+}
+
+# Two of the sources with their templates are enough to be damaged.
+copy() {
+  local name
+  rm -rf "$scratch/copy"
+  mkdir -p "$scratch/copy/templates"
+  cp "$folder/expand_templates.sh" "$scratch/copy"
+  cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
+  for name in riis_meshes riis_f77_marking; do
+    cp "$folder/$name.f90" "$scratch/copy"
+    cp "$folder/templates/$name.fypp" "$scratch/copy/templates"
+  done
+}
+
+check "$folder" >&2
+ls "$scratch/expanded"
+copy
+check "$scratch/copy" >&2
+sed -i 's/must be one more/must be more/' "$scratch/copy/riis_meshes.f90"
+refused 'riis_meshes.f90 is not what its template expands to'
+copy
+sed -i 's/must be one more/must be more/' "$scratch/copy/templates/riis_meshes.fypp"
+refused 'riis_meshes.f90 is not what its template expands to'
+copy
+rm "$scratch/copy/templates/riis_meshes.fypp"
+refused 'riis_meshes.f90 says that it is generated, and has no template'
+copy
+echo '#:endfor' >>"$scratch/copy/templates/riis_meshes.fypp"
+refused "riis_meshes.fypp:$(wc -l <"$scratch/copy/templates/riis_meshes.fypp"): error:"
+copy
+printf '! %130d\n' 0 >>"$scratch/copy/templates/riis_meshes.fypp"
+"$scratch/copy/expand_templates.sh"
+refused '132 columns; at most 130'
