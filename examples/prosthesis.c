@@ -2,11 +2,14 @@
  * A valve of one's own: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
  *
  * The ring, of radius 1.2, lies at z = 0; blood flows to +z; the tips of the posts, the commissures, are at z = 1.2. A
- * cusp is one patch between two curves that run counter-clockwise from commissure to commissure: at v = 0 its
- * attachment, down one post to the ring and up the next; at v = 1 its free edge. The sides u = 0 and u = 1 are
- * collapsed to the commissures, so the cusp consists of straight lines from the attachment to the free edge. To open,
- * only the free edges move. Closed, they pass the axis within 0.08, less than the half thickness: the marked valve is
- * tight. */
+ * leaflet is two patches, which meet in its middle line, from the ring to the free edge. Each lies between two curves
+ * from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at
+ * v = 1. The side at the commissure is collapsed to it, so the patch consists of straight lines from the attachment to
+ * the free edge. To open, only the free edges and the middle lines move.
+ *
+ * Closed, each half of a free edge runs from its commissure to the axis and has the same control points as the half
+ * beside it: the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
+ * opening. A third is convex, so the leaflet also stays in it, and leaflets never cross. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,33 +18,50 @@
 enum { n = 27, n_nodes = n * n * n };
 static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the prosthesis, a node every 1.25 mm */
 
-/* Control points of curves 0 to 2, the free edges, closed, */
-static const double closed_edges[][3] = {
-    {0.60, -1.04, 1.20}, {-0.10, 0.00, 0.90}, {-0.10, 0.00, 0.90}, {0.60, 1.04, 1.20},
-    {0.60, 1.04, 1.20},  {0.05, -0.09, 0.90}, {0.05, -0.09, 0.90}, {-1.20, 0.00, 1.20},
-    {-1.20, 0.00, 1.20}, {0.05, 0.09, 0.90},  {0.05, 0.09, 0.90},  {0.60, -1.04, 1.20},
+/* Control points of curves 0 to 5, the free edges, and 6 to 8, the middle lines: closed, */
+static const double closed_moving[][3] = {
+    {0.60, -1.04, 1.20},  {0.45, -0.78, 1.00}, {0.30, -0.52, 0.80}, {0.00, 0.00, 0.80}, /* edge 0a */
+    {0.60, 1.04, 1.20},   {0.45, 0.78, 1.00},  {0.30, 0.52, 0.80},  {0.00, 0.00, 0.80}, /* edge 0b */
+    {0.60, 1.04, 1.20},   {0.45, 0.78, 1.00},  {0.30, 0.52, 0.80},  {0.00, 0.00, 0.80}, /* edge 1a */
+    {-1.20, 0.00, 1.20},  {-0.90, 0.00, 1.00}, {-0.60, 0.00, 0.80}, {0.00, 0.00, 0.80}, /* edge 1b */
+    {-1.20, 0.00, 1.20},  {-0.90, 0.00, 1.00}, {-0.60, 0.00, 0.80}, {0.00, 0.00, 0.80}, /* edge 2a */
+    {0.60, -1.04, 1.20},  {0.45, -0.78, 1.00}, {0.30, -0.52, 0.80}, {0.00, 0.00, 0.80}, /* edge 2b */
+    {1.20, 0.00, 0.00},   {0.00, 0.00, 0.80},                                           /* middle 0 */
+    {-0.60, 1.04, 0.00},  {0.00, 0.00, 0.80},                                           /* middle 1 */
+    {-0.60, -1.04, 0.00}, {0.00, 0.00, 0.80},                                           /* middle 2 */
 };
-/* and open; */
-static const double open_edges[][3] = {
-    {0.60, -1.04, 1.20}, {1.13, -0.60, 1.20},  {1.13, 0.60, 1.20},   {0.60, 1.04, 1.20},
-    {0.60, 1.04, 1.20},  {-0.05, 1.28, 1.20},  {-1.08, 0.68, 1.20},  {-1.20, 0.00, 1.20},
-    {-1.20, 0.00, 1.20}, {-1.08, -0.68, 1.20}, {-0.05, -1.28, 1.20}, {0.60, -1.04, 1.20},
+/* and open. */
+static const double open_moving[][3] = {
+    {0.60, -1.04, 1.20},  {0.87, -0.80, 1.20},  {1.05, -0.37, 1.20},  {1.05, 0.00, 1.20},   /* edge 0a */
+    {0.60, 1.04, 1.20},   {0.87, 0.80, 1.20},   {1.05, 0.37, 1.20},   {1.05, 0.00, 1.20},   /* edge 0b */
+    {0.60, 1.04, 1.20},   {0.26, 1.15, 1.20},   {-0.20, 1.09, 1.20},  {-0.52, 0.91, 1.20},  /* edge 1a */
+    {-1.20, 0.00, 1.20},  {-1.13, 0.35, 1.20},  {-0.85, 0.72, 1.20},  {-0.52, 0.91, 1.20},  /* edge 1b */
+    {-1.20, 0.00, 1.20},  {-1.13, -0.35, 1.20}, {-0.85, -0.72, 1.20}, {-0.52, -0.91, 1.20}, /* edge 2a */
+    {0.60, -1.04, 1.20},  {0.26, -1.15, 1.20},  {-0.20, -1.09, 1.20}, {-0.52, -0.91, 1.20}, /* edge 2b */
+    {1.20, 0.00, 0.00},   {1.05, 0.00, 1.20},                                               /* middle 0 */
+    {-0.60, 1.04, 0.00},  {-0.52, 0.91, 1.20},                                              /* middle 1 */
+    {-0.60, -1.04, 0.00}, {-0.52, -0.91, 1.20},                                             /* middle 2 */
 };
-/* of curves 3 to 5, the attachments; */
-static const double attachments[][3] = {
-    {0.60, -1.04, 1.20}, {1.40, -0.58, -0.40},  {1.40, 0.58, -0.40},   {0.60, 1.04, 1.20},
-    {0.60, 1.04, 1.20},  {-0.20, 1.50, -0.40},  {-1.20, 0.92, -0.40},  {-1.20, 0.00, 1.20},
-    {-1.20, 0.00, 1.20}, {-1.20, -0.92, -0.40}, {-0.20, -1.50, -0.40}, {0.60, -1.04, 1.20},
-};
-/* of curves 6 to 8, the commissures: lines from a point to itself. */
-static const double commissures[][3] = {
-    {0.60, -1.04, 1.20}, {0.60, -1.04, 1.20}, {0.60, 1.04, 1.20},
-    {0.60, 1.04, 1.20},  {-1.20, 0.00, 1.20}, {-1.20, 0.00, 1.20},
+/* Control points of curves 9 to 14, the attachments, and 15 to 17, the commissures: lines from a point to itself. */
+static const double fixed[][3] = {
+    {0.60, -1.04, 1.20}, {1.00, -0.81, 0.40},  {1.20, -0.40, 0.00},  {1.20, 0.00, 0.00},   /* attachment 0a */
+    {0.60, 1.04, 1.20},  {1.00, 0.81, 0.40},   {1.20, 0.40, 0.00},   {1.20, 0.00, 0.00},   /* attachment 0b */
+    {0.60, 1.04, 1.20},  {0.20, 1.27, 0.40},   {-0.25, 1.24, 0.00},  {-0.60, 1.04, 0.00},  /* attachment 1a */
+    {-1.20, 0.00, 1.20}, {-1.20, 0.46, 0.40},  {-0.95, 0.84, 0.00},  {-0.60, 1.04, 0.00},  /* attachment 1b */
+    {-1.20, 0.00, 1.20}, {-1.20, -0.46, 0.40}, {-0.95, -0.84, 0.00}, {-0.60, -1.04, 0.00}, /* attachment 2a */
+    {0.60, -1.04, 1.20}, {0.20, -1.27, 0.40},  {-0.25, -1.24, 0.00}, {-0.60, -1.04, 0.00}, /* attachment 2b */
+    {0.60, -1.04, 1.20}, {0.60, -1.04, 1.20},                                              /* commissure 0 */
+    {0.60, 1.04, 1.20},  {0.60, 1.04, 1.20},                                               /* commissure 1 */
+    {-1.20, 0.00, 1.20}, {-1.20, 0.00, 1.20},                                              /* commissure 2 */
 };
 
-static const int32_t degree[] = {3, 3, 3, 3, 3, 3, 1, 1, 1};
-static const int32_t curve_id[] = {3, 0, 6, 7, 4, 1, 7, 8, 5, 2, 8, 6}; /* at v = 0, v = 1, u = 0, u = 1 of each cusp */
-static const int32_t leaflet_id[] = {0, 1, 2};
+static const int32_t degree[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1};
+/* The curves at v = 0, v = 1, u = 0, u = 1 of each half leaflet, and which of them run backwards. */
+static const int32_t curve_id[][4] = {{9, 0, 15, 6},  {10, 1, 6, 16}, {11, 2, 16, 7},
+                                      {12, 3, 7, 17}, {13, 4, 17, 8}, {14, 5, 8, 15}};
+static const int32_t reversed[][4] = {{0, 0, 0, 0}, {1, 1, 0, 0}, {0, 0, 0, 0},
+                                      {1, 1, 0, 0}, {0, 0, 0, 0}, {1, 1, 0, 0}};
+static const int32_t leaflet_id[] = {0, 0, 1, 1, 2, 2};
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
@@ -49,20 +69,20 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-static riis_valve *valve_with(const double (*free_edges)[3]) {
-  double control[30][3];
-  memcpy(control, free_edges, sizeof closed_edges);
-  memcpy(control + 12, attachments, sizeof attachments);
-  memcpy(control + 24, commissures, sizeof commissures);
+static riis_valve *valve_with(const double (*moving)[3]) {
+  double control[60][3];
+  memcpy(control, moving, sizeof closed_moving);
+  memcpy(control + 30, fixed, sizeof fixed);
 
   riis_patches patches;
   riis_valve *valve = NULL;
   check(riis_patches_init(&patches, sizeof patches));
-  patches.n_curves = 9;
+  patches.n_curves = 18;
   patches.degree = degree;
   patches.control = control[0];
-  patches.n_patches = 3;
-  patches.curve_id = curve_id;
+  patches.n_patches = 6;
+  patches.curve_id = curve_id[0];
+  patches.reversed = reversed[0];
   patches.leaflet_id = leaflet_id;
   check(riis_valve_create_from_patches(&patches, &valve));
   return valve;
@@ -75,7 +95,7 @@ int main(void) {
     xyz[3 * i + 2] = -1 + 0.125 * (i / (n * n));
   }
 
-  riis_valve *valve = valve_with(closed_edges), *open = valve_with(open_edges);
+  riis_valve *valve = valve_with(closed_moving), *open = valve_with(open_moving);
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
   riis_mark_result *result = NULL;

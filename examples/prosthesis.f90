@@ -2,31 +2,51 @@
 ! A valve of one's own: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
 !
 ! The ring, of radius 1.2, lies at z = 0; blood flows to +z; the tips of the posts, the commissures, are at z = 1.2. A
-! cusp is one patch between two curves that run counter-clockwise from commissure to commissure: at v = 0 its
-! attachment, down one post to the ring and up the next; at v = 1 its free edge. The sides u = 0 and u = 1 are
-! collapsed to the commissures, so the cusp consists of straight lines from the attachment to the free edge. To open,
-! only the free edges move. Closed, they pass the axis within 0.08, less than the half thickness: the marked valve is
-! tight.
+! leaflet is two patches, which meet in its middle line, from the ring to the free edge. Each lies between two curves
+! from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at
+! v = 1. The side at the commissure is collapsed to it, so the patch consists of straight lines from the attachment to
+! the free edge. To open, only the free edges and the middle lines move.
+!
+! Closed, each half of a free edge runs from its commissure to the axis and has the same control points as the half
+! beside it: the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
+! opening. A third is convex, so the leaflet also stays in it, and leaflets never cross.
 program prosthesis
   use riis
   implicit none
   integer, parameter :: n = 27, n_nodes = n**3
-  double precision, parameter :: closed_edges(36) = [ & ! control points of curves 1 to 3, the free edges, closed
-     0.60d0, -1.04d0,  1.20d0, -0.10d0,  0.00d0,  0.90d0, -0.10d0,  0.00d0,  0.90d0,  0.60d0,  1.04d0,  1.20d0, &
-     0.60d0,  1.04d0,  1.20d0,  0.05d0, -0.09d0,  0.90d0,  0.05d0, -0.09d0,  0.90d0, -1.20d0,  0.00d0,  1.20d0, &
-    -1.20d0,  0.00d0,  1.20d0,  0.05d0,  0.09d0,  0.90d0,  0.05d0,  0.09d0,  0.90d0,  0.60d0, -1.04d0,  1.20d0]
-  double precision, parameter :: open_edges(36) = [ & ! and open
-     0.60d0, -1.04d0,  1.20d0,  1.13d0, -0.60d0,  1.20d0,  1.13d0,  0.60d0,  1.20d0,  0.60d0,  1.04d0,  1.20d0, &
-     0.60d0,  1.04d0,  1.20d0, -0.05d0,  1.28d0,  1.20d0, -1.08d0,  0.68d0,  1.20d0, -1.20d0,  0.00d0,  1.20d0, &
-    -1.20d0,  0.00d0,  1.20d0, -1.08d0, -0.68d0,  1.20d0, -0.05d0, -1.28d0,  1.20d0,  0.60d0, -1.04d0,  1.20d0]
-  double precision, parameter :: attachments(36) = [ & ! of curves 4 to 6, the attachments
-     0.60d0, -1.04d0,  1.20d0,  1.40d0, -0.58d0, -0.40d0,  1.40d0,  0.58d0, -0.40d0,  0.60d0,  1.04d0,  1.20d0, &
-     0.60d0,  1.04d0,  1.20d0, -0.20d0,  1.50d0, -0.40d0, -1.20d0,  0.92d0, -0.40d0, -1.20d0,  0.00d0,  1.20d0, &
-    -1.20d0,  0.00d0,  1.20d0, -1.20d0, -0.92d0, -0.40d0, -0.20d0, -1.50d0, -0.40d0,  0.60d0, -1.04d0,  1.20d0]
-  double precision, parameter :: commissures(18) = [ & ! of curves 7 to 9, the commissures: lines from a point to itself
-     0.60d0, -1.04d0,  1.20d0,  0.60d0, -1.04d0,  1.20d0, &
-     0.60d0,  1.04d0,  1.20d0,  0.60d0,  1.04d0,  1.20d0, &
-    -1.20d0,  0.00d0,  1.20d0, -1.20d0,  0.00d0,  1.20d0]
+  ! Control points of curves 1 to 6, the free edges, and 7 to 9, the middle lines: closed,
+  double precision, parameter :: closed_moving(90) = [ &
+      0.60d0, -1.04d0,  1.20d0,  0.45d0, -0.78d0,  1.00d0,  0.30d0, -0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
+      0.60d0,  1.04d0,  1.20d0,  0.45d0,  0.78d0,  1.00d0,  0.30d0,  0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
+      0.60d0,  1.04d0,  1.20d0,  0.45d0,  0.78d0,  1.00d0,  0.30d0,  0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
+     -1.20d0,  0.00d0,  1.20d0, -0.90d0,  0.00d0,  1.00d0, -0.60d0,  0.00d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
+     -1.20d0,  0.00d0,  1.20d0, -0.90d0,  0.00d0,  1.00d0, -0.60d0,  0.00d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
+      0.60d0, -1.04d0,  1.20d0,  0.45d0, -0.78d0,  1.00d0,  0.30d0, -0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
+      1.20d0,  0.00d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
+     -0.60d0,  1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
+     -0.60d0, -1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0]
+  ! and open.
+  double precision, parameter :: open_moving(90) = [ &
+      0.60d0, -1.04d0,  1.20d0,  0.87d0, -0.80d0,  1.20d0,  1.05d0, -0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
+      0.60d0,  1.04d0,  1.20d0,  0.87d0,  0.80d0,  1.20d0,  1.05d0,  0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
+      0.60d0,  1.04d0,  1.20d0,  0.26d0,  1.15d0,  1.20d0, -0.20d0,  1.09d0,  1.20d0, -0.52d0,  0.91d0,  1.20d0, &
+     -1.20d0,  0.00d0,  1.20d0, -1.13d0,  0.35d0,  1.20d0, -0.85d0,  0.72d0,  1.20d0, -0.52d0,  0.91d0,  1.20d0, &
+     -1.20d0,  0.00d0,  1.20d0, -1.13d0, -0.35d0,  1.20d0, -0.85d0, -0.72d0,  1.20d0, -0.52d0, -0.91d0,  1.20d0, &
+      0.60d0, -1.04d0,  1.20d0,  0.26d0, -1.15d0,  1.20d0, -0.20d0, -1.09d0,  1.20d0, -0.52d0, -0.91d0,  1.20d0, &
+      1.20d0,  0.00d0,  0.00d0,  1.05d0,  0.00d0,  1.20d0, &
+     -0.60d0,  1.04d0,  0.00d0, -0.52d0,  0.91d0,  1.20d0, &
+     -0.60d0, -1.04d0,  0.00d0, -0.52d0, -0.91d0,  1.20d0]
+  ! Control points of curves 10 to 15, the attachments, and 16 to 18, the commissures: lines from a point to itself.
+  double precision, parameter :: fixed(90) = [ &
+      0.60d0, -1.04d0,  1.20d0,  1.00d0, -0.81d0,  0.40d0,  1.20d0, -0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
+      0.60d0,  1.04d0,  1.20d0,  1.00d0,  0.81d0,  0.40d0,  1.20d0,  0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
+      0.60d0,  1.04d0,  1.20d0,  0.20d0,  1.27d0,  0.40d0, -0.25d0,  1.24d0,  0.00d0, -0.60d0,  1.04d0,  0.00d0, &
+     -1.20d0,  0.00d0,  1.20d0, -1.20d0,  0.46d0,  0.40d0, -0.95d0,  0.84d0,  0.00d0, -0.60d0,  1.04d0,  0.00d0, &
+     -1.20d0,  0.00d0,  1.20d0, -1.20d0, -0.46d0,  0.40d0, -0.95d0, -0.84d0,  0.00d0, -0.60d0, -1.04d0,  0.00d0, &
+      0.60d0, -1.04d0,  1.20d0,  0.20d0, -1.27d0,  0.40d0, -0.25d0, -1.24d0,  0.00d0, -0.60d0, -1.04d0,  0.00d0, &
+      0.60d0, -1.04d0,  1.20d0,  0.60d0, -1.04d0,  1.20d0, &
+      0.60d0,  1.04d0,  1.20d0,  0.60d0,  1.04d0,  1.20d0, &
+     -1.20d0,  0.00d0,  1.20d0, -1.20d0,  0.00d0,  1.20d0]
   double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the prosthesis, a node every 1.25 mm
   type(riis_valve) :: valve, open
   type(riis_surface) :: surface
@@ -38,8 +58,8 @@ program prosthesis
     xyz(:, i + 1) = [-1.625d0, -1.625d0, -1d0] + 0.125d0 * [mod(i, n), mod(i / n, n), i / n**2]
   end do
 
-  call make_valve(valve, closed_edges)
-  call make_valve(open, open_edges)
+  call make_valve(valve, closed_moving)
+  call make_valve(open, open_moving)
   call valve%set_open_state(open)
   call open%destroy() ! it was copied
   call surface%create(valve)
@@ -60,15 +80,20 @@ program prosthesis
 
 contains
 
-  subroutine make_valve(valve, free_edges)
+  subroutine make_valve(valve, moving)
     type(riis_valve), intent(inout) :: valve
-    double precision, intent(in) :: free_edges(:)
-    integer, parameter :: degree(9) = [3, 3, 3, 3, 3, 3, 1, 1, 1]
-    integer, parameter :: curve_id(4, 3) = reshape([ & ! at v = 0, v = 1, u = 0, u = 1 of each cusp
-      4, 1, 7, 8, &
-      5, 2, 8, 9, &
-      6, 3, 9, 7], [4, 3])
-    call valve%create_from_patches(degree, reshape([free_edges, attachments, commissures], [3, 30]), curve_id, &
-      leaflet_id=[0, 1, 2])
+    double precision, intent(in) :: moving(:)
+    integer, parameter :: degree(18) = [3, 3, 3, 3, 3, 3, 1, 1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1]
+    integer, parameter :: curve_id(4, 6) = reshape([ & ! at v = 0, v = 1, u = 0, u = 1 of each half leaflet
+      10, 1, 16, 7,  11, 2, 7, 17, &
+      12, 3, 17, 8,  13, 4, 8, 18, &
+      14, 5, 18, 9,  15, 6, 9, 16], [4, 6])
+    logical, parameter :: f = .false., t = .true.
+    logical, parameter :: reversed(4, 6) = reshape([ & ! whether they run backwards
+      f, f, f, f,  t, t, f, f, &
+      f, f, f, f,  t, t, f, f, &
+      f, f, f, f,  t, t, f, f], [4, 6])
+    call valve%create_from_patches(degree, reshape([moving, fixed], [3, 60]), curve_id, reversed=reversed, &
+      leaflet_id=[0, 0, 1, 1, 2, 2])
   end subroutine make_valve
 end program prosthesis

@@ -246,47 +246,6 @@ static void test_changed_files(void **state) {
               scratch_path("v.json"));
 }
 
-/* The example for programs, as a file. Its nodes are not those of in.vtu, its curves are. */
-static void test_prosthesis(void **state) {
-  (void)state;
-  static const double edges[2][36] = {
-      {0.60, -1.04, 1.20, -0.10, 0.00, 0.90, -0.10, 0.00, 0.90, 0.60, 1.04, 1.20, 0.60, 1.04, 1.20, 0.05, -0.09, 0.90,
-       0.05, -0.09, 0.90, -1.20, 0.00, 1.20, -1.20, 0.00, 1.20, 0.05, 0.09, 0.90, 0.05, 0.09, 0.90, 0.60, -1.04, 1.20},
-      {0.60,  -1.04, 1.20, 1.13,  -0.60, 1.20, 1.13,  0.60,  1.20, 0.60,  1.04,  1.20,
-       0.60,  1.04,  1.20, -0.05, 1.28,  1.20, -1.08, 0.68,  1.20, -1.20, 0.00,  1.20,
-       -1.20, 0.00,  1.20, -1.08, -0.68, 1.20, -0.05, -1.28, 1.20, 0.60,  -1.04, 1.20}};
-  static const double others[54] = {0.60, -1.04, 1.20,  1.40, -0.58, -0.40, 1.40,  0.58,  -0.40, 0.60,  1.04,
-                                    1.20, 0.60,  1.04,  1.20, -0.20, 1.50,  -0.40, -1.20, 0.92,  -0.40, -1.20,
-                                    0.00, 1.20,  -1.20, 0.00, 1.20,  -1.20, -0.92, -0.40, -0.20, -1.50, -0.40,
-                                    0.60, -1.04, 1.20,  0.60, -1.04, 1.20,  0.60,  -1.04, 1.20,  0.60,  1.04,
-                                    1.20, 0.60,  1.04,  1.20, -1.20, 0.00,  1.20,  -1.20, 0.00,  1.20};
-  static const int32_t degrees[] = {3, 3, 3, 3, 3, 3, 1, 1, 1}, leaflets[] = {0, 1, 2};
-  static const int32_t sides[] = {3, 0, 6, 7, 4, 1, 7, 8, 5, 2, 8, 6};
-  riis_valve *valves[2] = {NULL, NULL};
-  for (int i = 0; i < 2; ++i) {
-    double control[90];
-    memcpy(control, edges[i], sizeof edges[i]);
-    memcpy(control + 36, others, sizeof others);
-    riis_patches patches;
-    expect_fine(riis_patches_init(&patches, sizeof patches));
-    patches.n_curves = 9;
-    patches.degree = degrees;
-    patches.control = control;
-    patches.n_patches = 3;
-    patches.curve_id = sides;
-    patches.leaflet_id = leaflets;
-    expect_fine(riis_valve_create_from_patches(&patches, &valves[i]));
-  }
-  expect_fine(riis_valve_set_open_state(valves[0], valves[1]));
-  const char *const texts[] = {"0", "0.5", "1"};
-  for (int i = 0; i < 3; ++i) {
-    mark_at(valves[0], 0.5 * i);
-    run_at(RIIS_EXAMPLES "/prosthesis.json", texts[i]);
-  }
-  riis_valve_destroy(&valves[0]);
-  riis_valve_destroy(&valves[1]);
-}
-
 static int make_patches_box(void **state) {
   return make_box_of(state, (double[3]){-1.4, -1.3, -1.1}, (double[3]){1.3, 1.4, 1.3});
 }
@@ -299,7 +258,7 @@ static int destroy_all(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_marks),         cmocka_unit_test(test_parameters), cmocka_unit_test(test_bad_files),
-      cmocka_unit_test(test_changed_files), cmocka_unit_test(test_prosthesis),
+      cmocka_unit_test(test_changed_files),
   };
   return cmocka_run_group_tests(tests, make_patches_box, destroy_all);
 }
