@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fortran/bindings/generate.py, on copies of riis.h and of its table with something planted in them: it writes the right lines,
-or refuses and names the line, and leaves the files alone."""
+"""fortran/bindings/generate.py, on copies of riis.h and of bindings.table with something planted in them. It writes the right
+lines, or it refuses, names the line and leaves the files alone. The same for check_keywords.py."""
 
 import contextlib
 import io
@@ -12,6 +12,7 @@ import unittest
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(SOURCES, "fortran", "bindings"))
+import check_keywords
 import generate
 
 HEADER, TABLE = generate.HEADER, generate.TABLE
@@ -379,6 +380,33 @@ class Words(Planted):
         self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
         self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
                      "riis_patches: degree is in ", "already")
+
+
+class Keywords(Planted):
+    def judge(self):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            return check_keywords.main(self.root), out.getvalue()
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(os.path.join(SOURCES, "abi"), os.path.join(self.root, "abi"))
+
+    def test_what_was_released_keeps_its_names(self):
+        self.assertEqual(self.judge()[0], 0)
+        self.plant(HEADER, "riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads)",
+                   "riis_mesh_prepare(riis_mesh *mesh, int32_t threads)")
+        status, text = self.judge()
+        self.assertEqual(status, 1)
+        self.assertIn("riis_mesh_prepare has the arguments mesh, threads, but was released with mesh, n_threads\n", text)
+
+    def test_new_functions_are_free(self):
+        self.plant_function("int32_t planted")
+        self.assertEqual(self.judge()[0], 0)
+
+    def test_nothing_to_compare_with(self):
+        shutil.rmtree(os.path.join(self.root, "abi"))
+        self.assertEqual(self.judge(), (1, "0 functions\n"))
 
 
 if __name__ == "__main__":
