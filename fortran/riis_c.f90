@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Written by fortran/bindings/generate.py, from riis.h and from what is beside it there. To change it: ./run bindings
+! Written by fortran/bindings/generate.py from riis.h and from the files in that folder: ./run bindings
 !> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. What a function does, its
 !! ranges and its errors are said once, in riis.h; here is only how each C argument looks from Fortran.
 !!
@@ -144,26 +144,31 @@ module riis_c
 
   !> What a surface is.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices     !< How many vertices.
-    integer(c_int64_t) :: n_triangles    !< How many triangles are asked for closest points.
-    integer(c_int64_t) :: n_zero_area    !< How many were left out because they have no area.
-    real(c_double) :: half_thickness     !< Placed units.
-    real(c_double) :: area               !< Of all triangles, placed units squared.
-    real(c_double) :: lower(3), upper(3) !< Bounds of the triangles, placed units.
-    real(c_double) :: seconds_triangles  !< Wall time of the last create or update: checks and triangles,
-    real(c_double) :: seconds_scene      !< and the Embree scene.
+    integer(c_int64_t) :: n_vertices     !< length of what riis_surface_vertices gives
+    integer(c_int64_t) :: n_triangles    !< those that are asked for closest points
+    integer(c_int64_t) :: n_zero_area    !< triangles left out because they have no area
+    real(c_double) :: half_thickness     !< placed units
+    real(c_double) :: area               !< of all triangles, placed units squared
+    real(c_double) :: lower(3), upper(3) !< bounds of the triangles, placed units
+    real(c_double) :: seconds_triangles  !< wall time of the last create or update: checks and triangles
+    real(c_double) :: seconds_scene      !< and the Embree scene, with what another distance than the triangles' needs
   end type riis_surface_info
 
-  !> The closest point of a surface to one point.
+  !> The closest point of the surface to one point. Where the surface's distances are by sampling or minimisation, the
+  !! point is the sample or S(u,v), leaflet_id that of its patch, normal that of S there, 0 0 0 where it has none, as at
+  !! a collapsed side; triangle_id is -1, barycentric and side are 0.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance        !< >= 0.
-    real(c_double) :: point(3)        !< On the triangle.
-    real(c_double) :: barycentric(3)  !< Its weights of the triangle's three vertices, >= 0, sum 1.
-    real(c_double) :: normal(3)       !< Unit normal of the triangle, by the right-hand rule.
-    integer(c_int64_t) :: triangle_id !< From 0: the lowest of the closest triangles' ids.
-    integer(c_int32_t) :: leaflet_id  !< RIIS_LEAFLET_*, or the caller's.
-    integer(c_int32_t) :: side        !< 1 where normals point to (downstream), -1 on the other side, 0 on the surface
-                                      !! or level with its rim.
+    real(c_double) :: distance        !< >= 0
+    real(c_double) :: point(3)        !< on the triangle
+    real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
+    real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
+    integer(c_int64_t) :: triangle_id !< the lowest of the closest triangles' ids
+    integer(c_int32_t) :: leaflet_id  !< the triangle's
+    integer(c_int32_t) :: side        !< +1 on the side that normals point to (downstream), -1 on the other, 0 exactly
+                                      !! on the surface or level with its rim. At an edge or a vertex that several
+                                      !! triangles share, their angle-weighted normal decides (Baerentzen, Aanaes 2005);
+                                      !! vertices are shared when their placed coordinates are equal. Where an edge ends
+                                      !! inside another (along the bending curve) it is the one triangle's
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -235,19 +240,23 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_mark_options
 
-  !> How a marking went.
+  !> How the last marking went.
   type, bind(c) :: riis_mark_stats
-    integer(c_int64_t) :: n_nodes        !< Of the mesh.
-    integer(c_int64_t) :: n_marked       !< Within the half thickness.
-    integer(c_int64_t) :: n_within_limit !< Within the distance limit.
-    integer(c_int64_t) :: n_queries      !< Closest-point queries that were made, of nodes and of groups of nodes.
-    real(c_double) :: seconds            !< Wall time.
-    integer(c_int32_t) :: search         !< The search that ran, never RIIS_SEARCH_AUTO.
-    integer(c_int32_t) :: n_threads      !< Threads that really ran, the most in any part of the search.
-    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain; 0: it is not.
-    integer(c_int32_t) :: instructions   !< Those that were used, never RIIS_INSTRUCTIONS_AUTO.
-    integer(c_int64_t) :: n_unreached    !< Nodes within the limit that the neighbour search did not reach from
-                                         !! neighbour to neighbour, and that its proof found.
+    integer(c_int64_t) :: n_nodes        !< of the mesh, masked out or not
+    integer(c_int64_t) :: n_marked       !< nodes within the half thickness
+    integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
+    integer(c_int64_t) :: n_queries      !< closest-point queries that were made, of nodes and, by the neighbour search,
+                                         !! of groups of nodes
+    real(c_double) :: seconds            !< wall time of riis_mark_nodes
+    integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
+    integer(c_int32_t) :: n_threads      !< threads that really ran, the most in any part of the search. A caller's TBB
+                                         !! limit binds walks, not loops
+    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain, for the
+                                         !! coordinates that the mesh was last told of; 0: it is not certain
+                                         !! (RIIS_SEARCH_PAPER)
+    integer(c_int32_t) :: instructions   !< those that were used, never RIIS_INSTRUCTIONS_AUTO
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search did not reach from
+                                         !! neighbour to neighbour, and that its proof found
   end type riis_mark_stats
 
   ! -------------------------------------------------------------------------------------------------------------------

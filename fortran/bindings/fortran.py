@@ -11,6 +11,7 @@ from header import Problem
 NUMBERS = {"uint8_t": "integer(c_int8_t)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)",
            "double": "real(c_double)"}
 EITHER_INTEGER = "integer(c_int32_t) or (c_int64_t)"  # an array behind void *
+AS_IN_C = "as in riis.h"  # the table's text of a struct whose comments come from there
 WIDTH = 120  # of what is wrapped
 RULE = "! " + "-" * 113
 
@@ -165,11 +166,11 @@ class Bindings:
 
     # Structs ------------------------------------------------------------------------------------------------------
 
-    def field_text(self, struct, line, field_line):
+    def field_text(self, struct, line, field_line, as_in_c):
         """Type in Fortran and comment of fields that one line of C declares."""
         type_ = field_line.fields[0].type
         names = ", ".join(field.name for field in field_line.fields)
-        text = line.text if line else ""
+        text = line.text if line else field_line.text if as_in_c else ""
         is_text = type_ == ("char", True, 1)
         if is_text or type_.stars == 0 and self.number(type_.base):
             if line and line.words:
@@ -192,11 +193,12 @@ class Bindings:
             if any(line is not of_table[0] for line in of_table):
                 self.problems.append(f"{of_table[0].place if of_table[0] else self.table.shown}: {struct.name}: "
                                      + ", ".join(field.name for field in field_line.fields) + " belong into one line, as in C")
-            type_, text = self.field_text(struct, of_table[0], field_line)
+            type_, text = self.field_text(struct, of_table[0], field_line, entry.text == AS_IN_C)
             names = ", ".join(field.name + (f"({field.extent})" if field.extent else "") for field in field_line.fields)
             fields.append((f"    {type_} :: {names}", text))
         column = min(max([len(code) for code, text in fields if text], default=0), 45)
-        lines = comment("  ", prose("  ", entry.text)) + [f"  type, bind(c) :: {struct.name}"]
+        text = struct.text if entry.text == AS_IN_C else entry.text
+        lines = comment("  ", prose("  ", text)) + [f"  type, bind(c) :: {struct.name}"]
         for code, text in fields:
             parts = textwrap.wrap(text, WIDTH - column - 4, break_on_hyphens=False) or [""]
             lines.append(f"{code:{column}} !< {parts[0]}" if text else code)

@@ -74,7 +74,8 @@ class Table:
         first, second, text = (re.split(r" {2,}", line, maxsplit=2) + ["", ""])[:3]
         words = [] if second == "-" else words_of(second)
         if not second or words is None:
-            self.problems.append(f"{place}: {second!r} is not understood; the second column is '-' or some of "
+            what = f"{second!r} is not understood" if second else "there is no second column"
+            self.problems.append(f"{place}: {what}; the second column is '-' or some of "
                                  + ", ".join(sorted(WORDS)) + ", a shape in parentheses")
             words = []
         names = first.split(", ")

@@ -113,11 +113,12 @@ class Committed(Planted):
 
 class Fields(Planted):
     def test_numbers_need_no_words(self):
-        self.plant(HEADER, "} riis_mark_stats;", "  double planted[2], other; /* a text */\n  int32_t last;\n} riis_mark_stats;")
+        self.plant(HEADER, "} riis_mark_options;",
+                   "  double planted[2], other; /* a text */\n  int32_t last;\n} riis_mark_options;")
         self.writes()
-        self.assertRegex(self.text(MODULE), r" n_unreached .*\n(.*!!.*\n)*    real\(c_double\) :: planted\(2\), other\n"
-                                            r"    integer\(c_int32_t\) :: last\n  end type riis_mark_stats\n")
-        self.assertIn("AT(n_unreached), AT(planted), AT(other), AT(last))", self.text(LAYOUTS))
+        self.assertIn("    integer(c_int32_t) :: reserved\n    real(c_double) :: planted(2), other\n"
+                      "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
+        self.assertIn("       AT(instructions), AT(reserved), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
 
     def test_the_order_is_that_of_the_header(self):
         self.plant(HEADER, "  int64_t n_curves; ", "  int64_t planted;\n  int64_t n_curves; ")
@@ -142,6 +143,17 @@ class Fields(Planted):
         self.assertRegex(self.text(MODULE),
                          r"    type\(c_ptr\) :: text +!< for riis_c_text\n"
                          r"    type\(c_ptr\) :: planted +!< integer\(c_int32_t\) or \(c_int64_t\), \(n_rows\)\n")
+
+    def test_comments_of_the_header(self):
+        self.plant(HEADER, "/* How the last marking went. */", "/* Planted for\n * the struct. */")
+        self.plant(HEADER, "} riis_mark_stats;",
+                   "  double a, b; /* planted for\n         the fields */\n  double c;\n} riis_mark_stats;")
+        self.plant(TABLE, "riis_mark_stats  as in riis.h\n", "riis_mark_stats  as in riis.h\n  seconds  -  planted here\n")
+        self.writes()
+        self.assertIn("\n  !> Planted for the struct.\n  type, bind(c) :: riis_mark_stats\n", self.text(MODULE))
+        self.assertRegex(self.text(MODULE),
+                         r"    real\(c_double\) :: a, b +!< planted for the fields\n    real\(c_double\) :: c\n")
+        self.assertRegex(self.text(MODULE), r"    real\(c_double\) :: seconds +!< planted here\n")
 
     def test_not_understood(self):
         for field in ("float planted;", "uint16_t planted;", "long planted;", "unsigned long planted;", "riis_closest planted;",
@@ -340,7 +352,7 @@ class Words(Planted):
         self.refused(entry, "riis_planted  text\n\n" + entry, f"TABLE: {HEADER} has no riis_planted")
         self.refused(entry, f"{entry}  planted  required (*)\n", f"riis_valve_get of {HEADER} has no planted")
         self.refused("  RIIS_LOG_*  ", "  RIIS_PLANTED_*  ", f"TABLE: omit from riisf.h of {HEADER} has no RIIS_PLANTED_*")
-        self.refused("  n_threads       ", "  planted         ", f"TABLE: riis_mark_stats of {HEADER} has no planted")
+        self.refused("  degree       ", "  planted      ", f"riis_patches of {HEADER} has no planted")
 
     def test_words_that_do_not_suit(self):
         csr = "  csr      optional  "
@@ -375,7 +387,7 @@ class Words(Planted):
         entry = "  csr      optional  "
         for words in ("maybe", "optional,", "(3", "optional optional", "(3) (4)"):
             self.refused(entry, f"  csr      {words}  ", f"TABLE: '{words}' is not understood; the second column is '-' or")
-        self.refused(entry, "  csr\n", "TABLE: '' is not understood")
+        self.refused(entry, "  csr\n", "TABLE: there is no second column; the second column is")
         self.refused(entry, " csr      optional  ", "TABLE: nothing is above that this line could belong to")
         self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
         self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
