@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Written by fortran/bindings/generate.py from riis.h and from the files in that folder: ./run bindings
 !> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. What a function does, its
 !! ranges and its errors are said once, in riis.h; here is only how each C argument looks from Fortran.
 !!
@@ -91,20 +92,20 @@ module riis_c
   type, bind(c) :: riis_patches
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_curves
-    type(c_ptr) :: degree              !< integer(c_int32_t), (n_curves)
-    type(c_ptr) :: control             !< real(c_double), (3, sum(degree + 1))
+    type(c_ptr) :: degree            !< integer(c_int32_t), (n_curves)
+    type(c_ptr) :: control           !< real(c_double), (3, sum(degree + 1))
     integer(c_int64_t) :: n_patches
-    type(c_ptr) :: curve_id            !< integer(c_int32_t), (4, n_patches)
-    type(c_ptr) :: reversed            !< integer(c_int32_t), (4, n_patches), or c_null_ptr
-    type(c_ptr) :: leaflet_id          !< integer(c_int32_t), (n_patches), or c_null_ptr
-    integer(c_int32_t) :: index_base   !< 1 for curves that count as Fortran does
+    type(c_ptr) :: curve_id          !< integer(c_int32_t), (4, n_patches)
+    type(c_ptr) :: reversed          !< integer(c_int32_t), (4, n_patches), or c_null_ptr
+    type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_patches), or c_null_ptr
+    integer(c_int32_t) :: index_base !< 1 for curves that count as Fortran does
     integer(c_int32_t) :: reserved
   end type riis_patches
 
   type, bind(c) :: riis_parameter
-    type(c_ptr) :: name         !< for riis_c_text, like the next two
-    type(c_ptr) :: unit
-    type(c_ptr) :: description
+    type(c_ptr) :: name        !< for riis_c_text
+    type(c_ptr) :: unit        !< for riis_c_text
+    type(c_ptr) :: description !< for riis_c_text
     integer(c_int64_t) :: n_values
     real(c_double) :: default_values(3)
     real(c_double) :: minimum
@@ -117,7 +118,7 @@ module riis_c
     real(c_double) :: tolerance
     real(c_double) :: scale
     real(c_double) :: rotation_axis(3)
-    real(c_double) :: rotation_angle   !< degrees
+    real(c_double) :: rotation_angle !< degrees
     real(c_double) :: translation(3)
     integer(c_int32_t) :: zero_area
     integer(c_int32_t) :: flip_normals
@@ -129,39 +130,45 @@ module riis_c
   type, bind(c) :: riis_surface_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: x, y, z             !< real(c_double); xyz(3, n_vertices): c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride       !< and 3
+    type(c_ptr) :: x, y, z           !< real(c_double), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
+                                     !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride     !< 3 for xyz(3, n_vertices)
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: vertex_ids          !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
+    type(c_ptr) :: vertex_ids        !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
     integer(c_int32_t) :: vertex_id_bits
-    integer(c_int32_t) :: index_base   !< 1 for ids that count as Fortran does
+    integer(c_int32_t) :: index_base !< 1 for ids that count as Fortran does
     integer(c_int32_t) :: corners_per_face
     integer(c_int32_t) :: reserved
-    type(c_ptr) :: leaflet_id          !< integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_faces), or c_null_ptr
   end type riis_surface_arrays
 
   !> What a surface is.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices     !< How many vertices.
-    integer(c_int64_t) :: n_triangles    !< How many triangles are asked for closest points.
-    integer(c_int64_t) :: n_zero_area    !< How many were left out because they have no area.
-    real(c_double) :: half_thickness     !< Placed units.
-    real(c_double) :: area               !< Of all triangles, placed units squared.
-    real(c_double) :: lower(3), upper(3) !< Bounds of the triangles, placed units.
-    real(c_double) :: seconds_triangles  !< Wall time of the last create or update: checks and triangles,
-    real(c_double) :: seconds_scene      !< and the Embree scene.
+    integer(c_int64_t) :: n_vertices     !< length of what riis_surface_vertices gives
+    integer(c_int64_t) :: n_triangles    !< those that are asked for closest points
+    integer(c_int64_t) :: n_zero_area    !< triangles left out because they have no area
+    real(c_double) :: half_thickness     !< placed units
+    real(c_double) :: area               !< of all triangles, placed units squared
+    real(c_double) :: lower(3), upper(3) !< bounds of the triangles, placed units
+    real(c_double) :: seconds_triangles  !< wall time of the last create or update: checks and triangles
+    real(c_double) :: seconds_scene      !< and the Embree scene, with what another distance than the triangles' needs
   end type riis_surface_info
 
-  !> The closest point of a surface to one point.
+  !> The closest point of the surface to one point. Where the surface's distances are by sampling or minimisation, the
+  !! point is the sample or S(u,v), leaflet_id that of its patch, normal that of S there, 0 0 0 where it has none, as at
+  !! a collapsed side; triangle_id is -1, barycentric and side are 0.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance           !< >= 0.
-    real(c_double) :: point(3)           !< On the triangle.
-    real(c_double) :: barycentric(3)     !< Its weights of the triangle's three vertices, >= 0, sum 1.
-    real(c_double) :: normal(3)          !< Unit normal of the triangle, by the right-hand rule.
-    integer(c_int64_t) :: triangle_id    !< From 0: the lowest of the closest triangles' ids.
-    integer(c_int32_t) :: leaflet_id     !< RIIS_LEAFLET_*, or the caller's.
-    integer(c_int32_t) :: side           !< 1 where normals point to (downstream), -1 on the other side, 0 on the surface or
-                                         !! level with its rim.
+    real(c_double) :: distance        !< >= 0
+    real(c_double) :: point(3)        !< on the triangle
+    real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
+    real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
+    integer(c_int64_t) :: triangle_id !< the lowest of the closest triangles' ids
+    integer(c_int32_t) :: leaflet_id  !< the triangle's
+    integer(c_int32_t) :: side        !< +1 on the side that normals point to (downstream), -1 on the other, 0 exactly
+                                      !! on the surface or level with its rim. At an edge or a vertex that several
+                                      !! triangles share, their angle-weighted normal decides (Baerentzen, Aanaes 2005);
+                                      !! vertices are shared when their placed coordinates are equal. Where an edge ends
+                                      !! inside another (along the bending curve) it is the one triangle's
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -172,26 +179,27 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_closest_options
 
-  type, bind(c) :: riis_closest_arrays  !< c_null_ptr for what is not wanted
+  !> c_null_ptr for what is not wanted
+  type, bind(c) :: riis_closest_arrays
     integer(c_int64_t) :: struct_size
-    type(c_ptr) :: distance            !< real(c_double), (n_points)
-    type(c_ptr) :: point               !< real(c_double), (3, n_points), like the next two
-    type(c_ptr) :: barycentric
-    type(c_ptr) :: normal
-    type(c_ptr) :: triangle_id         !< integer(c_int64_t), (n_points)
-    type(c_ptr) :: leaflet_id          !< integer(c_int32_t), (n_points), like the next
-    type(c_ptr) :: side
+    type(c_ptr) :: distance    !< real(c_double), (n_points)
+    type(c_ptr) :: point       !< real(c_double), (3, n_points)
+    type(c_ptr) :: barycentric !< real(c_double), (3, n_points)
+    type(c_ptr) :: normal      !< real(c_double), (3, n_points)
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_points)
+    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_points)
+    type(c_ptr) :: side        !< integer(c_int32_t), (n_points)
   end type riis_closest_arrays
 
   type, bind(c) :: riis_csr
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_rows
     integer(c_int64_t) :: n_all
-    type(c_ptr) :: offsets             !< integer(c_int32_t) or (c_int64_t), (n_rows + 1)
-    type(c_ptr) :: columns             !< integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
-    integer(c_int32_t) :: offset_bits  !< storage_size(offsets)
-    integer(c_int32_t) :: column_bits  !< storage_size(columns)
-    integer(c_int32_t) :: index_base   !< 1 for offsets and columns that count as Fortran does
+    type(c_ptr) :: offsets            !< integer(c_int32_t) or (c_int64_t), (n_rows + 1)
+    type(c_ptr) :: columns            !< integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
+    integer(c_int32_t) :: offset_bits !< storage_size(offsets)
+    integer(c_int32_t) :: column_bits !< storage_size(columns)
+    integer(c_int32_t) :: index_base  !< 1 for offsets and columns that count as Fortran does
     integer(c_int32_t) :: reserved
   end type riis_csr
 
@@ -199,12 +207,12 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
     integer(c_int64_t) :: n_cells
-    type(c_ptr) :: node_ids            !< integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
-    type(c_ptr) :: offsets             !< of the kind of node_ids, (n_cells + 1), from 0 also with index_base 1; or
-                                       !! c_null_ptr
+    type(c_ptr) :: node_ids          !< integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
+    type(c_ptr) :: offsets           !< integer(c_int32_t) or (c_int64_t), (n_cells + 1), of the kind of node_ids, from
+                                     !! 0 also with index_base 1; or c_null_ptr
     integer(c_int32_t) :: nodes_per_cell
-    integer(c_int32_t) :: id_bits      !< storage_size(node_ids)
-    integer(c_int32_t) :: index_base   !< 1 for node_ids that count as Fortran does
+    integer(c_int32_t) :: id_bits    !< storage_size(node_ids)
+    integer(c_int32_t) :: index_base !< 1 for node_ids that count as Fortran does
     integer(c_int32_t) :: n_threads
   end type riis_cells
 
@@ -212,11 +220,12 @@ module riis_c
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_cells
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: owner               !< integer(c_int32_t) or (c_int64_t), like the next;
-    type(c_ptr) :: neighbor            !< face_cells(2, n_faces): c_loc(face_cells(1, 1)), c_loc(face_cells(2, 1))
-    integer(c_int64_t) :: stride       !< and 2
-    integer(c_int32_t) :: id_bits      !< storage_size(face_cells)
-    integer(c_int32_t) :: index_base   !< 1 for cells that count as Fortran does; neighbor is then 0 at the boundary
+    type(c_ptr) :: owner             !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(1, 1)) of
+                                     !! face_cells(2, n_faces)
+    type(c_ptr) :: neighbor          !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(2, 1))
+    integer(c_int64_t) :: stride     !< 2 for face_cells(2, n_faces)
+    integer(c_int32_t) :: id_bits    !< storage_size(face_cells)
+    integer(c_int32_t) :: index_base !< 1 for cells that count as Fortran does; neighbor is then 0 at the boundary
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
   end type riis_faces
@@ -224,26 +233,30 @@ module riis_c
   type, bind(c) :: riis_mark_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: distance_limit
-    type(c_ptr) :: node_mask           !< integer(c_int8_t), (n_nodes), or c_null_ptr
+    type(c_ptr) :: node_mask !< integer(c_int8_t), (n_nodes), or c_null_ptr
     integer(c_int32_t) :: search
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: instructions
     integer(c_int32_t) :: reserved
   end type riis_mark_options
 
-  !> How a marking went.
+  !> How the last marking went.
   type, bind(c) :: riis_mark_stats
-    integer(c_int64_t) :: n_nodes        !< Of the mesh.
-    integer(c_int64_t) :: n_marked       !< Within the half thickness.
-    integer(c_int64_t) :: n_within_limit !< Within the distance limit.
-    integer(c_int64_t) :: n_queries      !< Closest-point queries that were made, of nodes and of groups of nodes.
-    real(c_double) :: seconds            !< Wall time.
-    integer(c_int32_t) :: search         !< The search that ran, never RIIS_SEARCH_AUTO.
-    integer(c_int32_t) :: n_threads      !< Threads that really ran, the most in any part of the search.
-    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain; 0: it is not.
-    integer(c_int32_t) :: instructions   !< Those that were used, never RIIS_INSTRUCTIONS_AUTO.
-    integer(c_int64_t) :: n_unreached    !< Nodes within the limit that the neighbour search did not reach from neighbour to
-                                         !! neighbour, and that its proof found.
+    integer(c_int64_t) :: n_nodes        !< of the mesh, masked out or not
+    integer(c_int64_t) :: n_marked       !< nodes within the half thickness
+    integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
+    integer(c_int64_t) :: n_queries      !< closest-point queries that were made, of nodes and, by the neighbour search,
+                                         !! of groups of nodes
+    real(c_double) :: seconds            !< wall time of riis_mark_nodes
+    integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
+    integer(c_int32_t) :: n_threads      !< threads that really ran, the most in any part of the search. A caller's TBB
+                                         !! limit binds walks, not loops
+    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain, for the
+                                         !! coordinates that the mesh was last told of; 0: it is not certain
+                                         !! (RIIS_SEARCH_PAPER)
+    integer(c_int32_t) :: instructions   !< those that were used, never RIIS_INSTRUCTIONS_AUTO
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search did not reach from
+                                         !! neighbour to neighbour, and that its proof found
   end type riis_mark_stats
 
   ! -------------------------------------------------------------------------------------------------------------------
@@ -265,15 +278,15 @@ module riis_c
     ! Status, errors, log, version
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !> The status's own name, for riis_c_text.
-    function riis_status_name(status) result(name) bind(c, name='riis_status_name')
+    !> For riis_c_text.
+    function riis_status_name(status) result(text) bind(c, name='riis_status_name')
       import :: c_ptr, riis_status
       implicit none
       integer(riis_status), value :: status
-      type(c_ptr) :: name
+      type(c_ptr) :: text
     end function riis_status_name
 
-    !> The text of the calling thread's last failed call, for riis_c_text.
+    !> For riis_c_text.
     function riis_last_error() result(text) bind(c, name='riis_last_error')
       import :: c_ptr
       implicit none
@@ -490,7 +503,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_vertices
 
-    !>   uv  real(c_double), (2, n_vertices); c_null_ptr for a surface from arrays
+    !>   uv  real(c_double), (2, n_vertices), c_null_ptr for a surface from arrays
     function riis_surface_vertex_parameters(surface, n_vertices, uv) result(status) &
         bind(c, name='riis_surface_vertex_parameters')
       import :: c_int64_t, c_ptr, riis_status
@@ -567,9 +580,8 @@ module riis_c
     ! Mesh
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   x, y, z  c_loc of real(c_double) targets, borrowed until the mesh is destroyed or updated:
-    !!            c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)) and stride 3,
-    !!            or c_loc(x), c_loc(y), c_loc(z) and stride 1
+    !>   x, y, z  c_loc of real(c_double) targets, borrowed until the mesh is destroyed or updated: c_loc(xyz(1, 1)),
+    !!            c_loc(xyz(2, 1)), c_loc(xyz(3, 1)) and stride 3, or c_loc(x), c_loc(y), c_loc(z) and stride 1
     function riis_mesh_create(n_nodes, x, y, z, stride, mesh) result(status) bind(c, name='riis_mesh_create')
       import :: c_int64_t, c_ptr, riis_status
       implicit none
@@ -580,7 +592,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mesh_create
 
-    !>   x, y, z  as above
+    !>   x, y, z  as in riis_mesh_create
     function riis_mesh_update(mesh, n_nodes, x, y, z, stride) result(status) bind(c, name='riis_mesh_update')
       import :: c_int64_t, c_ptr, riis_status
       implicit none
@@ -625,7 +637,7 @@ module riis_c
     end function riis_mesh_set_adjacency
 
     ! -----------------------------------------------------------------------------------------------------------------
-    ! Adjacency
+    ! Adjacency from what solvers have
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   struct_size  c_sizeof(cells)
@@ -677,8 +689,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_grid
 
-    !>   csr          ready for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets are
-    !!                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
+    !>   csr          ready for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets
+    !!                are integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
     !!                column_bits is 64, (offsets(n_rows + 1)), from 0
     !!   struct_size  c_sizeof(csr)
     function riis_adjacency_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_csr')
@@ -747,7 +759,10 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_result_marked
 
-    !>   the same, (n_within)
+    !>   node_id      integer(c_int64_t), (n_within), ascending, from 0
+    !!   distance     real(c_double), (n_within)
+    !!   triangle_id  integer(c_int64_t), (n_within)
+    !!   leaflet_id   integer(c_int32_t), (n_within)
     function riis_mark_result_within_limit(result, n_within, node_id, distance, triangle_id, leaflet_id) &
         result(status) bind(c, name='riis_mark_result_within_limit')
       import :: c_int64_t, c_ptr, riis_status
@@ -803,8 +818,8 @@ contains
     c_text = trim(text) // c_null_char
   end function riis_c_string
 
-  !> The length of a text of the library, 0 if there is none. Functions that return texts say their lengths by this, not as deferred:
-  !! for those gfortran keeps the length where all threads share it.
+  !> The length of a text of the library, 0 if there is none. Functions that return texts say their lengths by this, not as
+  !! deferred: for those gfortran keeps the length where all threads share it.
   pure function riis_c_text_length(c_text) result(length)
     type(c_ptr), intent(in) :: c_text
     integer :: length

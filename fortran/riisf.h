@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Written by fortran/bindings/generate.py: ./run bindings
 !
 ! riisf.h - the constants of riis for codes that cannot use modules:
 ! INCLUDE 'riisf.h' in fixed or in free form, after IMPLICIT and

@@ -51,9 +51,10 @@ FNR == 1 { plain = FILENAME ~ /riis_c\.f90$/ }
   next
 }
 
+struct != "" && /^ *!!/ { print; next } # more of the field above
 /^ *![>!]/ { sub(/![>!]/, "!") }
 /!</ { sub(/!</, "!") }
-/^ *! SPDX/ || /^ *! ---/ { flush_comment(""); print; next }
+/^ *! SPDX/ || /^ *! Written by/ || /^ *! ---/ { flush_comment(""); print; next }
 /^ *!( |$)/ {
   gsub(/\*_/, "\\*_")
   comment[++n_comment] = $0
@@ -82,6 +83,7 @@ in_code && / function riis_c_/ { flush_comment("!>") }
 /^ *type, bind\(c\) :: / {
   struct = $4
   print "!> " link(struct, struct) " of riis.h."
+  flush_comment("!>")
 }
 /^ *end type/ { struct = "" }
 match($0, /parameter :: RIIS_[A-Z_0-9]*/) {

@@ -305,6 +305,7 @@ void twin_end(void) {
   while (n_memory > 0) free(memory[--n_memory]);
 }
 
+/* The structs in layouts.inc, which fortran/bindings/generate.py writes. */
 #define LAYOUT(type, ...)                                                            \
   if (strcmp(struct_name, #type) == 0) {                                             \
     typedef type T;                                                                  \
@@ -316,32 +317,19 @@ void twin_end(void) {
 #define AT(field) offsetof(T, field)
 
 int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers) {
-  LAYOUT(riis_patches, AT(struct_size), AT(n_curves), AT(degree), AT(control), AT(n_patches), AT(curve_id),
-         AT(reversed), AT(leaflet_id), AT(index_base), AT(reserved))
-  LAYOUT(riis_parameter, AT(name), AT(unit), AT(description), AT(n_values), AT(default_values), AT(minimum),
-         AT(maximum))
-  LAYOUT(riis_surface_options, AT(struct_size), AT(half_thickness), AT(tolerance), AT(scale), AT(rotation_axis),
-         AT(rotation_angle), AT(translation), AT(zero_area), AT(flip_normals), AT(distance), AT(n_threads),
-         AT(distance_tolerance))
-  LAYOUT(riis_surface_arrays, AT(struct_size), AT(n_vertices), AT(x), AT(y), AT(z), AT(stride), AT(n_faces),
-         AT(vertex_ids), AT(vertex_id_bits), AT(index_base), AT(corners_per_face), AT(reserved), AT(leaflet_id))
-  LAYOUT(riis_surface_info, AT(n_vertices), AT(n_triangles), AT(n_zero_area), AT(half_thickness), AT(area), AT(lower),
-         AT(upper), AT(seconds_triangles), AT(seconds_scene))
-  LAYOUT(riis_closest, AT(distance), AT(point), AT(barycentric), AT(normal), AT(triangle_id), AT(leaflet_id), AT(side))
-  LAYOUT(riis_closest_options, AT(struct_size), AT(distance_limit), AT(far_distance), AT(n_threads), AT(reserved))
-  LAYOUT(riis_closest_arrays, AT(struct_size), AT(distance), AT(point), AT(barycentric), AT(normal), AT(triangle_id),
-         AT(leaflet_id), AT(side))
-  LAYOUT(riis_csr, AT(struct_size), AT(n_rows), AT(n_all), AT(offsets), AT(columns), AT(offset_bits), AT(column_bits),
-         AT(index_base), AT(reserved))
-  LAYOUT(riis_cells, AT(struct_size), AT(n_nodes), AT(n_cells), AT(node_ids), AT(offsets), AT(nodes_per_cell),
-         AT(id_bits), AT(index_base), AT(n_threads))
-  LAYOUT(riis_faces, AT(struct_size), AT(n_cells), AT(n_faces), AT(owner), AT(neighbor), AT(stride), AT(id_bits),
-         AT(index_base), AT(n_threads), AT(reserved))
-  LAYOUT(riis_mark_options, AT(struct_size), AT(distance_limit), AT(node_mask), AT(search), AT(n_threads),
-         AT(instructions), AT(reserved))
-  LAYOUT(riis_mark_stats, AT(n_nodes), AT(n_marked), AT(n_within_limit), AT(n_queries), AT(seconds), AT(search),
-         AT(n_threads), AT(complete), AT(instructions), AT(n_unreached))
+#include "layouts.inc"
   return 0;
+}
+
+#undef LAYOUT
+#undef AT
+#define LAYOUT(type, ...) sizeof(type),
+
+int64_t twin_n_layouts(void) {
+  static const size_t sizes[] = {
+#include "layouts.inc"
+  };
+  return (int64_t)(sizeof sizes / sizeof *sizes);
 }
 
 double twin_auto(void) { return RIIS_AUTO; }

@@ -5,8 +5,8 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_walk, twin_numbers, twin_run, twin_end, twin_layout, twin_auto, &
-    twin_far_distance
+  public :: twin_list, twin_surface, twin_walk, twin_numbers, twin_run, twin_end, twin_layout, &
+    twin_n_layouts, twin_auto, twin_far_distance
 
   type, bind(c) :: twin_list
     integer(c_int64_t) :: n
@@ -58,6 +58,12 @@ module c_twin
       integer(c_int64_t), intent(inout) :: numbers(*)
       integer(c_int64_t) :: n
     end function twin_layout
+
+    function twin_n_layouts() result(n) bind(c, name='twin_n_layouts')
+      import :: c_int64_t
+      implicit none
+      integer(c_int64_t) :: n
+    end function twin_n_layouts
 
     function twin_auto() result(value) bind(c, name='twin_auto')
       import :: c_double

@@ -55,6 +55,8 @@ void twin_end(void);
 
 /* Size and field offsets of a struct by name, in at most capacity numbers; returns how many there are. */
 int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers);
+/* How many structs riis.h has. */
+int64_t twin_n_layouts(void);
 
 double twin_auto(void);
 double twin_far_distance(void);

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Every binding of riis_c is called, and gives the bits that the same calls give from C (c_twin.c). That none is left
-! out is checked by check_bindings.sh.
+! out is checked by check_called.sh.
 module log_capture
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int32_t, c_ptr
   use riis_c

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads riis.h. Whatever this reader does not know is an error with its line, never left out."""
+
+import re
+from collections import namedtuple
+
+
+class Problem(Exception):
+    """A list of messages, each of which names the place and says what is wrong there."""
+
+    def __init__(self, *messages):
+        super().__init__("\n".join(messages))
+        self.messages = list(messages)
+
+
+CType = namedtuple("CType", "base const stars")  # const double **: ("double", True, 2)
+Argument = namedtuple("Argument", "name type")
+Field = namedtuple("Field", "name type extent")  # extent: "3" of double lower[3], else ""
+FieldLine = namedtuple("FieldLine", "fields text line")  # what C declares together, and its comment
+Function = namedtuple("Function", "name result arguments line")
+Struct = namedtuple("Struct", "name lines line text")
+Constant = namedtuple("Constant", "name value type line")  # value: as C writes it; type: the integer's, or double
+Section = namedtuple("Section", "title line")
+
+COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+# Preprocessor lines that declare nothing.
+KNOWN_LINES = re.compile(r"#(ifndef RIIS_\w+_H|define RIIS_\w+_H|include <stdint\.h>|ifdef __cplusplus|if defined\(__GNUC__\)"
+                         r"|define RIIS_API( __attribute__\(\(visibility\(\"default\"\)\)\))?|else|endif)$")
+
+
+def text_of(comment):
+    """The words of a C comment, without its marks and line breaks."""
+    return " ".join(re.sub(r"^\s*\*", "", line).strip() for line in comment[2:-2].splitlines()).strip()
+
+
+def c_type(words):
+    """The type in "const double **", or None."""
+    match = re.fullmatch(r"(const )?(\w+) ?(\**)", words.strip())
+    return match and CType(match[2], bool(match[1]), len(match[3]))
+
+
+class Header:
+    """Everything that a header declares, in its order."""
+
+    def __init__(self, path, shown):
+        with open(path, encoding="utf-8") as file:
+            self.raw = file.read()
+        self.shown = shown  # the name in messages
+        self.problems = []
+        self.functions, self.structs, self.enums, self.macros, self.sections = [], [], [], [], []
+        self.typedefs, self.handles, self.callbacks = {}, set(), []
+        # Comments become blanks, so that every place stays where it is.
+        self.code = COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), self.raw)
+        self.read_sections()
+        self.read_macros()
+        self.read_declarations()
+        if self.problems:
+            raise Problem(*self.problems)
+
+    def line(self, place):
+        return self.raw.count("\n", 0, place) + 1
+
+    def refuse(self, place, message):
+        self.problems.append(f"{self.shown}:{self.line(place)}: {message}")
+
+    def read_sections(self):
+        for match in re.finditer(r"^/\* -{20,} \*\n \* (.*)\n(?: \* .*\n)*? \* -{20,} \*/$", self.raw, re.MULTILINE):
+            self.sections.append(Section(re.split(r":| \(", match[1])[0].strip(), self.line(match.start())))
+
+    def read_macros(self):
+        def blank(match):
+            line = " ".join(match[0].split())
+            value = re.fullmatch(r"#define (\w+) \(?(-?[0-9]+(?:[.][0-9]*)?(?:e[+-]?[0-9]+)?)\)?", line)
+            if value:
+                self.macros.append(Constant(value[1], value[2], "double" if re.search("[.e]", value[2]) else "int32_t",
+                                            self.line(match.start())))
+            elif not KNOWN_LINES.match(line):
+                self.refuse(match.start(), f"this line is not understood: {line}")
+            return " " * len(match[0])
+
+        self.code = re.sub(r"^#.*$", blank, self.code, flags=re.MULTILINE)
+        # What is inside of extern "C" is declared all the same.
+        self.code = re.sub(r'extern "C" \{(.*)\}', r"            \1 ", self.code, flags=re.DOTALL)
+
+    def read_declarations(self):
+        """Declarations end at a semicolon outside of braces."""
+        start = depth = 0
+        after_typedef = None  # the integer type that the declaration before this one named
+        for match in re.finditer("[{};]", self.code):
+            place = match.start()
+            depth += (match[0] == "{") - (match[0] == "}")
+            if match[0] == ";" and depth == 0:
+                start += len(self.code[start:place]) - len(self.code[start:place].lstrip())
+                after_typedef = self.read_declaration(start, place, after_typedef)
+                start = place + 1
+        if self.code[start:].strip():
+            start += len(self.code[start:]) - len(self.code[start:].lstrip())
+            self.refuse(start, "no semicolon ends what begins here")
+
+    def read_declaration(self, start, end, after_typedef):
+        words = " ".join(self.code[start:end].split())
+        if words.startswith("enum {"):
+            self.read_enum(words, start, after_typedef)
+        elif words.startswith("RIIS_API "):
+            self.read_function(words, start)
+        elif re.fullmatch(r"typedef struct (riis_\w+) \1", words):
+            self.handles.add(words.split()[2])
+        elif re.match(r"typedef struct (riis_\w+) \{.*\} \1$", words):
+            self.read_struct(start, end)
+        elif re.fullmatch(r"typedef int32_t riis_\w+", words):
+            self.typedefs[words.split()[2]] = "int32_t"
+            return words.split()[2]
+        elif re.match(r"typedef void \(\*riis_\w+\)\(.*\)$", words):
+            name, arguments = re.fullmatch(r"typedef void \(\*(riis_\w+)\)\((.*)\)", words).groups()
+            self.callbacks.append(Function(name, CType("void", False, 0), self.arguments(arguments, name, start),
+                                           self.line(start)))
+        else:
+            self.refuse(start, f"this declaration is not understood: {words[:100]}")
+        return None
+
+    def read_enum(self, words, start, after_typedef):
+        """Values are of the integer type that is named right before them."""
+        values = []
+        for entry in words[len("enum {"):].rstrip("} ").rstrip(", ").split(","):
+            match = re.fullmatch(r"(RIIS_[A-Z0-9_]+) = (-?[0-9]+)", entry.strip())
+            if match:
+                values.append(Constant(match[1], match[2], after_typedef or "int32_t", self.line(start)))
+            else:
+                self.refuse(start, f"the value {entry.strip()!r} of this enum is not understood; NAME = NUMBER is")
+        self.enums.append(values)
+
+    def read_function(self, words, start):
+        match = re.fullmatch(r"RIIS_API (.*?)\b(riis_\w+)\((.*)\)", words)
+        result = match and c_type(match[1])
+        if not result:
+            self.refuse(start, f"this declaration is not understood: {words[:100]}")
+            return
+        self.functions.append(Function(match[2], result, self.arguments(match[3], match[2], start), self.line(start)))
+
+    def arguments(self, words, of, start):
+        found = []
+        for entry in [] if words == "void" else words.split(","):
+            match = re.fullmatch(r"(.*?[ *])([a-z][a-z0-9_]*)", entry.strip())
+            type_ = match and c_type(match[1])
+            if type_:
+                found.append(Argument(match[2], type_))
+            else:
+                self.refuse(start, f"{of}: the argument {entry.strip()!r} is not understood")
+        return found
+
+    def read_struct(self, start, end):
+        opening = self.code.index("{", start)
+        closing = self.code.rindex("}", start, end)
+        name = self.code[start:opening].split()[2]
+        lines, place = [], opening + 1
+        for match in re.finditer(r"[^;]*;", self.code[opening + 1:closing]):
+            place = opening + 1 + match.end()
+            lines.append(FieldLine(self.fields(" ".join(match[0][:-1].split()), name, place - 1), self.comment_after(place),
+                                   self.line(place - 1)))
+        if self.code[place:closing].strip():
+            self.refuse(place, f"{name}: no semicolon ends the last field")
+        self.structs.append(Struct(name, lines, self.line(start), self.comment_before(start)))
+
+    def fields(self, words, struct, place):
+        found = []
+        match = re.fullmatch(r"(const )?(\w+) (.*)", words)
+        for entry in match[3].split(",") if match else []:
+            declared = re.fullmatch(r"(\**)([a-z][a-z0-9_]*)(?:\[([0-9]+)\])?", entry.strip())
+            if not declared or (declared[1] and declared[3]):
+                break
+            found.append(Field(declared[2], CType(match[2], bool(match[1]), len(declared[1])), declared[3] or ""))
+        else:
+            if found:
+                return found
+        self.refuse(place, f"{struct}: the field {words!r} is not understood")
+        return []
+
+    def comment_after(self, place):
+        match = re.compile(r"[ \n]*(/\*.*?\*/)", re.DOTALL).match(self.raw, place)
+        return text_of(match[1]) if match else ""
+
+    def comment_before(self, place):
+        before = self.raw[:place].rstrip()
+        return text_of(before[before.rindex("/*"):]) if before.endswith("*/") else ""

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads bindings.table, whose own head says how it is written."""
+
+import re
+
+from header import Problem
+
+WORDS = {"optional", "required", "scalar", "borrowed", "out"}
+
+
+class Line:
+    """What the table says of one argument or field, or of several at once."""
+
+    def __init__(self, place, names, words, text):
+        self.place, self.names, self.words, self.text = place, names, words, text
+        shapes = [word for word in words if word.startswith("(")]
+        self.shape = shapes[0] if shapes else ""
+
+
+class Entry:
+    """What the table says of one function, struct, type or file."""
+
+    def __init__(self, place, name, text):
+        self.place, self.name, self.text = place, name, text
+        self.lines = []
+
+    def line_of(self, name):
+        return next((line for line in self.lines if name in line.names), None)
+
+
+def words_of(column):
+    """The words of the second column, a shape being one, or None where it has others."""
+    found = []
+    rest = column
+    while rest:
+        match = re.match(r"\((?:[^()]|\([^()]*\))*\)|[a-z]+", rest)
+        if not match or not (match[0] in WORDS or match[0].startswith("(")) or match[0] in found:
+            return None
+        found.append(match[0])
+        rest = rest[match.end():].lstrip()
+    return found if sum(word.startswith("(") for word in found) <= 1 else None
+
+
+class Table:
+    """The entries by their names."""
+
+    def __init__(self, path, shown):
+        self.shown, self.entries, self.problems = shown, {}, []
+        entry = None
+        with open(path, encoding="utf-8") as file:
+            for number, line in enumerate(file.read().splitlines(), 1):
+                place = f"{shown}:{number}"
+                if not line.strip() or line.startswith("#"):
+                    continue
+                depth = len(line) - len(line.lstrip(" "))
+                if depth == 0:
+                    entry = self.read_head(place, line)
+                elif entry and depth == 2:
+                    self.read_line(place, line.strip(), entry)
+                elif entry and depth > 2 and entry.lines:
+                    entry.lines[-1].text += " " + line.strip()
+                else:
+                    self.problems.append(f"{place}: nothing is above that this line could belong to")
+        if self.problems:
+            raise Problem(*self.problems)
+
+    def read_head(self, place, line):
+        name, _, text = (line + "  ").partition("  ")
+        if name in self.entries:
+            self.problems.append(f"{place}: {name} is in {self.entries[name].place} already")
+        return self.entries.setdefault(name, Entry(place, name, text.strip()))
+
+    def read_line(self, place, line, entry):
+        first, second, text = (re.split(r" {2,}", line, maxsplit=2) + ["", ""])[:3]
+        words = [] if second == "-" else words_of(second)
+        if not second or words is None:
+            what = f"{second!r} is not understood" if second else "there is no second column"
+            self.problems.append(f"{place}: {what}; the second column is '-' or some of "
+                                 + ", ".join(sorted(WORDS)) + ", a shape in parentheses")
+            words = []
+        names = first.split(", ")
+        for name in names:
+            if entry.line_of(name):
+                self.problems.append(f"{place}: {entry.name}: {name} is in {entry.line_of(name).place} already")
+        entry.lines.append(Line(place, names, words, text))
+
+    def get(self, name):
+        return self.entries.get(name) or Entry(self.shown, name, "")

@@ -1,0 +1,21 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_called.sh HEADER OBJECT_FILES...
+# Every function of the header is called by the objects of the Fortran tests.
+set -euo pipefail
+header=$1
+shift
+
+functions=$(grep -o '^RIIS_API [^(]*(' "$header" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
+if [ "$(wc -l <<<"$functions")" -ne "$(grep -v '^#define' "$header" | grep -c '\bRIIS_API\b')" ]; then
+  echo "$header has declarations that this script does not understand" >&2
+  exit 1
+fi
+# What the compiler left undefined is what is really called.
+called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)
+uncalled=$(comm -23 <(sort <<<"$functions") <(echo "$called"))
+if [ -n "$uncalled" ]; then
+  echo "not called by the Fortran tests:" "$uncalled" >&2
+  exit 1
+fi
+echo "$(wc -l <<<"$functions") functions"

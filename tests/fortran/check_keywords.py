@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""check_keywords.py SOURCES: the arguments of every function that was released have their names still, in abi/riis-*.xml and in
+riis.h. Names mean nothing to a caller in C, but riis_c.f90 gets them from riis.h, and in Fortran they are keywords."""
+
+import glob
+import os
+import sys
+import xml.etree.ElementTree
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "fortran", "bindings"))
+from header import Header
+
+
+def main(sources):
+    header = Header(os.path.join(sources, "include", "riis", "riis.h"), "riis.h")
+    now = {function.name: [argument.name for argument in function.arguments] for function in header.functions}
+    compared = renamed = 0
+    for path in glob.glob(os.path.join(sources, "abi", "riis-*.xml")):
+        for released in xml.etree.ElementTree.parse(path).iter("function-decl"):
+            name, names = released.get("name"), [argument.get("name", "?") for argument in released.findall("parameter")]
+            if name not in now:  # no function of riis.h; riis_symbols says when one is gone
+                continue
+            compared += 1
+            if now[name] != names:
+                renamed += 1
+                print(f"riis.h: {name} has the arguments {', '.join(now[name])}, but was released with {', '.join(names)}",
+                      file=sys.stderr)
+    print(f"{compared} functions")
+    return 1 if renamed or not compared else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

@@ -1,0 +1,425 @@
+# SPDX-License-Identifier: Apache-2.0
+"""fortran/bindings/generate.py, on copies of riis.h and of bindings.table with something planted in them. It writes the right
+lines, or it refuses, names the line and leaves the files alone. The same for check_keywords.py."""
+
+import contextlib
+import io
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+
+SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(SOURCES, "fortran", "bindings"))
+import check_keywords
+import generate
+
+HEADER, TABLE = generate.HEADER, generate.TABLE
+MODULE, FIXED, LAYOUTS = generate.WIDTHS
+BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of riis.h; functions are planted before it
+FUNCTION = "RIIS_API riis_status riis_valve_planted(const riis_valve *valve, {});\n"
+
+
+class Planted(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = folder.name
+        for path in (HEADER, TABLE, *generate.TEMPLATES, MODULE, FIXED, LAYOUTS):
+            os.makedirs(os.path.dirname(os.path.join(self.root, path)), exist_ok=True)
+            shutil.copy(os.path.join(SOURCES, path), os.path.join(self.root, path))
+        self.before = self.generated()
+
+    def text(self, path):
+        with open(os.path.join(self.root, path), encoding="utf-8") as file:
+            return file.read()
+
+    def generated(self):
+        return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
+
+    def plant(self, path, old, new):
+        """Replaces the one place that has the old text; returns the number of the line where it was."""
+        text = self.text(path)
+        self.assertEqual(text.count(old), 1, f"{path} does not have {old!r} once: this test is out of date")
+        with open(os.path.join(self.root, path), "w", encoding="utf-8") as file:
+            file.write(text.replace(old, new))
+        return text.count("\n", 0, text.index(old)) + 1
+
+    def plant_function(self, arguments, entry=""):
+        """A function with these arguments, and its entry of the table; returns its line."""
+        if entry:
+            self.plant(TABLE, "riis_valve_get\n", f"{entry}\nriis_valve_get\n")
+        return self.plant(HEADER, BEFORE_FUNCTION, FUNCTION.format(arguments) + BEFORE_FUNCTION)
+
+    def run_it(self, *words):
+        """Exit status and what was printed."""
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            status = generate.main(["--root", self.root, *words])
+        return status, out.getvalue()
+
+    def writes(self):
+        """Says first, without writing, that files are not as they should be; then writes them."""
+        status, text = self.run_it("--check")
+        self.assertEqual(status, 1, text)
+        self.assertIn("; ./run bindings writes it anew", text)
+        self.assertEqual(self.generated(), self.before)
+        status, text = self.run_it()
+        self.assertEqual(status, 0, text)
+        status, text = self.run_it("--check")
+        self.assertEqual(status, 0, text)
+
+    def refuses(self, *messages):
+        for words in ((), ("--check",)):
+            status, text = self.run_it(*words)
+            self.assertEqual(status, 1, text)
+            for message in messages:
+                self.assertIn(message, text)
+        self.assertEqual(self.generated(), self.before)
+
+    def function(self, name):
+        """The interface of a function as it was written."""
+        text = self.text(MODULE)
+        end = text.index(f"    end function {name}\n")
+        return text[text.rindex("\n\n", 0, end) + 2:end]
+
+
+class Committed(Planted):
+    def test_is_what_is_generated(self):
+        status, text = self.run_it("--check")
+        self.assertEqual((status, text), (0, "3 of 3 files were as they should be\n"))
+
+    def test_a_line_by_hand_is_seen_and_shown(self):
+        for path, line in ((MODULE, "    integer(c_int64_t) :: n_curves\n"), (FIXED, "      PARAMETER (RIIS_OK = 0)\n"),
+                           (LAYOUTS, ", AT(reserved))\n")):
+            self.setUp()
+            text = self.text(path)
+            place = text.index(line)
+            with open(os.path.join(self.root, path), "w", encoding="utf-8") as file:
+                file.write(text[:place] + text[place + len(line):])
+            status, text = self.run_it("--check")
+            self.assertEqual(status, 1)
+            self.assertIn(f"{path} is not what", text)
+            self.assertRegex(text, r"(?m)^\+.*" + line.strip().split("(")[0])
+
+    def test_a_missing_file_is_written(self):
+        for path in (MODULE, FIXED, LAYOUTS):
+            os.remove(os.path.join(self.root, path))
+        self.assertEqual(self.run_it("--check")[0], 1)
+        self.assertEqual(self.run_it()[0], 0)
+        self.assertEqual(self.generated(), self.before)
+
+
+class Fields(Planted):
+    def test_numbers_need_no_words(self):
+        self.plant(HEADER, "} riis_mark_options;",
+                   "  double planted[2], other; /* a text */\n  int32_t last;\n} riis_mark_options;")
+        self.writes()
+        self.assertIn("    integer(c_int32_t) :: reserved\n    real(c_double) :: planted(2), other\n"
+                      "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
+        self.assertIn("       AT(instructions), AT(reserved), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
+
+    def test_the_order_is_that_of_the_header(self):
+        self.plant(HEADER, "  int64_t n_curves; ", "  int64_t planted;\n  int64_t n_curves; ")
+        self.writes()
+        self.assertIn(":: struct_size\n    integer(c_int64_t) :: planted\n    integer(c_int64_t) :: n_curves\n",
+                      self.text(MODULE))
+        self.assertIn("LAYOUT(riis_patches, AT(struct_size), AT(planted), AT(n_curves),", self.text(LAYOUTS))
+
+    def test_a_pointer_needs_its_shape(self):
+        line = self.plant(HEADER, "} riis_patches;", "  const double *planted;\n} riis_patches;")
+        self.refuses(f"{HEADER}:{line}: riis_patches: {TABLE} does not say of 'const double *planted': the shape of the array",
+                     "\nriis_patches\n  planted  ...")
+        self.plant(TABLE, "riis_patches\n", "riis_patches\n  planted  (4, n_patches)  or c_null_ptr\n")
+        self.writes()
+        self.assertRegex(self.text(MODULE),
+                         r"    type\(c_ptr\) :: planted +!< real\(c_double\), \(4, n_patches\), or c_null_ptr\n")
+
+    def test_pointers_to_texts_and_to_anything(self):
+        self.plant(HEADER, "} riis_csr;", "  const char *text;\n  const void *planted;\n} riis_csr;")
+        self.plant(TABLE, "riis_csr\n", "riis_csr\n  planted  (n_rows)\n")
+        self.writes()
+        self.assertRegex(self.text(MODULE),
+                         r"    type\(c_ptr\) :: text +!< for riis_c_text\n"
+                         r"    type\(c_ptr\) :: planted +!< integer\(c_int32_t\) or \(c_int64_t\), \(n_rows\)\n")
+
+    def test_comments_of_the_header(self):
+        self.plant(HEADER, "/* How the last marking went. */", "/* Planted for\n * the struct. */")
+        self.plant(HEADER, "} riis_mark_stats;",
+                   "  double a, b; /* planted for\n         the fields */\n  double c;\n} riis_mark_stats;")
+        self.plant(TABLE, "riis_mark_stats  as in riis.h\n", "riis_mark_stats  as in riis.h\n  seconds  -  planted here\n")
+        self.writes()
+        self.assertIn("\n  !> Planted for the struct.\n  type, bind(c) :: riis_mark_stats\n", self.text(MODULE))
+        self.assertRegex(self.text(MODULE),
+                         r"    real\(c_double\) :: a, b +!< planted for the fields\n    real\(c_double\) :: c\n")
+        self.assertRegex(self.text(MODULE), r"    real\(c_double\) :: seconds +!< planted here\n")
+
+    def test_not_understood(self):
+        for field in ("float planted;", "uint16_t planted;", "long planted;", "unsigned long planted;", "riis_closest planted;",
+                      "double **planted;", "riis_surface *planted;", "double planted[2][3];", "double planted[N];",
+                      "double *planted[2];", "int32_t planted : 1;", "void (*planted)(void);", "struct { double x; } planted;",
+                      "double Planted;", "struct riis_csr *planted;"):
+            self.setUp()
+            line = self.plant(HEADER, "} riis_csr;", f"  {field}\n}} riis_csr;")
+            self.refuses(f"{HEADER}:{line}: riis_csr: ", "lanted", "is not understood")
+
+    def test_a_new_struct(self):
+        self.plant(HEADER, "/* Fills *csr with", "typedef struct riis_planted {\n  int32_t a, b; /* text */\n} riis_planted;\n"
+                                                 "/* Fills *csr with")
+        self.writes()
+        self.assertIn("  type, bind(c) :: riis_planted\n    integer(c_int32_t) :: a, b\n  end type riis_planted\n",
+                      self.text(MODULE))
+        self.assertIn("\nLAYOUT(riis_planted, AT(a), AT(b))\n", self.text(LAYOUTS))
+
+
+class Constants(Planted):
+    def test_a_status(self):
+        self.plant(HEADER, "  RIIS_UNAVAILABLE = 9, ", "  RIIS_PLANTED = -2,\n  RIIS_UNAVAILABLE = 9, ")
+        self.writes()
+        self.assertIn("\n  integer(riis_status), parameter :: RIIS_PLANTED = -2\n"
+                      "  integer(riis_status), parameter :: RIIS_UNAVAILABLE = 9\n", self.text(MODULE))
+        self.assertIn("\n      INTEGER(SELECTED_INT_KIND(9)) RIIS_PLANTED\n      PARAMETER (RIIS_PLANTED = -2)\n",
+                      self.text(FIXED))
+
+    def test_an_enum_of_its_own(self):
+        self.plant(HEADER, "/* How nodes are marked. */", "enum {\n  RIIS_PLANTED_A = 0, /* , */\n  RIIS_PLANTED_B = 12\n};\n"
+                                                          "/* How nodes are marked. */")
+        self.writes()
+        self.assertIn("\n\n  integer(c_int32_t), parameter :: RIIS_PLANTED_A = 0\n"
+                      "  integer(c_int32_t), parameter :: RIIS_PLANTED_B = 12\n\n", self.text(MODULE))
+        self.assertIn("      PARAMETER (RIIS_PLANTED_B = 12)\n", self.text(FIXED))
+
+    def test_what_fixed_form_has_not(self):
+        self.plant(HEADER, "  RIIS_LOG_INFO = 0, ", "  RIIS_LOG_PLANTED = 5,\n  RIIS_LOG_INFO = 0, ")
+        self.writes()
+        self.assertIn(" RIIS_LOG_PLANTED = 5\n", self.text(MODULE))
+        self.assertEqual(self.text(FIXED), self.before[1])
+
+    def test_macros(self):
+        self.plant(HEADER, "#define RIIS_FAR_DISTANCE 1.0e30", "#define RIIS_FAR_DISTANCE 1.5e-3\n#define RIIS_PLANTED (-7)")
+        self.writes()
+        self.assertIn("  real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.5e-3_c_double\n"
+                      "  integer(c_int32_t), parameter :: RIIS_PLANTED = -7\n", self.text(MODULE))
+        self.assertIn("      PARAMETER (RIIS_FAR_DISTANCE = REAL(1.5D-3, KIND(RIIS_AUTO)))\n", self.text(FIXED))
+
+    def test_a_value_that_changes(self):
+        self.plant(HEADER, "RIIS_SEARCH_PAPER = 3,", "RIIS_SEARCH_PAPER = 33,")
+        self.writes()
+        self.assertIn(" RIIS_SEARCH_PAPER = 33\n", self.text(MODULE))
+        self.assertIn("(RIIS_SEARCH_PAPER = 33)", self.text(FIXED))
+
+    def test_not_understood(self):
+        for old, new in (("  RIIS_OK = 0, ", "  RIIS_PLANTED, RIIS_OK = 0, "),
+                         ("  RIIS_OK = 0, ", "  RIIS_PLANTED = 1 << 3, RIIS_OK = 0, "),
+                         ("#define RIIS_AUTO (-1.0)", '#define RIIS_PLANTED "text"\n#define RIIS_AUTO (-1.0)'),
+                         ("#define RIIS_AUTO (-1.0)", "#define RIIS_PLANTED(x) x\n#define RIIS_AUTO (-1.0)"),
+                         ("#define RIIS_AUTO (-1.0)", "#ifdef RIIS_PLANTED\n#endif\n#define RIIS_AUTO (-1.0)")):
+            self.setUp()
+            self.plant(HEADER, old, new)
+            self.refuses(f"{HEADER}:", "RIIS_PLANTED", "is not understood")
+
+    def test_a_name_too_long_for_fixed_form(self):
+        name = "RIIS_PLANTED_" + 30 * "X"
+        self.plant(HEADER, "  RIIS_OK = 0, ", f"  {name} = 20,\n  RIIS_OK = 0, ")
+        self.refuses(FIXED, "72 are allowed", name)
+
+
+class Functions(Planted):
+    def test_without_open_questions_no_words_are_needed(self):
+        self.plant_function("riis_mesh **mesh, double a,\n    uint8_t b, int64_t c, int64_t d, riis_status e, const char *name,\n"
+                            "    riis_csr *csr, int64_t struct_size")
+        self.writes()
+        self.assertEqual(self.function("riis_valve_planted"), """\
+    !>   struct_size  c_sizeof(csr)
+    function riis_valve_planted(valve, mesh, a, b, c, d, e, name, csr, struct_size) result(status) &
+        bind(c, name='riis_valve_planted')
+      import :: c_char, c_double, c_int8_t, c_int64_t, c_ptr, riis_csr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), intent(inout) :: mesh
+      real(c_double), value :: a
+      integer(c_int8_t), value :: b
+      integer(c_int64_t), value :: c, d
+      integer(riis_status), value :: e
+      character(kind=c_char), intent(in) :: name(*)
+      type(riis_csr), intent(inout) :: csr
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+""")
+        self.assertRegex(self.text(MODULE), r"(?s)end function riis_valve_create\n.* riis_valve_planted.* riis_valve_destroy\(")
+
+    def test_what_c_leaves_open_is_asked_for(self):
+        """All at once, with the lines to fill in."""
+        line = self.plant_function("int64_t *n, const double *x,\n    const int64_t **ids, const riis_csr *csr, int32_t k")
+        place = f"{HEADER}:{line}: riis_valve_planted: {TABLE} does not say of"
+        pointer = "'required', or 'optional' where it may be NULL, with 'scalar', (*) or (3); or else 'borrowed'"
+        self.refuses(f"{place} 'int64_t *n': {pointer}", f"{place} 'const double *x': {pointer}",
+                     f"{place} 'const int64_t **ids': 'required', or 'optional' where it may be NULL, with the array's shape",
+                     f"{place} 'const riis_csr *csr': 'required', or 'optional' where it may be NULL",
+                     f"Needed in {TABLE}, whose head says how:\nriis_valve_planted\n  n  ...\n  x  ...\n  ids  ...\n  csr  ...\n")
+
+    def test_with_words(self):
+        self.plant_function("int64_t *n, int32_t *m, const double *x, const double *y, double *z,\n    const double *w,"
+                            " const int64_t **ids, const riis_csr *csr, riis_valve **made", """\
+riis_valve_planted  What it does not say elsewhere.
+  n     optional scalar
+  m     required scalar out
+  x, y  borrowed  c_loc of
+                  something
+  z     optional (*)
+  w     required (3)  a point
+  ids   required (2, n)  from 0
+  csr   optional
+  made  optional
+""")
+        self.writes()
+        self.assertEqual(self.function("riis_valve_planted"), """\
+    !> What it does not say elsewhere.
+    !!   x, y  c_loc of something
+    !!   w     a point
+    !!   ids   integer(c_int64_t), (2, n), from 0
+    function riis_valve_planted(valve, n, m, x, y, z, w, ids, csr, made) result(status) &
+        bind(c, name='riis_valve_planted')
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, riis_csr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      integer(c_int64_t), intent(inout), optional :: n
+      integer(c_int32_t), intent(out) :: m
+      type(c_ptr), value :: x, y
+      real(c_double), intent(inout), optional :: z(*)
+      real(c_double), intent(in) :: w(3)
+      type(c_ptr), intent(inout) :: ids
+      type(riis_csr), intent(in), optional :: csr
+      type(c_ptr), intent(inout), optional :: made
+      integer(riis_status) :: status
+""")
+
+    def test_results(self):
+        self.plant(HEADER, BEFORE_FUNCTION, "RIIS_API const char *riis_planted(void);\nRIIS_API void riis_other(int32_t a);\n"
+                   + BEFORE_FUNCTION)
+        self.writes()
+        self.assertIn("    !> For riis_c_text.\n    function riis_planted() result(text) bind(c, name='riis_planted')\n"
+                      "      import :: c_ptr\n      implicit none\n      type(c_ptr) :: text\n    end function",
+                      self.text(MODULE))
+        self.assertIn("    subroutine riis_other(a) bind(c, name='riis_other')\n      import :: c_int32_t\n      implicit none\n"
+                      "      integer(c_int32_t), value :: a\n    end subroutine", self.text(MODULE))
+
+    def test_a_renamed_argument(self):
+        self.plant(HEADER, "riis_status_name(riis_status status)", "riis_status_name(riis_status planted)")
+        self.writes()
+        self.assertIn("function riis_status_name(planted)", self.text(MODULE))
+        self.assertIn("integer(riis_status), value :: planted\n", self.text(MODULE))
+
+    def test_not_understood(self):
+        for argument in ("float planted", "size_t planted", "int planted", "double **planted", "const double ***planted",
+                         "char *planted", "const char **planted", "riis_csr planted", "riis_csr **planted",
+                         "riis_mesh ***planted", "void **planted", "riis_unknown *planted", "double planted[3]",
+                         "void (*planted)(void)", "const double *const planted",
+                         "double *restrict planted", "double Planted", "double *"):
+            self.setUp()
+            line = self.plant_function(argument)
+            self.refuses(f"{HEADER}:{line}: riis_valve_planted: ", argument[:6], "is not understood")
+        for declaration in ("RIIS_API int riis_planted(void);", "RIIS_API double *riis_planted(void);", "int riis_planted(void);",
+                            "static inline int riis_planted(void) { return 0; }",
+                            "typedef union riis_planted { int a; } riis_planted;",
+                            "typedef enum { RIIS_PLANTED = 0 } riis_planted;", 
+                            "typedef int64_t riis_planted;",
+                            "typedef int (*riis_planted)(int32_t a);", "RIIS_API extern const int riis_planted;"):
+            self.setUp()
+            line = self.plant(HEADER, BEFORE_FUNCTION, declaration + "\n" + BEFORE_FUNCTION)
+            self.refuses(f"{HEADER}:{line}: ", "lanted", "is not understood")
+
+    def test_an_argument_named_as_the_result(self):
+        self.plant_function("int32_t status")
+        self.refuses("riis_valve_planted: no argument can have the name of the result, status")
+
+    def test_no_semicolon(self):
+        self.plant(HEADER, "int64_t struct_size);\n\n#ifdef __cplusplus", "int64_t struct_size)\n\n#ifdef __cplusplus")
+        self.refuses("no semicolon ends what begins here")
+
+
+class Words(Planted):
+    """What the table must not say."""
+
+    def refused(self, old, new, *messages):
+        self.setUp()
+        line = self.plant(TABLE, old, new)
+        self.refuses(*(message.replace("TABLE", f"{TABLE}:{line}") for message in messages))
+
+    def test_names_that_the_header_lacks(self):
+        entry = "riis_valve_get\n"
+        self.refused(entry, "riis_planted  text\n\n" + entry, f"TABLE: {HEADER} has no riis_planted")
+        self.refused(entry, f"{entry}  planted  required (*)\n", f"riis_valve_get of {HEADER} has no planted")
+        self.refused("  RIIS_LOG_*  ", "  RIIS_PLANTED_*  ", f"TABLE: omit from riisf.h of {HEADER} has no RIIS_PLANTED_*")
+        self.refused("  degree       ", "  planted      ", f"riis_patches of {HEADER} has no planted")
+
+    def test_words_that_do_not_suit(self):
+        csr = "  csr      optional  "
+        for words in ("optional scalar", "borrowed", "optional out", "-"):
+            self.refused(csr, f"  csr      {words}  ", "riis_mesh_set_adjacency: ",
+                         "'const riis_csr *csr': 'required', or 'optional'")
+        for words in ("optional", "(*)", "scalar", "optional borrowed", "required optional (*)", "required scalar (*)"):
+            self.refused("  values        required (*)  (n_values), c", f"  values        {words}  (n_values), c",
+                         "riis_valve_set: ", "'const double *values': 'required', or 'optional'")
+        self.refused("  xyz          optional (3, n_vertices)", "  xyz          optional", "TABLE: riis_surface_vertices: ",
+                     "'const double **xyz': 'required'")
+        self.refused("  kind          -", "  kind          scalar",
+                     "TABLE: riis_valve_create: 'scalar' does not suit 'const char *kind'")
+        self.refused("  parameter_id  -", "  parameter_id  optional",
+                     "TABLE: riis_valve_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text")
+        self.refused("  rotation_angle  -", "  rotation_angle  (3)",
+                     "TABLE: riis_surface_options: 'double rotation_angle' points to no")
+        self.refused("  user_data  -  what", "  user_data  scalar  what", "TABLE: riis_log_function: only a text is wanted")
+        self.refused("riis_csr\n", "riis_parameter\n  unit  (3)\n\nriis_csr\n",
+                     "riis_parameter: 'const char *unit' points to no array")
+        self.refused("  degree       (n_curves)", "  degree       optional", "'const int32_t *degree': the shape of the array")
+        self.refused("  x, y, z      (n_vertices)", "  x, y      (n_vertices)",
+                     "riis_surface_arrays: x, y, z belong into one line")
+
+    def test_types_that_share_a_line(self):
+        self.refused("  vertex_id    optional (3, n_triangles)  from 0\n  triangle_id  optional (n_triangles)\n"
+                     "  leaflet_id, patch_id  ",
+                     "  vertex_id, leaflet_id  optional (3, n_triangles)  from 0\n  triangle_id, patch_id  ",
+                     "TABLE: riis_surface_triangles: vertex_id, leaflet_id are of several types, so each needs a line of its own")
+
+    def test_lines_that_are_not_understood(self):
+        entry = "  csr      optional  "
+        for words in ("maybe", "optional,", "(3", "optional optional", "(3) (4)"):
+            self.refused(entry, f"  csr      {words}  ", f"TABLE: '{words}' is not understood; the second column is '-' or")
+        self.refused(entry, "  csr\n", "TABLE: there is no second column; the second column is")
+        self.refused(entry, " csr      optional  ", "TABLE: nothing is above that this line could belong to")
+        self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
+        self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
+                     "riis_patches: degree is in ", "already")
+
+
+class Keywords(Planted):
+    def judge(self):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            return check_keywords.main(self.root), out.getvalue()
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(os.path.join(SOURCES, "abi"), os.path.join(self.root, "abi"))
+
+    def test_what_was_released_keeps_its_names(self):
+        self.assertEqual(self.judge()[0], 0)
+        self.plant(HEADER, "riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads)",
+                   "riis_mesh_prepare(riis_mesh *mesh, int32_t threads)")
+        status, text = self.judge()
+        self.assertEqual(status, 1)
+        self.assertIn("riis_mesh_prepare has the arguments mesh, threads, but was released with mesh, n_threads\n", text)
+
+    def test_new_functions_are_free(self):
+        self.plant_function("int32_t planted")
+        self.assertEqual(self.judge()[0], 0)
+
+    def test_nothing_to_compare_with(self):
+        shutil.rmtree(os.path.join(self.root, "abi"))
+        self.assertEqual(self.judge(), (1, "0 functions\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
