@@ -114,6 +114,7 @@ enum {
 };
 /* Sets the log function of the process; NULL, the default, is silence. Safe from any thread; a message under way in
  * another thread may still reach the function that was set before.
+ * Warnings come from surfaces that skip triangles, and from riis_mark_nodes, where sizes look like different units.
  *   user_data  handed to the function as it is, never looked at; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
@@ -599,6 +600,11 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  *   surface, mesh  read; may be shared with other calls under way
  *   options        NULL for defaults
  *   result         its former content is replaced; pointers got from it before end
+ * The log function gets a warning when sizes are out of proportion, mostly because units differ: the largest
+ * side of the mesh's box or of the surface's is more than 50 times the other's, or the half thickness is larger
+ * than either. The mesh's box is that of its nodes as they were last given. A mesh of fewer than 1000 nodes is
+ * not judged. Where the boxes lie does not matter, since a rank may hold a part of the mesh that is elsewhere.
+ * There is at most one warning for a mesh and a surface, and at most eight for a mesh.
  * Errors: RIIS_INVALID_MESH if the coordinate of a node that is asked, or grouped, was made non-finite behind the mesh handle's
  * back. On an error > 0 the content of the result is as it was, though its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,

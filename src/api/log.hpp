@@ -6,6 +6,9 @@
 
 namespace riis {
 
+// Whether anybody listens.
+bool is_logging() noexcept;
+
 void log_message(std::int32_t level, const char *format, ...) noexcept __attribute__((format(printf, 2, 3)));
 
 }  // namespace riis
