@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/errors.hpp"
+#include "api/nearest_name.hpp"
 #include "valve/aortic.hpp"
 #include "valve/mitral.hpp"
 
@@ -20,11 +21,23 @@ struct Shown {
   const char *data;
 };
 
+// The parameter that may have been meant, with its leaflet's name where the given name has one; "" if none is near.
+std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
+  const bool names_leaflet = name.find('.') != std::string_view::npos;
+  NearestName nearest(name);
+  for (const ParameterSpec &spec : kind.parameters) {
+    const std::string_view full = spec.name;
+    nearest.consider(names_leaflet ? full : full.substr(full.find('.') + 1));
+  }
+  return nearest.nearest();
+}
+
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
-  const Shown shown(name);
+  const Shown shown(name), nearest(nearest_parameter(kind, name));
+  const bool is_near = nearest.size > 0;
   fail(RIIS_INVALID_PARAMETER,
-       "'%.*s' is not a parameter of the %s valve; riis_valve_parameter and riis-mark --print-params list them",
-       shown.size, shown.data, kind.name);
+       "'%.*s' is not a parameter of the %s valve; %s%.*s%sriis_valve_parameter and riis-mark --print-params list them",
+       shown.size, shown.data, kind.name, is_near ? "did you mean '" : "", nearest.size, nearest.data, is_near ? "'? " : "");
 }
 
 // Whether the spec's name is a leaflet's name, a dot, and the given name.
