@@ -116,7 +116,8 @@ enum {
                           triangles */
 };
 /* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
- * under way in another thread may still reach the former function.
+ * under way in another thread may still reach the former function. Warnings come from surfaces that skip
+ * triangles, and from riis_mark_nodes, where sizes look like different units.
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
@@ -619,6 +620,11 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  *   surface, mesh  read; other calls under way may share them
  *   options        NULL for defaults
  *   result         its former content is replaced; pointers got from it before end
+ * The log function gets a warning when sizes are out of proportion, mostly because units differ: the largest
+ * side of the mesh's box or of the surface's is more than 50 times the other's, or the half thickness is
+ * larger than either. The mesh's box is that of its nodes as they were last given. A mesh of fewer than 1000
+ * nodes is not judged. The place of the boxes does not matter, since a rank may hold a part of the mesh that
+ * is elsewhere. There is at most one warning for a mesh and a surface, and at most eight for a mesh.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. A positive status
  * leaves the result's content as it was, but its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,

@@ -49,6 +49,18 @@ RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t 
  * the limit), riis_leaflet (Int32, -1 beyond the limit). far_distance as in riis_mark_result_dense.
  * Errors: RIIS_INVALID_ARGUMENT if the result is not of a mesh with as many nodes. */
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance);
+/* The same with other names, for the marks of more than one valve: PREFIX_marked, PREFIX_distance, PREFIX_leaflet.
+ * riis_vtk_draw shows the marks of riis_vtk_mesh_set_marks only.
+ *   prefix  1 to 64 letters, digits, "_", "-" and "."; "riis" is that of riis_vtk_mesh_set_marks
+ * Errors: RIIS_INVALID_ARGUMENT for a prefix that is none, or a result of a mesh with another number of nodes. */
+RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance,
+                                                   const char *prefix);
+/* Tells whether the mesh has a point array of that name: *has is 1 or 0. */
+RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
+/* Gives the median length of the edges of linear cells (triangle, quad, pixel, tetrahedron, pyramid, wedge, hexahedron,
+ * voxel), to compare a half thickness with. An edge counts once for each of its cells. At most 20,000 cells are
+ * looked at, evenly spaced in their order. *length is 0 for a mesh without such cells. */
+RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Writes the mesh with all its arrays to a .vtu file, points as Float64. The file is complete or not there: it is written
  * beside its place and then moved. Where the path is a link, the file it points to is replaced or made and the link stays.
@@ -69,6 +81,14 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  * of a concave quad move on by one, the winding kept, where that line would run outside it.
  * Errors: RIIS_FILE_ERROR naming the file. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface);
+/* The same with leaflet ids from another cell array, which must be there.
+ *   leaflets  the array's name; it has one whole number >= 0 a cell
+ * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that there are. */
+RIIS_API riis_status riis_vtk_surface_read_with_leaflets(const char *path, const char *leaflets, riis_vtk_surface **surface);
+/* Makes every connected piece of the surface a leaflet, in place of the ids that it has: 0 for the piece of the first
+ * face, then in the order of the pieces' first faces. Faces are connected that have a vertex in common, or vertices
+ * with exactly the same coordinates, as in an .stl file. Arrays got from the surface before end. */
+RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
 /* Destroys the surface; arrays that point into it end, surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 /* Points *arrays, which its init function has filled, at the arrays of the surface, for riis_surface_create_from_arrays.

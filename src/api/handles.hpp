@@ -4,6 +4,7 @@
 
 #include <riis/riis.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 
@@ -59,10 +60,18 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   std::unique_ptr<riis::Surface> before;  // the last content, for its memory
   riis_surface_options options;           // as completed
   double seconds_triangles, seconds_scene;
+  // Other than that of any surface before: an address may come again.
+  const std::uint64_t number = next_number();
+
+ private:
+  static std::uint64_t next_number() {
+    static std::atomic<std::uint64_t> last{0};
+    return last.fetch_add(1, std::memory_order_relaxed) + 1;
+  }
 };
 
 struct riis_mesh : riis::Handle<riis::HandleKind::mesh> {
-  explicit riis_mesh(const riis::StridedPoints &nodes) : mesh(nodes) {}
+  riis_mesh(const riis::StridedPoints &nodes, const riis::Bounds &bounds) : mesh(nodes, bounds) {}
   riis::Mesh mesh;
 };
 

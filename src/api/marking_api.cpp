@@ -29,12 +29,12 @@ double limit_of(const riis_mark_options &options, double half_thickness) {
   return options.distance_limit;
 }
 
-riis::StridedPoints checked_nodes(const riis::StridedPoints &nodes) {
+// Returns their box.
+riis::Bounds check_nodes(const riis::StridedPoints &nodes) {
   if (nodes.n < 1) riis::fail(RIIS_INVALID_MESH, "n_nodes is ", nodes.n, "; a mesh has at least 1 node");
   if (nodes.n > riis::max_nodes)
     riis::fail(RIIS_LIMIT_EXCEEDED, "n_nodes is ", nodes.n, "; it must be at most ", riis::max_nodes);
-  riis::check_points(nodes, "node", RIIS_INVALID_MESH);
-  return nodes;
+  return riis::check_points(nodes, "node", RIIS_INVALID_MESH);
 }
 
 void check_search(std::int32_t search) {
@@ -71,7 +71,8 @@ riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, 
                              riis_mesh **mesh) {
   return guarded([&] {
     require(mesh, "mesh");
-    *mesh = new riis_mesh(checked_nodes({n_nodes, x, y, z, stride}));
+    const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
+    *mesh = new riis_mesh(nodes, check_nodes(nodes));
   });
 }
 
@@ -80,7 +81,8 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     content.forget_places();  // they moved, whether or not what they moved to is accepted
-    content.set_nodes(checked_nodes({n_nodes, x, y, z, stride}));
+    const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
+    content.set_nodes(nodes, check_nodes(nodes));
   });
 }
 
@@ -186,6 +188,9 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     check_search(whole.search);
     riis::check_reserved("options.reserved", whole.reserved);
     riis::mark_nodes(request, whole.search, result->result);
+    riis::check_proportions(
+        {mesh->mesh.nodes().n, mesh->mesh.bounds(), content.scene().bounds(), content.half_thickness()},
+        surface->number, mesh->mesh.warned());
   });
 }
 

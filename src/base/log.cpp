@@ -22,6 +22,8 @@ Sink current_sink() noexcept {
 
 }  // namespace
 
+bool is_logging() noexcept { return current_sink().function != nullptr; }
+
 void log_message(std::int32_t level, const Message &message) noexcept {
   // The function is called without the lock, so that it may take its time or set another one.
   const Sink to = current_sink();

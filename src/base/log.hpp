@@ -10,6 +10,9 @@
 
 namespace riis {
 
+// Whether there is a log function.
+bool is_logging() noexcept;
+
 void log_message(std::int32_t level, const Message &message) noexcept;
 
 template <class... Parts>

@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <sstream>
 #include <utility>
 
+#include "base/nearest_name.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
@@ -21,16 +23,26 @@ constexpr const char *description =
 
 constexpr const char *footer = R"(Examples:
   riis-mark mesh.vtu --output marked.vtu --picture valve.png
-  riis-mark mesh.vtu --scale 0.01 --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
-  riis-mark mesh.vtu --surface valve.stl --half-thickness 0.05 --output marked.vtu
+  riis-mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
+  riis-mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
   riis-mark --print-params > valve.json
+  riis-mark --describe-params --valve mitral
   riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
 
 The marked mesh is a copy of the input with its nodes in the input's order and the point arrays riis_marked (UInt8: 0 or 1),
-riis_distance (Float64) and riis_leaflet (Int32: -1 for none). Lengths are in the mesh's unit; the valve's own parameters are
-in centimetres before --scale.
+riis_distance (Float64) and riis_leaflet (Int32: -1 for none). With --prefix NAME they are NAME_marked and so on: a mesh takes
+the marks of several valves. Arrays that the mesh has already are replaced only with --replace.
+
+Lengths are in the mesh's unit. --unit says which one that is; the scale then follows from it. The parameters of the aortic and
+of the mitral valve are in centimetres. A file with a surface or with patches needs --surface-unit, its own unit. With --unit the
+half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit nothing is known of units, and
+--scale is the factor from the surface's unit to the mesh's.
+
+A line on stderr tells what looks wrong and what to write instead: when no node is marked, when all are, or hardly any, and when
+the half thickness does not go with the surface or with the edges of the mesh. --quiet does not silence it, since wrong marks
+look like right ones. --allow-none is for valves that are near no node at times.
 
 Parameters are those of the valve (right.leaflet_angle) or, without a cusp's name (leaflet_angle), of all its cusps. A JSON
 file sets the latter first, whatever their order in the file; --set comes after the file, from left to right; --opening
@@ -65,7 +77,8 @@ Exit status; one line on stderr says what was wrong:
   1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
      value (in a file or by --set), no display for a picture, no memory
   2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
-     that would replace an input or another output)";
+     that would replace an input, another output, or arrays of the mesh)
+  3  no node is marked, without --allow-none; the outputs are written all the same)";
 
 const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at the position of their RIIS_VTK_VIEW_*
 // At the position of their RIIS_SEARCH_*.
@@ -77,7 +90,7 @@ const std::vector<std::string> distance_names = {"triangles", "sampling", "minim
 // What CLI11 collects, as text: numbers are parsed here, whatever the locale.
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening;
-  std::string distance_tolerance;
+  std::string distance_tolerance, unit, surface_unit;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
   std::vector<std::string> pictures, views;
@@ -95,6 +108,12 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       app.add_option("--surface", options.surface, "Surface from a file (.vtp, .vtu, .stl) instead of a valve")
           ->type_name("FILE")
           ->group(group);
+  app.add_option(
+         "--leaflets", options.leaflets,
+         "Leaflets of --surface: its connected pieces, or the values of a cell array (riis_leaflet, if there is one)")
+      ->type_name("connected|ARRAY")
+      ->group(group)
+      ->needs(surface);
   app.add_option("--valve", options.valve, "Kind of the parametric valve: aortic (the default), mitral; or its patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
@@ -120,6 +139,11 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
                "Print all valve parameters as JSON for --params, after --params, --set and --opening, and exit")
       ->group(group)
       ->excludes(surface);
+  app.add_flag("--describe-params", options.describe_params,
+               "Print the same as a table, with units, ranges and descriptions, and exit")
+      ->group(group)
+      ->excludes(surface)
+      ->excludes(app.get_option("--print-params"));
   app.add_option("--tolerance", texts.tolerance,
                  "Triangles deviate from the smooth valve by at most F half thicknesses (0.05)")
       ->type_name("F")
@@ -134,8 +158,17 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
 
 void declare_placement(CLI::App &app, Texts &texts) {
   const char *group = "Placement: x -> scale * rotation * x + translation";
-  app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (1)")
-      ->type_name("S")
+  CLI::Option *scale = app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (1)")
+                           ->type_name("S")
+                           ->group(group);
+  app.add_option("--unit", texts.unit, "Unit of the mesh, m, cm or mm, in place of --scale")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember(unit_names()))
+      ->group(group)
+      ->excludes(scale);
+  app.add_option("--surface-unit", texts.surface_unit, "Unit of the surface's or of the patches' file")
+      ->type_name("UNIT")
+      ->check(CLI::IsMember(unit_names()))
       ->group(group);
   app.add_option("--rotate", texts.rotate, "Axis and angle in degrees")->type_name("X,Y,Z,DEG")->group(group);
   app.add_option("--translate", texts.translate, "In the mesh's unit")->type_name("X,Y,Z")->group(group);
@@ -143,7 +176,8 @@ void declare_placement(CLI::App &app, Texts &texts) {
 
 void declare_marking(CLI::App &app, Texts &texts) {
   const char *group = "Marking";
-  app.add_option("--half-thickness", texts.half_thickness, "Nodes up to this distance are marked (0.1 times the scale)")
+  app.add_option("--half-thickness", texts.half_thickness,
+                 "Nodes up to this distance are marked (0.1 times the scale; with --unit 0.1 cm)")
       ->type_name("L")
       ->group(group);
   app.add_option("--distance-limit", texts.distance_limit, "Distances are wanted up to here (the half thickness)")
@@ -172,7 +206,18 @@ void declare_marking(CLI::App &app, Texts &texts) {
 
 void declare_output(CLI::App &app, Options &options, Texts &texts) {
   const char *group = "Output";
-  app.add_option("--output", options.output, "The marked mesh")->type_name("OUT.vtu")->group(group);
+  CLI::Option *output =
+      app.add_option("--output", options.output, "The marked mesh")->type_name("OUT.vtu")->group(group);
+  app.add_option("--prefix", options.prefix,
+                 "Arrays of the marked mesh: NAME_marked, NAME_distance, NAME_leaflet (riis)")
+      ->type_name("NAME")
+      ->group(group)
+      ->needs(output);
+  app.add_flag("--replace", options.replace, "Replace arrays of these names that the mesh has already")
+      ->group(group)
+      ->needs(output);
+  app.add_flag("--allow-none", options.allow_none, "That no node is marked is as good as any other result")
+      ->group(group);
   app.add_option("--surface-output", options.surface_output, "The placed triangles")
       ->type_name("OUT.vtp")
       ->group(group);
@@ -188,7 +233,7 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
   app.add_option("--stats", options.stats, "Counts and seconds as JSON; - for stdout, which then holds nothing else")
       ->type_name("FILE.json|-")
       ->group(group);
-  app.add_flag("--quiet", options.quiet, "No table on stdout, no progress on stderr")->group(group);
+  app.add_flag("--quiet", options.quiet, "No table on stdout, no progress on stderr; warnings stay")->group(group);
 }
 
 // RIIS_AUTO is a negative number: a user's must not pass for it.
@@ -239,6 +284,34 @@ void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   }
 }
 
+// The scale and the default half thickness, from the units.
+void parse_units(const Texts &texts, Options &options) {
+  options.unit = unit_of(texts.unit);
+  options.surface_unit = unit_of(texts.surface_unit);
+  options.has_scale = !texts.scale.empty();
+  options.has_half_thickness = !texts.half_thickness.empty();
+  const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
+  const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
+  if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre) {
+    refuse("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
+           words_of(*options.surface_unit));
+  }
+  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the mesh's");
+  if (!options.unit) return;
+  if (is_file && !options.surface_unit) {
+    refuse("--unit needs --surface-unit, the unit of " + (options.surface.empty() ? options.valve : options.surface));
+  }
+  options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
+  if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
+}
+
+void check_prefix(const std::string &prefix) {
+  const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  if (prefix.size() <= 64 && std::all_of(prefix.begin(), prefix.end(), is_good)) return;
+  throw Refusal{exit_wrong_usage,
+                "--prefix: '" + prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and ."};
+}
+
 void parse_mark_options(const Texts &texts, riis_mark_options &options) {
   check(riis_mark_options_init(&options, sizeof options));
   if (!texts.distance_limit.empty()) options.distance_limit = parse_length(texts.distance_limit, "--distance-limit");
@@ -281,15 +354,19 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 
 // Refuses what would have no effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
-  static const std::set<std::string> of_parameters = {"--print-params", "--valve",   "--params",
-                                                      "--set",          "--opening", "--quiet"};
+  static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
+                                                      "--set",          "--opening",         "--quiet"};
   static const std::set<std::string> of_mesh = {
       "--output",         "--stats",        "--search",   "--threads",
-      "--distance-limit", "--far-distance", "--distance", "--distance-tolerance"};
+      "--distance-limit", "--far-distance", "--distance", "--distance-tolerance",
+      "--allow-none"};
+  const bool prints = options.print_params || options.describe_params;
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {
     const std::string name = option->get_name();
-    if (options.print_params && of_parameters.count(name) == 0) refuse(name + " has no effect with --print-params");
+    if (prints && of_parameters.count(name) == 0) {
+      refuse(name + " has no effect with " + (options.print_params ? "--print-params" : "--describe-params"));
+    }
     if (options.mesh.empty() && of_mesh.count(name) != 0) refuse(name + " needs a MESH");
   }
   if (!options.params_open.empty() && is_valve_file(options.valve)) {
@@ -299,7 +376,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings)) {
     refuse("--params-open needs --opening");
   }
-  if (options.print_params) return;
+  if (prints) return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
@@ -326,7 +403,46 @@ std::string hint_of(const CLI::App &app) {
   return "riis-mark --help lists the options";
 }
 
+std::string nearest_option(const CLI::App &app, const std::string &name) {
+  NearestName nearest(name);
+  for (const CLI::Option *option : app.get_options())
+    for (const std::string &known : option->get_lnames()) nearest.consider(known);
+  return std::string(nearest.nearest());
+}
+
+bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
+
+// In the order in which they were typed, which is not CLI11's. Where an option is unknown, its value is left over as well, or passes
+// for the mesh: only the options are told then.
+std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
+  std::vector<std::string> left = app.remaining();
+  const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
+  std::string text;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const auto place = std::find(left.begin(), left.end(), argument);
+    if (place == left.end()) continue;
+    left.erase(place);
+    if (looks_like_option(argument) != has_options) continue;
+    if (!text.empty()) text += "; ";
+    const std::string name = argument.substr(0, argument.find('='));
+    text += has_options ? name + " is not an option" : argument + " is one argument too many";
+    const std::string nearest = has_options && name.size() > 2 ? nearest_option(app, name.substr(2)) : "";
+    if (!nearest.empty()) text += ", did you mean --" + nearest + "?";
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string short_help() {
+  return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
+  riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
+  riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
+  riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
+riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
+)";
+}
 
 std::optional<Options> parse_command_line(int argc, char **argv) {
   Options options;
@@ -350,8 +466,8 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
     app.exit(request, text, text);
     write_text("-", text.str());
     return std::nullopt;
-  } catch (const CLI::ExtrasError &error) {
-    throw Refusal{exit_wrong_usage, std::string(error.what()) + " (" + hint_of(app) + ")"};
+  } catch (const CLI::ExtrasError &) {
+    throw Refusal{exit_wrong_usage, text_of_leftovers(app, argc, argv) + " (" + hint_of(app) + ")"};
   } catch (const CLI::ParseError &error) {
     throw Refusal{exit_wrong_usage, std::string(error.what()) + " (riis-mark --help lists the options)"};
   }
@@ -362,6 +478,8 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
   options.opening = parse_opening(texts, options.settings);
   parse_surface_options(texts, options.surface_options);
+  parse_units(texts, options);
+  check_prefix(options.prefix);
   parse_mark_options(texts, options.mark_options);
   options.pictures = pair_pictures(texts);
   check_purpose(options, given);

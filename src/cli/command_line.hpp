@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/units.hpp"
+
 namespace riis::cli {
 
 struct Picture {
@@ -24,13 +26,23 @@ struct Options {
   std::vector<std::string> settings;  // NAME=VALUE, in order
   std::optional<double> opening;      // from 0 to 1
   riis_surface_options surface_options;
+  std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
+  bool has_scale = false, has_half_thickness = false;  // the user gave them as numbers
+  std::string
+      leaflets;  // of the surface's file: "connected", the name of a cell array, or "" for the array riis_leaflet
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
   std::string output, surface_output, stats;  // "": not wanted
   std::vector<Picture> pictures;
-  bool print_params = false;
+  std::string prefix = "riis";  // of the arrays in the output
+  bool replace = false;         // arrays of these names
+  bool allow_none = false;
+  bool print_params = false, describe_params = false;
   bool quiet = false;
 };
+
+// For a command line without arguments: what the program is for, in five lines.
+std::string short_help();
 
 // Empty when the command line asked for nothing but the help or the version, which have then been printed.
 // Throws a Refusal for wrong usage.

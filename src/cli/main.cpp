@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark: from the command line to an exit status. Whatever goes wrong ends in one line on stderr.
+// riis-mark: from the command line to an exit status. Whatever goes wrong ends in one line on stderr; a command line without
+// arguments gets a few lines of help there, since nobody can have meant it.
 #include <fcntl.h>
 
 #include <algorithm>
@@ -37,8 +38,12 @@ int main(int argc, char **argv) {
   // A file that grows over the limit of its size is then an error of its write, not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    if (const auto options = riis::cli::parse_command_line(argc, argv)) riis::cli::run(*options);
-    return riis::cli::exit_fine;
+    if (argc < 2) {
+      std::cerr << riis::cli::short_help();
+      return riis::cli::exit_wrong_usage;
+    }
+    const auto options = riis::cli::parse_command_line(argc, argv);
+    return options ? riis::cli::run(*options) : riis::cli::exit_fine;
   } catch (const riis::cli::Refusal &refusal) {
     return give_up(refusal.exit_code, refusal.text);
   } catch (const std::bad_alloc &) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/parameters.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
 #include <map>
 #include <vector>
 
@@ -79,6 +83,51 @@ void set_from_text(riis_valve *valve, const std::string &setting) {
   }
   const std::string name = setting.substr(0, equals);
   set_parameter(valve, name, parse_list(setting.substr(equals + 1), "--set " + name), "--set");
+}
+
+namespace {
+
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+using Row = std::array<std::string, 5>;
+
+Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
+  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
+  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+  std::string value;
+  for (const double number : values) value += (value.empty() ? "" : ",") + text_of(number);
+  const std::string unit = parameter.unit;
+  return {parameter.name, value,
+          unit == "length" ? "cm"
+          : unit == "1"    ? "-"
+                           : unit,
+          text_of(parameter.minimum) + " to " + text_of(parameter.maximum), parameter.description};
+}
+
+}  // namespace
+
+std::string parameter_table(const riis_valve *valve) {
+  std::vector<Row> rows = {{"name", "value", "unit", "range", "description"}};
+  int64_t n = 0;
+  check(riis_valve_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    rows.push_back(row_of(valve, parameter));
+  }
+  std::array<std::size_t, 5> widths{};
+  for (const Row &row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  std::string table;
+  for (const Row &row : rows) {
+    for (std::size_t k = 0; k + 1 < row.size(); ++k) table += row[k] + std::string(widths[k] + 2 - row[k].size(), ' ');
+    table += row.back() + "\n";
+  }
+  return table;
 }
 
 std::string json_template(const riis_valve *valve) {

@@ -18,5 +18,7 @@ void set_from_text(riis_valve *valve, const std::string &setting);
 
 // All parameters of the valve with their values.
 std::string json_template(const riis_valve *valve);
+// The same as a table for people, a line a parameter: name, value, unit, range, what it is.
+std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::cli

@@ -37,14 +37,6 @@ const char *distance_name(int32_t distance) {
   }
 }
 
-std::string grouped(int64_t n) {
-  std::string digits = std::to_string(n);
-  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
-  return digits;
-}
-
-std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
-
 std::ostringstream table_stream() {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -75,6 +67,14 @@ void add_seconds(const Seconds &seconds, std::ostringstream &out) {
 
 }  // namespace
 
+std::string grouped(int64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
+  return digits;
+}
+
+std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
+
 std::string surface_title(const Report &report) {
   std::ostringstream out = table_stream();
   out << report.surface_name;
@@ -88,6 +88,7 @@ std::string json_of(const Report &report) {
   nlohmann::ordered_json json = {{"version", riis_version_string()}};
   json[report.opening ? "valve" : "surface"] = report.surface_name;
   if (report.opening) json["opening"] = *report.opening;
+  if (report.n_leaflets > 0) json["n_leaflets"] = report.n_leaflets;
   json.update({{"n_nodes", marks.n_nodes},
                {"n_cells", report.n_cells},
                {"n_marked", marks.n_marked},
@@ -116,8 +117,9 @@ std::string json_of(const Report &report) {
 
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
-  out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle") << ", area "
-      << report.surface.area;
+  out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle");
+  if (report.n_leaflets > 0) out << ", " << counted(report.n_leaflets, "leaflet");
+  out << ", area " << report.surface.area;
   // A valve always has some where a side is collapsed, a file should not.
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";

@@ -28,12 +28,16 @@ struct Report {
   int64_t n_cells = 0;
   double distance_limit = 0;
   int32_t distance = RIIS_DISTANCE_TRIANGLES;
+  int64_t n_leaflets = 0;  // of a surface from a file, where --leaflets makes them; 0: not to be told
   riis_surface_info surface{};
   riis_mark_stats marks{};
   Seconds seconds;
   std::vector<std::string> written;  // files
 };
 
+// Such as "15,745", "1 node".
+std::string grouped(int64_t n);
+std::string counted(int64_t n, const char *singular);
 // Such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);
 std::string json_of(const Report &report);

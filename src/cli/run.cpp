@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run.hpp"
 
-#include <algorithm>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "cli/conversion.hpp"
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
 #include "cli/outputs.hpp"
@@ -14,6 +15,7 @@
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
 #include "cli/valve_file.hpp"
+#include "cli/warnings.hpp"
 
 namespace riis::cli {
 namespace {
@@ -55,7 +57,7 @@ Valve make_valve_of_file(const Options &options) {
   const Stage stage("reading " + options.valve, options.quiet);
   ValveFile file(options.valve);
   set_parameters(options, file.valve());
-  if (!options.print_params) file.check_opening();
+  if (!options.print_params && !options.describe_params) file.check_opening();
   return file.take_valve();
 }
 
@@ -71,11 +73,39 @@ Surface surface_of_valve(const Options &options, const riis_valve *valve) {
   return Surface(surface);
 }
 
+// The component's refusal of a file, with the command that makes one that is not refused.
+void check_read(riis_status status, const std::string &path, Content content) {
+  try {
+    check(status);
+  } catch (Refusal &refusal) {
+    if (status == RIIS_FILE_ERROR) refusal.text += conversion_hint(path, content);
+    throw;
+  }
+}
+
+SurfaceFile read_surface(const Options &options) {
+  const char *path = options.surface.c_str();
+  const bool by_pieces = options.leaflets == "connected";
+  riis_vtk_surface *handle = nullptr;
+  const riis_status status = options.leaflets.empty() || by_pieces
+                                 ? riis_vtk_surface_read(path, &handle)
+                                 : riis_vtk_surface_read_with_leaflets(path, options.leaflets.c_str(), &handle);
+  check_read(status, options.surface, Content::surface);
+  SurfaceFile file(handle);
+  if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
+  return file;
+}
+
+int64_t count_leaflets(const riis_surface *surface) {
+  int64_t n = 0;
+  const int32_t *leaflet_id = nullptr;
+  check(riis_surface_triangles(surface, &n, nullptr, nullptr, &leaflet_id, nullptr));
+  return static_cast<int64_t>(std::set<int32_t>(leaflet_id, leaflet_id + n).size());
+}
+
 Surface surface_of_file(const Options &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  riis_vtk_surface *handle = nullptr;
-  check(riis_vtk_surface_read(options.surface.c_str(), &handle));
-  const SurfaceFile file(handle);
+  const SurfaceFile file = read_surface(options);
   seconds.read += stage.seconds();
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
@@ -105,7 +135,7 @@ void rehearse_marking(const Options &options, const riis_surface *surface) {
 MeshFile read_mesh(const Options &options, Seconds &seconds) {
   const Stage stage("reading " + options.mesh, options.quiet);
   riis_vtk_mesh *mesh = nullptr;
-  check(riis_vtk_mesh_read(options.mesh.c_str(), &mesh));
+  check_read(riis_vtk_mesh_read(options.mesh.c_str(), &mesh), options.mesh, Content::mesh);
   seconds.read += stage.seconds();
   return MeshFile(mesh);
 }
@@ -142,43 +172,40 @@ void warn_of_incomplete_marks() {
       stderr);
 }
 
-// Mostly the units: one line that shows them.
-void explain_no_marks(const riis_surface_info &surface, const riis_vtk_mesh *file) {
-  int64_t n_nodes = 0;
-  const double *xyz = nullptr;
-  check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, &xyz));
-  double lower[3], upper[3];
-  for (int64_t i = 0; i < 3 * n_nodes; ++i) {
-    const auto axis = i % 3;
-    lower[axis] = i < 3 ? xyz[i] : std::min(lower[axis], xyz[i]);
-    upper[axis] = i < 3 ? xyz[i] : std::max(upper[axis], xyz[i]);
+// Neither marks nor anything else of the user's is replaced by chance.
+void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
+  if (options.output.empty() || options.replace) return;
+  for (const char *what : {"_marked", "_distance", "_leaflet"}) {
+    int32_t has = 0;
+    check(riis_vtk_mesh_has_point_array(mesh, (options.prefix + what).c_str(), &has));
+    if (!has) continue;
+    throw Refusal{exit_wrong_usage,
+                  options.mesh + " has an array " + options.prefix + what +
+                      " already: write --replace to replace it, or --prefix NAME for other arrays beside it"};
   }
-  std::fprintf(stderr,
-               "riis-mark: no node is marked: the mesh is in x %g %g, y %g %g, z %g %g, the surface in x %g %g, y %g "
-               "%g, z %g %g; "
-               "see --scale, --translate\n",
-               lower[0], upper[0], lower[1], upper[1], lower[2], upper[2], surface.lower[0], surface.upper[0],
-               surface.lower[1], surface.upper[1], surface.lower[2], surface.upper[2]);
 }
 
-void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
+// Returns the marks, which pictures may want by other names than the output's.
+MarkResult mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrow_nodes(options, file, report);
   if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
   riis_mark_result *handle = nullptr;
   check(riis_mark_result_create(&handle));
-  const MarkResult result(handle);
+  MarkResult result(handle);
   const Stage stage("marking", options.quiet);
   check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
   report.seconds.search = stage.seconds();
   check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
-  check(riis_vtk_mesh_set_marks(file, result.get(), options.far_distance));
+  check(riis_vtk_mesh_set_named_marks(file, result.get(), options.far_distance, options.prefix.c_str()));
   if (!report.marks.complete) warn_of_incomplete_marks();
-  if (report.marks.n_marked == 0 && report.marks.complete && !options.quiet) explain_no_marks(report.surface, file);
+  const std::string warning = warning_of(situation_of(options, report.surface, report.marks, file));
+  if (!warning.empty()) warn(warning);
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.distance = options.surface_options.distance;
   report.mesh_name = options.mesh;
+  return result;
 }
 
 void write_files(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
@@ -239,11 +266,11 @@ void print_table(const Options &options, const Report &report) {
 
 }  // namespace
 
-void run(const Options &options) {
+ExitCode run(const Options &options) {
   const Valve valve = options.surface.empty() ? make_valve(options) : nullptr;
-  if (options.print_params) {
-    write_text("-", json_template(valve.get()) + "\n");
-    return;
+  if (options.print_params || options.describe_params) {
+    write_text("-", options.print_params ? json_template(valve.get()) + "\n" : parameter_table(valve.get()));
+    return exit_fine;
   }
   check_outputs(options);
   Report report;
@@ -251,13 +278,18 @@ void run(const Options &options) {
   check(riis_surface_get_info(surface.get(), &report.surface, sizeof report.surface));
   report.surface_name = valve ? options.valve : options.surface;
   if (valve) report.opening = opening_of(valve.get());
+  if (!options.leaflets.empty()) report.n_leaflets = count_leaflets(surface.get());
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
-  if (mesh) mark(options, surface.get(), mesh.get(), report);
+  if (mesh) check_new_arrays(options, mesh.get());
+  const MarkResult result = mesh ? mark(options, surface.get(), mesh.get(), report) : nullptr;
   write_files(options, surface.get(), mesh.get(), report);
   try {
+    // The component draws the marks of these names; the file with the other ones is written.
+    if (result && !options.pictures.empty())
+      check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance));
     draw_pictures(options, surface.get(), mesh.get(), report);
   } catch (const Refusal &) {
     // The marks are good all the same.
@@ -266,6 +298,7 @@ void run(const Options &options) {
   }
   write_stats(options, report);
   print_table(options, report);
+  return result && report.marks.n_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
 
 }  // namespace riis::cli

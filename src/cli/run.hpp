@@ -4,10 +4,11 @@
 #pragma once
 
 #include "cli/command_line.hpp"
+#include "cli/refusal.hpp"
 
 namespace riis::cli {
 
-// Throws a Refusal.
-void run(const Options &options);
+// exit_fine, or exit_none_marked where that was not to be expected. Throws a Refusal.
+ExitCode run(const Options &options);
 
 }  // namespace riis::cli

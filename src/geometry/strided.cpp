@@ -1,20 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/strided.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/errors.hpp"
 
 namespace riis {
+namespace {
 
-void check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
-  require(points.x, "x");
-  require(points.y, "y");
-  require(points.z, "z");
-  if (points.stride < 1) fail(RIIS_INVALID_ARGUMENT, "stride is ", points.stride, "; it must be at least 1");
-  if (points.n > std::numeric_limits<std::int64_t>::max() / 8 / points.stride)
-    fail(RIIS_INVALID_ARGUMENT, points.n, " ", what, "s with a stride of ", points.stride,
-         " are more than memory can hold");
+// Two doubles in one register: comparing one by one would take longer than memory does.
+typedef double Two __attribute__((vector_size(16)));
+
+struct Spread {
+  Two lower = Two{} + Bounds::infinity, upper = Two{} - Bounds::infinity;
+  void add(Two p) {
+    lower = p < lower ? p : lower;
+    upper = p > upper ? p : upper;
+  }
+};
+
+// x and y of one point after the other, z of two at a time.
+struct PairSpread {
+  Spread xy[2], z;
+  Two sum{};
+  void add(Two first_xy, Two second_xy, Two both_z) {
+    xy[0].add(first_xy);
+    xy[1].add(second_xy);
+    z.add(both_z);
+    sum += first_xy + second_xy + both_z;
+  }
+  void give(Bounds &bounds, double &total) const {
+    for (const Spread &s : xy) {
+      bounds.lower = {std::min(bounds.lower.x, s.lower[0]), std::min(bounds.lower.y, s.lower[1]), bounds.lower.z};
+      bounds.upper = {std::max(bounds.upper.x, s.upper[0]), std::max(bounds.upper.y, s.upper[1]), bounds.upper.z};
+    }
+    bounds.lower.z = std::min({bounds.lower.z, z.lower[0], z.lower[1]});
+    bounds.upper.z = std::max({bounds.upper.z, z.upper[0], z.upper[1]});
+    total += sum[0] + sum[1];
+  }
+};
+
+// sum becomes NaN, which it never leaves again, where a coordinate is: comparisons pass over that.
+Bounds bounds_of(const StridedPoints &points, double &sum) {
+  const double *const x = points.x, *const y = points.y, *const z = points.z;
+  const std::int64_t stride = points.stride;
+  // Two of them, since a comparison waits for the one before it.
+  PairSpread pairs[2];
+  std::int64_t i = 0;
+  for (; i + 4 <= points.n; i += 4)
+    for (std::int64_t k = 0; k < 2; ++k) {
+      const std::int64_t a = (i + 2 * k) * stride, b = a + stride;
+      pairs[k].add(Two{x[a], y[a]}, Two{x[b], y[b]}, Two{z[a], z[b]});
+    }
+  Bounds bounds;
+  if (i > 0)
+    for (const PairSpread &pair : pairs) pair.give(bounds, sum);
+  for (; i < points.n; ++i) {
+    const Vec3 p = points[i];
+    bounds.add(p);
+    sum += p.x + p.y + p.z;
+  }
+  return bounds;
+}
+
+[[noreturn]] void refuse_first_unusable(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
   for (std::int64_t i = 0; i < points.n; ++i) {
     const Vec3 p = points[i];
     if (is_usable(p)) continue;
@@ -23,6 +73,25 @@ void check_points(const StridedPoints &points, const char *what, riis_status bad
     fail(bad_coordinate, axis, " of ", what, " ", i, " is ", value, "; it must be finite and at most ", max_coordinate,
          " in magnitude");
   }
+  fail(bad_coordinate, "the coordinates of the ", what, "s changed while they were checked");
+}
+
+}  // namespace
+
+Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
+  require(points.x, "x");
+  require(points.y, "y");
+  require(points.z, "z");
+  if (points.stride < 1) fail(RIIS_INVALID_ARGUMENT, "stride is ", points.stride, "; it must be at least 1");
+  if (points.n > std::numeric_limits<std::int64_t>::max() / 8 / points.stride)
+    fail(RIIS_INVALID_ARGUMENT, points.n, " ", what, "s with a stride of ", points.stride,
+         " are more than memory can hold");
+  double sum = 0;
+  const Bounds bounds = bounds_of(points, sum);
+  // Usable coordinates are too small for their sum to be infinite.
+  const bool usable = points.n == 0 || (is_usable(bounds.lower) && is_usable(bounds.upper) && std::isfinite(sum));
+  if (!usable) refuse_first_unusable(points, what, bad_coordinate);
+  return bounds;
 }
 
 }  // namespace riis

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/bounds.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -28,8 +29,8 @@ inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_us
 
 // Checks pointers, stride and every coordinate, on the calling thread: starting others would not pay, and they may not be
 // wanted. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate, naming its point as
-// `what` ("node", "point") and number.
-void check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
+// `what` ("node", "point") and number. Returns the points' box, of which the same pass over memory learns.
+Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
 
 // Point i of points that were checked when they were given, but that the caller may have written to since: fails in the same way.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {

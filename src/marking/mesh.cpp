@@ -3,7 +3,7 @@
 
 namespace riis {
 
-void Mesh::set_nodes(const StridedPoints &nodes) {
+void Mesh::set_nodes(const StridedPoints &nodes, const Bounds &bounds) {
   if (nodes.n != nodes_.n) {
     adjacency_.reset();
     balls_.order.clear();
@@ -11,6 +11,7 @@ void Mesh::set_nodes(const StridedPoints &nodes) {
     was_marked_.store(false, std::memory_order_relaxed);
   }
   nodes_ = nodes;
+  bounds_ = bounds;
   forget_places();
 }
 

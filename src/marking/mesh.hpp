@@ -8,18 +8,22 @@
 #include <mutex>
 #include <optional>
 
+#include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "marking/adjacency.hpp"
 #include "marking/clusters.hpp"
 #include "marking/node_balls.hpp"
+#include "marking/proportions.hpp"
 
 namespace riis {
 
 class Mesh {
  public:
-  explicit Mesh(const StridedPoints &nodes) : nodes_(nodes) {}
+  Mesh(const StridedPoints &nodes, const Bounds &bounds) : nodes_(nodes), bounds_(bounds) {}
 
   const StridedPoints &nodes() const { return nodes_; }
+  // The box of the nodes as they were given.
+  const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
   // What is known of where the nodes are no longer holds.
@@ -29,7 +33,7 @@ class Mesh {
   }
 
   // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
-  void set_nodes(const StridedPoints &nodes);
+  void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
   void set_adjacency(const std::optional<Adjacency> &adjacency) { adjacency_ = adjacency; }
 
   // The nodes in balls of near ones. Several threads may call it at once.
@@ -40,8 +44,12 @@ class Mesh {
   // Records a marking of these nodes. Returns true if one was recorded before, or if clusters were made: then clusters pay.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
+  // The surfaces that do not fit this mesh, as far as that was said.
+  Warned &warned() const { return warned_; }
+
  private:
   StridedPoints nodes_;
+  Bounds bounds_;
   std::optional<Adjacency> adjacency_;
   mutable std::mutex balls_mutex_;
   mutable NodeBalls balls_;
@@ -49,6 +57,7 @@ class Mesh {
   mutable std::mutex clusters_mutex_;
   mutable Clusters clusters_;
   mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
+  mutable Warned warned_;
 };
 
 }  // namespace riis

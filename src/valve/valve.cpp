@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/nearest_name.hpp"
 #include "valve/aortic.hpp"
 #include "valve/mitral.hpp"
 
@@ -15,9 +16,23 @@ namespace {
 // A name as it appears in a message: cut, because it may be anything.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
+// The parameter that may have been meant, with its leaflet's name where the given name has one; "" if none is near.
+std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
+  const bool names_leaflet = name.find('.') != std::string_view::npos;
+  NearestName nearest(name);
+  for (const ParameterSpec &spec : kind.parameters) {
+    const std::string_view full = spec.name;
+    nearest.consider(names_leaflet ? full : full.substr(full.find('.') + 1));
+  }
+  return nearest.nearest();
+}
+
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
-  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name,
-       " valve; riis_valve_parameter and riis-mark --print-params list them");
+  const std::string_view nearest = nearest_parameter(kind, name);
+  const bool is_near = !nearest.empty();
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name, " valve; ",
+       is_near ? "did you mean '" : "", shown(nearest), is_near ? "'? " : "",
+       "riis_valve_parameter and riis-mark --print-params list them");
 }
 
 // Whether the spec's name is a leaflet's name, a dot, and the given name.

@@ -4,6 +4,8 @@
 
 namespace riis::vtk {
 
+// What set_marks puts before _marked, _distance and _leaflet, if it is told nothing else.
+inline constexpr const char *default_prefix = "riis";
 inline constexpr const char *marked_array = "riis_marked";
 inline constexpr const char *distance_array = "riis_distance";
 inline constexpr const char *leaflet_array = "riis_leaflet";

@@ -17,7 +17,6 @@
 #include <vtkPoints.h>
 #include <vtkPolygon.h>
 
-#include "vtk/array_names.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
@@ -117,10 +116,22 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// One leaflet id a cell; empty if there is no such array.
-std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data) {
-  const std::string name = std::string("cell array ") + leaflet_array;
-  vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(leaflet_array);
+// "; there are: a, b", for what is not.
+std::string list_of_cell_arrays(vtkPointSet *data) {
+  std::string list;
+  for (int i = 0; i < data->GetCellData()->GetNumberOfArrays(); ++i) {
+    const char *name = data->GetCellData()->GetAbstractArray(i)->GetName();
+    list += (list.empty() ? "; there are: " : ", ") + std::string(name ? name : "one without a name");
+  }
+  return list.empty() ? "; there is none" : list;
+}
+
+// One leaflet id a cell; empty if there is no such array, unless it is required.
+std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data,
+                                            const std::string &leaflets_name, bool is_required) {
+  const std::string name = "cell array " + leaflets_name;
+  vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(leaflets_name.c_str());
+  if (!abstract && is_required) fail_file(path, "has no " + name + list_of_cell_arrays(data));
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
   if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name + " must hold one number a cell");
@@ -142,9 +153,9 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
 
 }  // namespace
 
-Faces faces_of(const std::string &path, vtkPointSet *data) {
+Faces faces_of(const std::string &path, vtkPointSet *data, const std::string &leaflets_name, bool is_required) {
   if (data->GetNumberOfCells() == 0) fail_file(path, "holds no faces");
-  const std::vector<std::int32_t> leaflets = leaflets_of_cells(path, data);
+  const std::vector<std::int32_t> leaflets = leaflets_of_cells(path, data, leaflets_name, is_required);
   Faces faces;
   faces.xyz = coordinates_of(data);
   faces.corners_per_face = holds_quads_only(data) ? 4 : 3;

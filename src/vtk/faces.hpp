@@ -18,7 +18,7 @@ struct Faces {
   std::int32_t corners_per_face = 3;
 };
 
-// The path is for the error text only.
-Faces faces_of(const std::string &path, vtkPointSet *data);
+// The path is for the error text only. Leaflet ids come from the cell array of that name, which must be there if it is required.
+Faces faces_of(const std::string &path, vtkPointSet *data, const std::string &leaflets, bool is_required);
 
 }  // namespace riis::vtk

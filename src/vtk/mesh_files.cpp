@@ -3,7 +3,9 @@
 // the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
 
 #include <vtkDoubleArray.h>
 #include <vtkPointData.h>
@@ -13,6 +15,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "vtk/array_names.hpp"
+#include "vtk/edge_length.hpp"
 #include "vtk/files.hpp"
 #include "vtk/grid_files.hpp"
 #include "vtk/mesh.hpp"
@@ -32,9 +35,9 @@ void make_points_double(vtkUnstructuredGrid *grid) {
 }
 
 template <class Array>
-vtkSmartPointer<Array> point_array(const char *name, vtkIdType n_points) {
+vtkSmartPointer<Array> point_array(const std::string &name, vtkIdType n_points) {
   const auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
+  array->SetName(name.c_str());
   array->SetNumberOfValues(n_points);
   return array;
 }
@@ -48,12 +51,27 @@ void check_is_of_mesh(const riis_mark_result *result, vtkIdType n_nodes) {
   }
 }
 
-void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance) {
+// A name that every file format and every reader takes.
+void check_prefix(const std::string &prefix) {
+  constexpr std::size_t longest = 64;
+  const auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  };
+  if (prefix.empty() || prefix.size() > longest || !std::all_of(prefix.begin(), prefix.end(), is_good)) {
+    fail(RIIS_INVALID_ARGUMENT, "prefix is \"" + prefix.substr(0, longest) + "\"; it must be 1 to " +
+                                    std::to_string(longest) + " letters, digits, _, - and .");
+  }
+}
+
+void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance,
+               const std::string &prefix) {
+  check_prefix(prefix);
   const vtkIdType n = grid->GetNumberOfPoints();
   check_is_of_mesh(result, n);
-  const auto marked = point_array<vtkUnsignedCharArray>(marked_array, n);
-  const auto distance = point_array<vtkDoubleArray>(distance_array, n);
-  const auto leaflet = point_array<vtkTypeInt32Array>(leaflet_array, n);
+  const auto marked = point_array<vtkUnsignedCharArray>(prefix + "_marked", n);
+  const auto distance = point_array<vtkDoubleArray>(prefix + "_distance", n);
+  const auto leaflet = point_array<vtkTypeInt32Array>(prefix + "_leaflet", n);
   check_core(riis_mark_result_dense(result, n, far_distance, marked->GetPointer(0), distance->GetPointer(0), nullptr,
                                     leaflet->GetPointer(0)));
   for (vtkDataArray *array : {static_cast<vtkDataArray *>(marked), static_cast<vtkDataArray *>(distance),
@@ -138,8 +156,32 @@ RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t 
 }
 
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance) {
-  return guarded(
-      [&](const CaughtOutput &) { set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance); });
+  return guarded([&](const CaughtOutput &) {
+    set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance, default_prefix);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
+                                                   double far_distance, const char *prefix) {
+  return guarded([&](const CaughtOutput &) {
+    set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance, require(prefix, "prefix"));
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(name, "name");
+    *require(has, "has") = mesh->grid->GetPointData()->HasArray(name) != 0;
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(length, "length");
+    *length = median_edge_of(mesh->grid);
+  });
 }
 
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path) {

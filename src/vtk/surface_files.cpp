@@ -8,9 +8,11 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include "vtk/array_names.hpp"
 #include "vtk/faces.hpp"
 #include "vtk/files.hpp"
 #include "vtk/grid_files.hpp"
+#include "vtk/pieces.hpp"
 #include "vtk/stl_files.hpp"
 #include "vtk/surface_polydata.hpp"
 #include "vtk/vtk_errors.hpp"
@@ -57,8 +59,27 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **
     require(path, "path");
     require(surface, "surface");
     auto made = std::make_unique<riis_vtk_surface>();
-    made->faces = faces_of(path, read_data_set(path, caught));
+    made->faces = faces_of(path, read_data_set(path, caught), leaflet_array, false);
     *surface = made.release();
+  });
+}
+
+RIIS_API riis_status riis_vtk_surface_read_with_leaflets(const char *path, const char *leaflets,
+                                                         riis_vtk_surface **surface) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(path, "path");
+    require(leaflets, "leaflets");
+    require(surface, "surface");
+    auto made = std::make_unique<riis_vtk_surface>();
+    made->faces = faces_of(path, read_data_set(path, caught), leaflets, true);
+    *surface = made.release();
+  });
+}
+
+RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface) {
+  return guarded([&](const CaughtOutput &) {
+    require(surface, "surface");
+    surface->faces.leaflet_id = pieces_of(surface->faces);
   });
 }
 

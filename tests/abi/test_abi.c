@@ -291,8 +291,14 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
   SIGNATURE(riis_vtk_mesh_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
+  SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t,
+            (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
+  SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
+  SIGNATURE(riis_vtk_mesh_median_edge, int32_t, (const riis_vtk_mesh *, double *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
   SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, riis_vtk_surface **));
+  SIGNATURE(riis_vtk_surface_read_with_leaflets, int32_t, (const char *, const char *, riis_vtk_surface **));
+  SIGNATURE(riis_vtk_surface_number_pieces, int32_t, (riis_vtk_surface *));
   SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_arrays, int32_t, (const riis_vtk_surface *, riis_surface_arrays *));
   SIGNATURE(riis_vtk_surface_write, int32_t, (const riis_surface *, const char *));

@@ -118,16 +118,26 @@ static void test_one_of_each(void **state) {
   assert_non_null(strstr(program_out, "1 thread\n"));
 }
 
-/* Wrong units are no error, but the two sizes are shown. */
+/* A status of its own, unless it was to be expected; whatever was asked for is written. */
 static void test_no_marks(void **state) {
   (void)state;
-  run_program(scratch_path("in.vtu"), "--scale", "0.001", "--translate", "9,9,9", NULL);
-  assert_int_equal(program_exit_code, 0);
+  run_program(scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
+              scratch_path("none.vtu"), NULL);
+  assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis-mark: no node is marked: the mesh is in x"));
-  assert_non_null(strstr(program_err, "--scale"));
+  assert_non_null(strstr(program_err, "see --translate"));
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
-  RUN_FINE(scratch_path("in.vtu"), "--scale", "0.001", "--translate", "9,9,9", "--quiet", "--stats",
-           scratch_path("stats.json"));
+  assert_non_null(strstr(program_out, "0 nodes within the half thickness"));
+  char *json = scratch_read(scratch_path("none.json"), NULL);
+  assert_true(json_number(json, "n_marked") == 0);
+  free(json);
+  assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
+  RUN_FINE(scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
+  /* The search that may miss some has missed all: both are said. */
+  run_program(scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
+  assert_int_equal(program_exit_code, 3);
+  assert_non_null(strstr(program_err, "riis-mark: the marks may be incomplete"));
+  assert_non_null(strstr(program_err, "riis-mark: no node is marked"));
 }
 
 static void test_legacy_mesh(void **state) {

@@ -59,7 +59,15 @@ static void test_help(void **state) {
                          "\"patches\"",
                          "Exit status",
                          "  1  bad data",
-                         "  2  wrong usage"};
+                         "  2  wrong usage",
+                         "  3  no node is marked",
+                         "--unit",
+                         "--surface-unit",
+                         "--leaflets",
+                         "--prefix",
+                         "--replace",
+                         "--allow-none",
+                         "--describe-params"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
     if (!strstr(program_out, names[i])) fail_msg("%s is not in the help", names[i]);
   }
@@ -102,6 +110,19 @@ static void test_skip_zero_area(void **state) {
   assert_true(json_number(program_out, "area") == 0.5);
 }
 
+/* Who types the name alone gets a few lines of what to type, not of what was wrong. */
+static void test_no_arguments(void **state) {
+  (void)state;
+  run_program(NULL);
+  assert_int_equal(program_exit_code, 2);
+  assert_string_equal(program_out, "");
+  int n_lines = 0;
+  for (const char *c = program_err; *c; ++c) n_lines += *c == '\n';
+  assert_int_equal(n_lines, 5);
+  const char *parts[] = {"riis-mark marks the nodes", "MESH.vtu --output", "--unit m", "--surface-unit mm", "--help"};
+  for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) assert_non_null(strstr(program_err, parts[i]));
+}
+
 /* Numbers are read and written with a point, whatever the locale. */
 static void test_locale(void **state) {
   (void)state;
@@ -113,8 +134,9 @@ static void test_locale(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_version),   cmocka_unit_test(test_help),           cmocka_unit_test(test_order),
-      cmocka_unit_test(test_no_stdout), cmocka_unit_test(test_skip_zero_area), cmocka_unit_test(test_locale),
+      cmocka_unit_test(test_version),      cmocka_unit_test(test_help),           cmocka_unit_test(test_order),
+      cmocka_unit_test(test_no_stdout),    cmocka_unit_test(test_skip_zero_area), cmocka_unit_test(test_locale),
+      cmocka_unit_test(test_no_arguments),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

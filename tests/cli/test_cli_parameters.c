@@ -192,6 +192,60 @@ static void test_json_sizes(void **state) {
   }
 }
 
+/* Every parameter has a line with its value, unit, range and description; the values are those that are set. */
+static void expect_table(const char *kind) {
+  RUN_FINE("--describe-params", "--valve", kind);
+  riis_valve *valve = NULL;
+  int64_t n = 0, n_lines = 0;
+  assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
+  assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+  for (const char *c = program_out; *c; ++c) n_lines += *c == '\n';
+  assert_int_equal(n_lines, n + 1);
+  const char *line = strchr(program_out, '\n') + 1;
+  for (int64_t i = 0; i < n; ++i, line = strchr(line, '\n') + 1) {
+    riis_parameter parameter;
+    char value[128] = "", range[64], name[64], shown_value[128], unit[16];
+    assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    for (int64_t k = 0; k < parameter.n_values; ++k)
+      snprintf(value + strlen(value), sizeof value - strlen(value), "%s%g", k ? "," : "", parameter.default_values[k]);
+    snprintf(range, sizeof range, " %g to %g ", parameter.minimum, parameter.maximum);
+    assert_int_equal(sscanf(line, "%63s %127s %15s", name, shown_value, unit), 3);
+    assert_string_equal(name, parameter.name);
+    assert_string_equal(shown_value, value);
+    assert_string_equal(unit, strcmp(parameter.unit, "length") == 0 ? "cm"
+                              : strcmp(parameter.unit, "1") == 0    ? "-"
+                                                                    : "degree");
+    const char *end = strchr(line, '\n'), *description = strstr(line, parameter.description);
+    assert_non_null(strstr(line, range));
+    assert_true(description && description + strlen(parameter.description) == end);
+  }
+  riis_valve_destroy(&valve);
+}
+
+static void test_table(void **state) {
+  (void)state;
+  expect_table("aortic");
+  expect_table("mitral");
+  RUN_FINE("--describe-params", "--set", "root_radius=1.3", "--set", "translation=1,2,3", "--opening", "0.5");
+  assert_non_null(strstr(program_out, "root_radius"));
+  assert_non_null(strstr(program_out, " 1.3 "));
+  assert_non_null(strstr(program_out, " 1,2,3 "));
+  assert_non_null(strstr(program_out, " 0.5 "));
+}
+
+/* What may have been meant. */
+static void test_near_names(void **state) {
+  (void)state;
+  RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?",
+              "--print-params", "--set", "leaflet_angel=60");
+  RUN_REFUSED(1, "did you mean 'right.leaflet_angle'?", "--print-params", "--set", "right.leafletangle=60");
+  RUN_REFUSED(1, "did you mean 'AP_diameter'?", "--print-params", "--valve", "mitral", "--set", "ap_diameter=3");
+  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_parameter", "--print-params", "--set",
+              "colour=3");
+  scratch_write_text("p.json", "{\"rootradius\": 1}");
+  RUN_REFUSED(1, "did you mean 'root_radius'?", "--print-params", "--params", scratch_path("p.json"));
+}
+
 static void test_set_refusals(void **state) {
   (void)state;
   RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "--print-params", "--set", "root_radius");
@@ -209,7 +263,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_template),   cmocka_unit_test(test_json_forms),      cmocka_unit_test(test_json_order),
       cmocka_unit_test(test_set_order),  cmocka_unit_test(test_surface_changes), cmocka_unit_test(test_json_refusals),
-      cmocka_unit_test(test_json_sizes), cmocka_unit_test(test_set_refusals),
+      cmocka_unit_test(test_json_sizes), cmocka_unit_test(test_set_refusals),    cmocka_unit_test(test_table),
+      cmocka_unit_test(test_near_names),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -25,8 +25,8 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "MESH has no effect with --print-params", mesh, "--print-params");
   RUN_REFUSED(2, "--output has no effect with --print-params", "--print-params", "--output", "a.vtu");
   RUN_REFUSED(2, "--scale has no effect with --print-params", "--print-params", "--scale", "2");
-  RUN_REFUSED(2, "--frobnicate", mesh, "--frobnicate");
-  RUN_REFUSED(2, "second.vtu", mesh, "second.vtu");
+  RUN_REFUSED(2, "--frobnicate is not an option (riis-mark --help lists the options)", mesh, "--frobnicate");
+  RUN_REFUSED(2, "second.vtu is one argument too many", mesh, "second.vtu");
   RUN_REFUSED(2, "--valve", mesh, "--valve", "aortic", "--surface", "a.vtp");
   RUN_REFUSED(2, "--set", mesh, "--surface", "a.vtp", "--set", "root_radius=1");
   RUN_REFUSED(2, "--params", mesh, "--surface", "a.vtp", "--params", "a.json");
@@ -50,6 +50,45 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "--view: more views than pictures", mesh, "--picture", "a.png", "--view", "top", "--view", "side");
   RUN_REFUSED(2, "--output", mesh, "--output", "a.vtu", "--output", "b.vtu");
   RUN_REFUSED(2, "--output", mesh, "--output");
+}
+
+/* What may have been meant, and in the order of typing. */
+static void test_unknown_options(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "--half-thicknes is not an option, did you mean --half-thickness?", mesh, "--half-thicknes", "0.1");
+  RUN_REFUSED(2, "--oputput is not an option, did you mean --output?", "--oputput=a.vtu", mesh);
+  RUN_REFUSED(2, "--params-opened is not an option, did you mean --params-open?", mesh, "--params-opened", "a.json");
+  RUN_REFUSED(2,
+              "riis-mark: --zzz is not an option; --scal is not an option, did you mean --scale?; -y is not an option; "
+              "--aaa is not an option (",
+              "--zzz", "--scal", "2", mesh, "-y", "--aaa=1");
+  RUN_REFUSED(2, "riis-mark: z.vtu is one argument too many; a.vtu is one argument too many (", mesh, "z.vtu", "a.vtu");
+}
+
+static void test_new_usage(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu"), *out = scratch_path("a.vtu");
+  RUN_REFUSED(2, "--leaflets", mesh, "--leaflets", "connected");
+  RUN_REFUSED(2, "--prefix requires --output", mesh, "--prefix", "left");
+  RUN_REFUSED(2, "--replace requires --output", mesh, "--replace");
+  RUN_REFUSED(2, "--allow-none needs a MESH", "--surface-output", "a.vtp", "--allow-none");
+  RUN_REFUSED(2, "--prefix: 'a b' must be 1 to 64 letters, digits", mesh, "--output", out, "--prefix", "a b");
+  RUN_REFUSED(2, "--prefix: the value is empty", mesh, "--output", out, "--prefix=", "--quiet");
+  RUN_REFUSED(2, "--unit", mesh, "--unit", "km");
+  RUN_REFUSED(2, "--unit excludes --scale", mesh, "--unit", "m", "--scale", "0.01");
+  RUN_REFUSED(2, "--surface-unit needs --unit", mesh, "--surface", "a.stl", "--surface-unit", "mm");
+  RUN_REFUSED(2, "--unit needs --surface-unit, the unit of a.stl", mesh, "--surface", "a.stl", "--unit", "mm");
+  RUN_REFUSED(2, "--unit needs --surface-unit, the unit of a.json", mesh, "--valve", "a.json", "--unit", "mm");
+  RUN_REFUSED(2, "--surface-unit: the parameters of the aortic valve are in centimetres, not in metres", mesh, "--unit",
+              "m", "--surface-unit", "m");
+  RUN_REFUSED(2, "of the mitral valve are in centimetres, not in millimetres", mesh, "--valve", "mitral", "--unit", "m",
+              "--surface-unit", "mm");
+  RUN_REFUSED(2, "--unit has no effect with --print-params", "--print-params", "--unit", "m");
+  RUN_REFUSED(2, "MESH has no effect with --describe-params", mesh, "--describe-params");
+  RUN_REFUSED(2, "--describe-params", "--describe-params", "--print-params");
+  RUN_REFUSED(2, "--describe-params", "--surface", "a.vtp", "--describe-params");
+  assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
 static void test_empty_values(void **state) {
@@ -211,11 +250,12 @@ static void test_outputs_first(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_usage),         cmocka_unit_test(test_numbers),
-      cmocka_unit_test(test_values),        cmocka_unit_test(test_input_files),
-      cmocka_unit_test(test_bad_data),      cmocka_unit_test(test_outputs),
-      cmocka_unit_test(test_outputs_first), cmocka_unit_test(test_empty_values),
-      cmocka_unit_test(test_hints),         cmocka_unit_test(test_control_characters),
+      cmocka_unit_test(test_usage),           cmocka_unit_test(test_numbers),
+      cmocka_unit_test(test_values),          cmocka_unit_test(test_input_files),
+      cmocka_unit_test(test_bad_data),        cmocka_unit_test(test_outputs),
+      cmocka_unit_test(test_outputs_first),   cmocka_unit_test(test_empty_values),
+      cmocka_unit_test(test_unknown_options), cmocka_unit_test(test_new_usage),
+      cmocka_unit_test(test_hints),           cmocka_unit_test(test_control_characters),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -55,7 +55,7 @@ static void test_in_place(void **state) {
   (void)state;
   assert_true(shim_write_box(scratch_path("place.vtu"), SHIM_RAW, 5, (double[3]){-1.7, -1.6, -1.3},
                              (double[3]){1.5, 1.6, 0.4}, 1));
-  RUN_FINE(scratch_path("place.vtu"), "--output", scratch_path("place.vtu"), "--half-thickness", "1", "--stats", "-");
+  RUN_FINE(scratch_path("place.vtu"), "--output", scratch_path("place.vtu"), "--half-thickness", "0.6", "--stats", "-");
   assert_int_equal(shim_read_array(scratch_path("place.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE("--surface-output", scratch_path("place.vtp"));
   RUN_FINE("--surface", scratch_path("place.vtp"), "--scale", "2", "--surface-output", scratch_path("place.vtp"));

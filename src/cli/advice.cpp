@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/advice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "cli/valve_file.hpp"
+
+namespace riis::cli {
+namespace {
+
+// Of a valve in the mesh that it stands in: the mesh is from half as large to 40 times as large, its edges are up to 0.3 of the
+// valve, and both overlap.
+constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
+// Of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
+constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
+// Of an edge of the mesh: below, the band between two layers of nodes holds few of either.
+constexpr double smallest_half_thickness = 0.2;
+
+constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
+
+// The boxes as if the surface had been scaled by 1 / factor: its translation is in the mesh's unit, and stays.
+bool overlap_at(double factor, const Situation &s) {
+  for (int k = 0; k < 3; ++k) {
+    const double shift = s.options.surface_options.translation[k];
+    const double lower = (s.surface.lower[k] - shift) / factor + shift,
+                 upper = (s.surface.upper[k] - shift) / factor + shift;
+    if (upper < s.mesh.lower[k] || lower > s.mesh.upper[k]) return false;
+  }
+  return true;
+}
+
+double mesh_in_surfaces(const Situation &s) { return s.mesh.largest_side() / s.surface.largest_side(); }
+
+bool sizes_fit_at(double factor, const Situation &s) {
+  const double ratio = factor * mesh_in_surfaces(s);
+  return ratio >= smallest_mesh && ratio <= largest_mesh &&
+         factor * s.median_edge <= longest_edge * s.surface.largest_side();
+}
+
+// The factor that the mesh's lengths want before they go with the surface's; none if they go, or if no power of ten helps.
+std::optional<double> missing_factor(const Situation &s) {
+  if (sizes_fit_at(1, s) && overlap_at(1, s)) return std::nullopt;
+  // Sizes that differ as much as these are not in one unit, wherever they are.
+  const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
+  std::optional<double> best;
+  for (const bool must_overlap : {true, false}) {
+    if (!must_overlap && (best || !differ_widely)) break;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double factor : factors) {
+      if (!sizes_fit_at(factor, s) || (must_overlap && !overlap_at(factor, s))) continue;
+      const double oddity = std::abs(std::log(factor * mesh_in_surfaces(s) / usual_mesh));
+      if (oddity < least) {
+        least = oddity;
+        best = factor;
+      }
+    }
+  }
+  return best;
+}
+
+// The situation after the surface was scaled to go with the mesh.
+Situation rescaled(const Situation &s, double factor) {
+  Situation changed = s;
+  for (int k = 0; k < 3; ++k) {
+    changed.surface.lower[k] /= factor;
+    changed.surface.upper[k] /= factor;
+  }
+  changed.area /= factor * factor;
+  return changed;
+}
+
+// A power of ten times the half thickness that fits; if none does, the mesh's edge; 0 if that is too large as well.
+double better_half_thickness(const Situation &s) {
+  const auto fits = [&](double half_thickness) {
+    return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
+  };
+  const double usual = usual_half_thickness * s.surface.largest_side();
+  double best = 0;
+  for (const double factor : factors) {
+    const double candidate = s.half_thickness * factor;
+    if (!fits(candidate)) continue;
+    if (best == 0 || std::abs(std::log(candidate / usual)) < std::abs(std::log(best / usual))) best = candidate;
+  }
+  if (best != 0) return best;
+  return s.median_edge > 0 && fits(s.median_edge) ? s.median_edge : 0;
+}
+
+std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
+
+bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
+
+// What makes the scale, and what the sizes look like then.
+struct Cure {
+  std::string look, write;
+};
+
+std::string look_of(Unit mesh, Unit surface) {
+  if (mesh == surface) return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", as the surface is";
+  return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", the surface in " + words_of(surface);
+}
+
+Cure cure_for_scale(const Options &options, double scale) {
+  if (is_parametric(options)) {
+    if (const auto mesh = unit_reached(Unit::centimetre, scale)) {
+      return {look_of(*mesh, Unit::centimetre), option("--unit", *mesh)};
+    }
+  } else {
+    const auto mesh = options.surface_unit ? unit_reached(*options.surface_unit, scale) : std::nullopt;
+    const auto pair = mesh ? UnitPair{*options.surface_unit, *mesh} : units_of_factor(scale);
+    if (pair) {
+      return {look_of(pair->mesh, pair->surface),
+              option("--unit", pair->mesh) + " " + option("--surface-unit", pair->surface)};
+    }
+  }
+  return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
+}
+
+// What the user wrote of the scale, which is to go.
+std::string in_place_of(const Options &options) {
+  if (options.unit) {
+    const std::string unit = " in place of " + option("--unit", *options.unit);
+    return options.surface_unit ? unit + " " + option("--surface-unit", *options.surface_unit) : unit;
+  }
+  return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
+}
+
+}  // namespace
+
+std::string shown(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
+bool is_too_large(double half_thickness, const Situation &s) {
+  return half_thickness > largest_half_thickness * s.surface.largest_side();
+}
+
+bool is_too_small(double half_thickness, const Situation &s) {
+  return half_thickness < smallest_half_thickness * s.median_edge;
+}
+
+std::optional<std::string> advice_on_units(const Situation &s) {
+  const auto factor = missing_factor(s);
+  if (!factor) return std::nullopt;
+  const Cure cure = cure_for_scale(s.options, s.options.surface_options.scale / *factor);
+  std::string write = cure.write;
+  if (s.options.has_half_thickness) {
+    const Situation cured = rescaled(s, *factor);
+    if (is_too_large(s.half_thickness, cured) || is_too_small(s.half_thickness, cured)) {
+      const double better = better_half_thickness(cured);
+      if (better > 0) write += " --half-thickness " + shown(better);
+    }
+  }
+  return cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " + shown(s.surface.largest_side()) +
+         "): write " + write + in_place_of(s.options);
+}
+
+std::optional<std::string> advice_on_half_thickness(const Situation &s) {
+  const bool is_large = is_too_large(s.half_thickness, s);
+  if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
+  std::string text = "the half thickness is " + shown(s.half_thickness);
+  text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
+                   : ", the median edge of the mesh " + shown(s.median_edge);
+  // A file whose unit nobody has named, and the default for centimetres.
+  const bool is_unknown =
+      !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
+  const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
+  if (unit && !is_too_large(paper_half_thickness(*unit), s) && !is_too_small(paper_half_thickness(*unit), s)) {
+    return text + ", and both look as if they were in " + words_of(*unit) + ": write " + option("--unit", *unit) + " " +
+           option("--surface-unit", *unit);
+  }
+  const double better = better_half_thickness(s);
+  return text + (better > 0 ? ": write --half-thickness " + shown(better) : ": see --half-thickness, --scale");
+}
+
+}  // namespace riis::cli

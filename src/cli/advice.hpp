@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: sizes that do not go together. Out: what they look like, and the options that would make them go together.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/warnings.hpp"
+
+namespace riis::cli {
+
+// The half thickness is larger than a quarter of the surface, or so small that it falls between the mesh's nodes.
+bool is_too_large(double half_thickness, const Situation &situation);
+bool is_too_small(double half_thickness, const Situation &situation);
+
+// Whether mesh and surface are in different units by the look of their sizes, and what to write then: "the mesh looks as if it were
+// in metres, ...: write --unit m".
+std::optional<std::string> advice_on_units(const Situation &situation);
+
+// The same for a half thickness that is too large or too small.
+std::optional<std::string> advice_on_half_thickness(const Situation &situation);
+
+// A number as a user would write it.
+std::string shown(double number);
+
+}  // namespace riis::cli

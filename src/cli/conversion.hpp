@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a file that cannot be read as it is. Out: the command that makes one of it that can.
+#pragma once
+
+#include <string>
+
+namespace riis::cli {
+
+enum class Content { mesh, surface };
+
+// Such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk"; "" for an ending that can be read, and for one that nothing
+// is known of.
+std::string conversion_hint(const std::string &path, Content wanted);
+
+}  // namespace riis::cli

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/warnings.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/advice.hpp"
+#include "cli/refusal.hpp"
+#include "cli/report.hpp"
+
+namespace riis::cli {
+namespace {
+
+// Fewer nodes may well lie near the surface, all of them.
+constexpr int64_t fewest_judged_nodes = 100;
+
+Box box_of(int64_t n_nodes, const double *xyz) {
+  Box box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
+  for (int64_t i = 0; i < 3 * n_nodes; ++i) {
+    const auto axis = i % 3;
+    box.lower[axis] = std::min(box.lower[axis], xyz[i]);
+    box.upper[axis] = std::max(box.upper[axis], xyz[i]);
+  }
+  return box;
+}
+
+std::string text_of(const Box &box) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) {
+    text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + shown(box.lower[k]) + " to " + shown(box.upper[k]);
+  }
+  return text;
+}
+
+bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
+
+// A single layer of nodes all over the surface would be about area / edge^2.
+bool has_hardly_any(const Situation &s) {
+  return s.n_marked > 0 && static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
+}
+
+bool has_odd_half_thickness(const Situation &s) {
+  return s.n_nodes >= fewest_judged_nodes && (is_too_large(s.half_thickness, s) || is_too_small(s.half_thickness, s));
+}
+
+std::string marked_text(const Situation &s) {
+  if (s.n_marked == 0) return "no node is marked";
+  if (has_all(s)) return "all " + counted(s.n_nodes, "node") + " are marked";
+  const std::string text =
+      grouped(s.n_marked) + " of " + counted(s.n_nodes, "node") + (s.n_marked == 1 ? " is marked" : " are marked");
+  return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
+}
+
+// Where sizes explain nothing: the places.
+std::string places_text(const Situation &s) {
+  return "the mesh is in " + text_of(s.mesh) + ", the surface in " + text_of(s.surface) + ", the half thickness is " +
+         shown(s.half_thickness) + ": see --translate, --rotate, --scale, --half-thickness";
+}
+
+}  // namespace
+
+double Box::largest_side() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
+
+Situation situation_of(const Options &options, const riis_surface_info &surface, const riis_mark_stats &marks,
+                       const riis_vtk_mesh *mesh) {
+  int64_t n_nodes = 0;
+  const double *xyz = nullptr;
+  check(riis_vtk_mesh_nodes(mesh, &n_nodes, nullptr, &xyz));
+  Situation situation{options, n_nodes, marks.n_marked, box_of(n_nodes, xyz),
+                      {},      0,       surface.area,   surface.half_thickness};
+  std::copy_n(surface.lower, 3, situation.surface.lower);
+  std::copy_n(surface.upper, 3, situation.surface.upper);
+  check(riis_vtk_mesh_median_edge(mesh, &situation.median_edge));
+  return situation;
+}
+
+std::string warning_of(const Situation &s) {
+  const bool has_none = s.n_marked == 0 && !s.options.allow_none;
+  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return "";
+  std::string why = advice_on_units(s).value_or("");
+  if (why.empty()) why = advice_on_half_thickness(s).value_or("");
+  if (why.empty()) why = places_text(s);
+  return marked_text(s) + ": " + why;
+}
+
+void warn(const std::string &text) { std::fprintf(stderr, "riis-mark: %s\n", text.c_str()); }
+
+}  // namespace riis::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/proportions.hpp"
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "base/log.hpp"
+
+namespace riis {
+namespace {
+
+double largest_side(const Bounds &bounds) {
+  const Vec3 extent = bounds.upper - bounds.lower;
+  return std::max({extent.x, extent.y, extent.z});
+}
+
+// What does not fit, or NULL.
+const char *misfit(double mesh, double surface, double half_thickness) {
+  constexpr double most = 50;
+  if (surface > most * mesh) return "the surface is more than 50 times as large as the mesh";
+  if (mesh > most * surface) return "the mesh is more than 50 times as large as the surface";
+  if (half_thickness > surface) return "the half thickness is larger than the surface";
+  if (half_thickness > mesh) return "the half thickness is larger than the mesh";
+  return nullptr;
+}
+
+}  // namespace
+
+bool Warned::has(std::uint64_t surface_number) const {
+  return std::any_of(numbers_.begin(), numbers_.end(), [&](const std::atomic<std::uint64_t> &number) {
+    return number.load(std::memory_order_relaxed) == surface_number;
+  });
+}
+
+bool Warned::is_first(std::uint64_t surface_number) {
+  for (std::atomic<std::uint64_t> &number : numbers_) {
+    std::uint64_t found = 0;
+    if (number.compare_exchange_strong(found, surface_number, std::memory_order_relaxed)) return true;
+    if (found == surface_number) return false;
+  }
+  return false;
+}
+
+void check_proportions(const Sizes &sizes, std::uint64_t surface_number, Warned &warned) {
+  // The box of a few nodes may be of any size.
+  constexpr std::int64_t fewest_nodes = 1000;
+  if (sizes.n_nodes < fewest_nodes) return;
+  const double mesh = largest_side(sizes.mesh), surface = largest_side(sizes.surface);
+  const char *what = misfit(mesh, surface, sizes.half_thickness);
+  if (!what || warned.has(surface_number) || !is_logging() || !warned.is_first(surface_number)) return;
+  log_message(RIIS_LOG_WARNING, what, ": largest sides of their boxes are ", rounded(mesh, 4), " (mesh of ",
+              sizes.n_nodes, " nodes) and ", surface, " (surface), the half thickness is ", sizes.half_thickness,
+              "; are all in one unit? See scale and half_thickness of riis_surface_options");
+}
+
+}  // namespace riis

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Files of other formats: the refusal names a command, with the user's own names, and the command works, for which it is run where its
+ * program is installed. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static void test_texts(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(1,
+              "dir/heart.msh: a mesh must be a .vtu or .vtk file; gmsh converts it: gmsh -save dir/heart.msh -format "
+              "vtk -o dir/heart.vtk\n",
+              "dir/heart.msh");
+  RUN_REFUSED(1, "; gmsh converts it: gmsh -save heart.UNV -format vtk -o heart.vtk\n", "heart.UNV");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert heart.inp heart.vtu\n", "heart.inp");
+  RUN_REFUSED(1, "gmsh -save 'my heart.msh' -format vtk -o 'my heart.vtk'\n", "my heart.msh");
+  RUN_REFUSED(1, "gmsh -save 'it'\\''s.msh' -format vtk -o 'it'\\''s.vtk'\n", "it's.msh");
+  RUN_REFUSED(1, "gmsh -save ./-x.msh -format vtk -o ./-x.vtk\n", "--", "-x.msh");
+  RUN_REFUSED(1, "valve.stl: a mesh must be a .vtu or .vtk file; a surface goes behind --surface\n", "valve.stl");
+  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "heart.doc");
+  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "he\nart.msh");
+  RUN_REFUSED(1,
+              "valve.ply: a surface must be a .vtp, .vtu or .stl file; gmsh converts it: gmsh -save valve.ply -format "
+              "stl -o valve.stl\n",
+              mesh, "--surface", "valve.ply");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert valve.obj valve.stl\n", mesh, "--surface", "valve.obj");
+  RUN_REFUSED(1, "a surface must be a .vtp, .vtu or .stl file\n", mesh, "--surface", "valve.doc");
+}
+
+#if defined(RIIS_GMSH) || defined(RIIS_MESHIO)
+/* Runs the command of the last refusal, by its program's path, and returns the file that it makes. */
+static const char *convert(const char *tool, const char *path) {
+  static char command[2048], made[256];
+  char marker[64];
+  snprintf(marker, sizeof marker, " converts it: %s ", tool);
+  const char *arguments = strstr(program_err, marker);
+  if (!arguments) fail_msg("no command in %s", program_err);
+  arguments += strlen(marker);
+  snprintf(command, sizeof command, "%s %.*s > %s 2>&1", path, (int)strcspn(arguments, "\n"), arguments,
+           scratch_path("log.txt"));
+  if (system(command) != 0) fail_msg("%s\n%s", command, scratch_read(scratch_path("log.txt"), NULL));
+  snprintf(made, sizeof made, "%.*s", (int)strcspn(arguments, "\n"), arguments);
+  return strrchr(made, ' ') + 1;
+}
+#endif
+
+#ifdef RIIS_GMSH
+/* A cube of tetrahedra, and its skin, by gmsh itself in its own formats. */
+static void make_by_gmsh(int dimension, const char *format, const char *path) {
+  char command[1024];
+  scratch_write_text(
+      "cube.geo",
+      "SetFactory(\"OpenCASCADE\");\nBox(1) = {-2, -2, -2, 4, 4, 4};\nMesh.MeshSizeMax = 1;\nMesh.MeshSizeMin = 1;\n");
+  snprintf(command, sizeof command, RIIS_GMSH " -v 1 -nt 1 -%d %s -format %s -o %s > /dev/null 2>&1", dimension,
+           scratch_path("cube.geo"), format, path);
+  if (system(command) != 0) fail_msg("%s", command);
+}
+
+static void test_meshes_by_gmsh(void **state) {
+  (void)state;
+  const char *formats[] = {"msh", "unv", "bdf", "mesh", "bdf"}, *endings[] = {"msh", "unv", "bdf", "mesh", "nas"};
+  for (int i = 0; i < 5; ++i) {
+    char name[32], path[256];
+    snprintf(name, sizeof name, "cube_%d.%s", i, endings[i]);
+    snprintf(path, sizeof path, "%s", scratch_path(name));
+    make_by_gmsh(3, formats[i], path);
+    RUN_REFUSED(1, "gmsh converts it", path);
+    run_program(convert("gmsh", RIIS_GMSH), "--half-thickness", "0.6", "--stats", "-", NULL);
+    assert_int_equal(program_exit_code, 0);
+    assert_true(json_number(program_out, "n_nodes") > 100 && json_number(program_out, "n_marked") > 5);
+  }
+}
+
+static void test_surfaces_by_gmsh(void **state) {
+  (void)state;
+  const char *formats[] = {"msh", "unv", "bdf", "mesh", "bdf", "ply2", "vtk"};
+  const char *endings[] = {"msh", "unv", "bdf", "mesh", "nas", "ply2", "vtk"};
+  for (int i = 0; i < 8; ++i) {
+    char name[32], path[256];
+    snprintf(name, sizeof name, "skin_%d.%s", i, i < 7 ? endings[i] : "ply");
+    snprintf(path, sizeof path, "%s", scratch_path(name));
+    if (i < 7) {
+      make_by_gmsh(2, formats[i], path);
+    } else { /* gmsh reads it, but does not write it */
+      scratch_write_text(
+          name,
+          "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+          "-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n3 0 1 2\n3 0 2 3\n");
+    }
+    RUN_REFUSED(1, "gmsh converts it", "--surface", path, "--surface-output", scratch_path("skin.vtp"));
+    RUN_FINE(scratch_path("in.vtu"), "--surface", convert("gmsh", RIIS_GMSH), "--half-thickness", "0.4", "--stats", "-",
+             "--allow-none");
+    const double area = json_number(program_out, "area");
+    assert_true(i < 7 ? area > 95.99 && area < 96.01 : area == 4);
+  }
+}
+#endif
+
+#ifdef RIIS_MESHIO
+static void test_meshio(void **state) {
+  (void)state;
+  scratch_write_text("tet.inp",
+                     "*HEADING\ntet\n*NODE\n1, -1, -1, -1\n2, 1, -1, -1\n3, 0, 1, -1\n4, 0, 0, 1\n*ELEMENT, "
+                     "TYPE=C3D4\n1, 1, 2, 3, 4\n");
+  scratch_write_text(
+      "tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n-1 -1 -1 0\n1 -1 -1 1\n0 1 -1 2\n0 0 1 3\nNMARK= 0\n");
+  scratch_write_text("skin.obj", "v -1 -1 -1\nv 1 -1 -1\nv 0 1 -1\nf 1 2 3\n");
+  scratch_write_text("skin.off", "OFF\n3 1 0\n-1 -1 -1\n1 -1 -1\n0 1 -1\n3 0 1 2\n");
+  const char *meshes[] = {"tet.inp", "tet.su2"}, *surfaces[] = {"skin.obj", "skin.off"};
+  for (int i = 0; i < 2; ++i) {
+    char path[256];
+    snprintf(path, sizeof path, "%s", scratch_path(meshes[i]));
+    RUN_REFUSED(1, "meshio converts it", path);
+    run_program(convert("meshio", RIIS_MESHIO), "--half-thickness", "0.6", "--stats", "-", NULL);
+    assert_int_equal(program_exit_code, 0);
+    assert_true(json_number(program_out, "n_nodes") == 4 && json_number(program_out, "n_cells") == 1);
+    snprintf(path, sizeof path, "%s", scratch_path(surfaces[i]));
+    RUN_REFUSED(1, "meshio converts it", "--surface", path, "--surface-output", scratch_path("skin.vtp"));
+    RUN_FINE("--surface", convert("meshio", RIIS_MESHIO), "--surface-output", scratch_path("skin.vtp"));
+    assert_non_null(strstr(program_out, "1 triangle, area 2\n"));
+  }
+}
+#endif
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_texts),
+#ifdef RIIS_GMSH
+      cmocka_unit_test(test_meshes_by_gmsh),
+      cmocka_unit_test(test_surfaces_by_gmsh),
+#endif
+#ifdef RIIS_MESHIO
+      cmocka_unit_test(test_meshio),
+#endif
+  };
+  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --leaflets: a surface file's leaflets from its pieces or from an array of its own. --prefix and --replace: the marks of a second valve
+ * beside those of the first, or in their place. */
+#include <math.h>
+#include <riis/riis_vtk.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+/* Three squares of two triangles each, one above the other; their triangles in turn. */
+static const double heights[3] = {-0.2, 0, -1};
+static void write_squares(void) {
+  static char text[4096];
+  char *end = stpcpy(text, "solid squares\n");
+  for (int half = 0; half < 2; ++half)
+    for (int i = 0; i < 3; ++i)
+      end += sprintf(end,
+                     "facet normal 0 0 1\nouter loop\nvertex -1 -1 %g\nvertex %s %g\nvertex %s %g\nendloop\nendfacet\n",
+                     heights[i], half ? "1 1" : "1 -1", heights[i], half ? "-1 1" : "1 1", heights[i]);
+  strcpy(end, "endsolid\n");
+  scratch_write_text("squares.stl", text);
+}
+
+static int make_files(void **state) {
+  if (make_box(state)) return -1;
+  write_squares();
+  return 0;
+}
+
+/* Every node within the limit has the leaflet of the square that is nearest to it, by its height. */
+static void expect_leaflets(const char *path, const int leaflets[3]) {
+  static double xyz[3 * n_box], leaflet[n_box];
+  int n_of[3] = {0, 0, 0};
+  assert_int_equal(shim_read_points(path, NULL, NULL, NULL, xyz), 1);
+  assert_int_equal(shim_read_array(path, 'p', "riis_leaflet", NULL, NULL, NULL, leaflet), 1);
+  for (int i = 0; i < n_box; ++i) {
+    if (leaflet[i] < 0) continue;
+    int nearest = 0;
+    for (int k = 1; k < 3; ++k)
+      if (fabs(xyz[3 * i + 2] - heights[k]) < fabs(xyz[3 * i + 2] - heights[nearest])) nearest = k;
+    if (leaflet[i] != leaflets[nearest]) fail_msg("node %d has leaflet %g, not %d", i, leaflet[i], leaflets[nearest]);
+    ++n_of[nearest];
+  }
+  for (int k = 0; k < 3; ++k) assert_true(n_of[k] > 10);
+}
+
+#define RUN_LEAFLETS(surface, ...)                                                                            \
+  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path(surface), "--half-thickness", "0.2", "--output", \
+           scratch_path("out.vtu"), __VA_ARGS__)
+
+static void test_leaflets(void **state) {
+  (void)state;
+  RUN_LEAFLETS("squares.stl", "--stats", scratch_path("s.json"));
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 0, 0});
+  assert_null(strstr(program_out, "leaflet"));
+  RUN_LEAFLETS("squares.stl", "--leaflets", "connected");
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
+  assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
+  RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
+  assert_true(json_number(program_out, "n_leaflets") == 3);
+  /* What it wrote keeps them, and has other arrays: riis_triangle is the triangle's own number. */
+  RUN_FINE("--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--surface-output",
+           scratch_path("squares.vtp"));
+  RUN_LEAFLETS("squares.vtp", "--quiet");
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
+  RUN_LEAFLETS("squares.vtp", "--leaflets", "riis_leaflet");
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
+  RUN_LEAFLETS("squares.vtp", "--leaflets", "riis_patch");
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 0, 0});
+  RUN_LEAFLETS("squares.vtp", "--leaflets", "riis_triangle");
+  assert_non_null(strstr(program_out, ", 6 leaflets, "));
+}
+
+static void test_leaflet_refusals(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_FINE("--surface", scratch_path("squares.stl"), "--surface-output", scratch_path("s.vtp"));
+  RUN_REFUSED(1, "s.vtp: has no cell array colour; there are: riis_leaflet, riis_patch, riis_triangle", mesh,
+              "--surface", scratch_path("s.vtp"), "--leaflets", "colour");
+  RUN_REFUSED(1, "squares.stl: has no cell array colour; there is none", mesh, "--surface", scratch_path("squares.stl"),
+              "--leaflets", "colour");
+  scratch_write_text(
+      "bad.vtp",
+      "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
+      "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><CellData>\n"
+      "<DataArray type=\"Float64\" Name=\"half\" format=\"ascii\">1.5</DataArray></CellData><Points>\n"
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray>"
+      "</Points>\n<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys>\n"
+      "</Piece></PolyData></VTKFile>\n");
+  RUN_REFUSED(1, "bad.vtp: cell array half: cell 0 has 1.5", mesh, "--surface", scratch_path("bad.vtp"), "--leaflets",
+              "half");
+  RUN_REFUSED(2, "--leaflets: the value is empty", mesh, "--surface", scratch_path("s.vtp"), "--leaflets", "");
+}
+
+static double n_marked_in(const char *path, const char *name) {
+  static double values[n_box];
+  double n = 0;
+  assert_int_equal(shim_read_array(path, 'p', name, NULL, NULL, NULL, values), 1);
+  for (int i = 0; i < n_box; ++i) n += values[i];
+  return n;
+}
+
+/* Two valves in one mesh, one after the other. */
+static void test_two_valves(void **state) {
+  (void)state;
+  char first[256], both[256];
+  snprintf(first, sizeof first, "%s", scratch_path("first.vtu"));
+  snprintf(both, sizeof both, "%s", scratch_path("both.vtu"));
+  RUN_FINE(scratch_path("in.vtu"), "--output", first, "--stats", "-");
+  const double n_aortic = json_number(program_out, "n_marked");
+  RUN_REFUSED(2, "first.vtu has an array riis_marked already: write --replace to replace it, or --prefix NAME", first,
+              "--valve", "mitral", "--output", both);
+  assert_int_equal(scratch_exists("both.vtu"), 0);
+  RUN_FINE(first, "--valve", "mitral", "--prefix", "mitral", "--output", both, "--stats", "-");
+  const double n_mitral = json_number(program_out, "n_marked");
+  assert_true(n_mitral > 0 && n_mitral != n_aortic);
+  assert_true(n_marked_in(both, "riis_marked") == n_aortic);
+  assert_true(n_marked_in(both, "mitral_marked") == n_mitral);
+  assert_int_equal(shim_read_array(both, 'p', "mitral_distance", NULL, NULL, NULL, NULL), 1);
+  assert_int_equal(shim_read_array(both, 'p', "mitral_leaflet", NULL, NULL, NULL, NULL), 1);
+  RUN_REFUSED(2, "both.vtu has an array mitral_marked already", both, "--prefix", "mitral", "--output", both);
+  RUN_FINE(both, "--replace", "--prefix", "mitral", "--output", both, "--quiet");
+  assert_true(n_marked_in(both, "mitral_marked") == n_aortic);
+  RUN_FINE(both, "--valve", "mitral", "--replace", "--output", both, "--quiet");
+  assert_true(n_marked_in(both, "riis_marked") == n_mitral);
+  /* Without an output nothing is replaced. */
+  RUN_FINE(both, "--stats", "-");
+  assert_true(json_number(program_out, "n_marked") == n_aortic);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_leaflets),
+      cmocka_unit_test(test_leaflet_refusals),
+      cmocka_unit_test(test_two_valves),
+  };
+  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
+}

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --unit and --surface-unit: the same marks whatever the unit. And what is told of sizes that do not go together: the options that the
+ * line names are taken from it, and mend it. */
+#include <riis/riis_vtk.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+enum { n_units = 3 };
+static const char *const units[n_units] = {"m", "cm", "mm"};
+static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres */
+static char meshes[n_units][256], surfaces[n_units][256];
+static int n_wanted; /* marked nodes of the valve in the box */
+
+/* The same box with finer cells than in.vtu, and the same valve, in every unit. */
+static int make_files(void **state) {
+  scratch_setup(state);
+  for (int i = 0; i < n_units; ++i) {
+    char name[32];
+    const double f = factors[i];
+    snprintf(name, sizeof name, "%s.vtu", units[i]);
+    snprintf(meshes[i], sizeof meshes[i], "%s", scratch_path(name));
+    snprintf(name, sizeof name, "%s.vtp", units[i]);
+    snprintf(surfaces[i], sizeof surfaces[i], "%s", scratch_path(name));
+    if (!shim_write_box(meshes[i], SHIM_RAW, 22, (double[3]){-1.7 * f, -1.6 * f, -1.3 * f},
+                        (double[3]){1.5 * f, 1.6 * f, 0.4 * f}, 0))
+      return -1;
+    run_program("--unit", units[i], "--surface-output", surfaces[i], "--quiet", NULL);
+    if (program_exit_code != 0) return -1;
+  }
+  run_program(meshes[1], "--stats", "-", NULL);
+  n_wanted = (int)json_number(program_out, "n_marked");
+  return n_wanted > 100 ? 0 : -1;
+}
+
+/* Rounding may move a node that is as far as the half thickness; a wrong unit moves all. */
+static void expect_wanted_marks(void) {
+  if (program_exit_code != 0 || program_err[0]) fail_msg("exit code %d, stderr: %s", program_exit_code, program_err);
+  const double n = json_number(program_out, "n_marked");
+  if (!(n >= n_wanted - 2 && n <= n_wanted + 2)) fail_msg("%g nodes are marked, not %d", n, n_wanted);
+}
+
+static void test_valves(void **state) {
+  (void)state;
+  for (int i = 0; i < n_units; ++i) {
+    run_program(meshes[i], "--unit", units[i], "--stats", "-", NULL);
+    expect_wanted_marks();
+    assert_true(json_number(program_out, "half_thickness") == 0.1 * factors[i]);
+    run_program(meshes[i], "--unit", units[i], "--surface-unit", "cm", "--stats", "-", NULL);
+    expect_wanted_marks();
+    char scale[32];
+    snprintf(scale, sizeof scale, "%g", factors[i]);
+    run_program(meshes[i], "--scale", scale, "--stats", "-", NULL);
+    expect_wanted_marks();
+  }
+  run_program(meshes[0], "--unit", "m", "--half-thickness", "0.002", "--stats", "-", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_true(json_number(program_out, "half_thickness") == 0.002);
+}
+
+static void test_surface_files(void **state) {
+  (void)state;
+  for (int i = 0; i < n_units; ++i) {
+    for (int k = 0; k < n_units; ++k) {
+      run_program(meshes[i], "--unit", units[i], "--surface", surfaces[k], "--surface-unit", units[k], "--stats", "-",
+                  NULL);
+      expect_wanted_marks();
+      assert_true(json_number(program_out, "half_thickness") == 0.1 * factors[i]);
+    }
+  }
+}
+
+static void test_patches(void **state) {
+  (void)state;
+  /* A square of one centimetre, in millimetres. */
+  scratch_write_text(
+      "v.json",
+      "{\"curves\": {\"a\": [[-5,-5,-3], [5,-5,-3]], \"b\": [[-5,5,-3], [5,5,-3]], \"c\": [[-5,-5,-3], [-5,5,-3]],"
+      " \"d\": [[5,-5,-3], [5,5,-3]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
+  double n_marked[n_units];
+  for (int i = 0; i < n_units; ++i) {
+    RUN_FINE(meshes[i], "--valve", scratch_path("v.json"), "--unit", units[i], "--surface-unit", "mm", "--stats", "-");
+    n_marked[i] = json_number(program_out, "n_marked");
+    assert_true(json_number(program_out, "area") > 0.99 * factors[i] * factors[i] &&
+                json_number(program_out, "area") < 1.01 * factors[i] * factors[i]);
+  }
+  assert_true(n_marked[0] > 30 && n_marked[0] == n_marked[1] && n_marked[1] == n_marked[2]);
+}
+
+/* One line with this text and status; --quiet does not take it away. */
+static void expect_warning(int exit_code, const char *text) {
+  const char *end = strchr(program_err, '\n');
+  if (program_exit_code != exit_code || strncmp(program_err, "riis-mark: ", 11) != 0 || !end || end[1] ||
+      !strstr(program_err, text))
+    fail_msg("exit code %d for %d, wanted \"%s\"\nstderr: %s", program_exit_code, exit_code, text, program_err);
+}
+
+/* The words behind "write ", up to " in place of", as arguments. */
+static int advised(char words[8][64]) {
+  static char text[longest_output];
+  const char *place = strstr(program_err, ": write ");
+  if (!place) fail_msg("no advice in %s", program_err);
+  snprintf(text, sizeof text, "%s", place + strlen(": write "));
+  text[strcspn(text, "\n")] = 0;
+  char *rest = strstr(text, " in place of");
+  if (rest) *rest = 0;
+  int n = 0;
+  for (char *word = strtok(text, " "); word && n < 8; word = strtok(NULL, " ")) snprintf(words[n++], 64, "%s", word);
+  assert_true(n > 0);
+  return n;
+}
+
+/* Runs it with what the last warning advises: all is well then. surface may be NULL. */
+static void expect_cured(const char *mesh, const char *surface) {
+  char words[8][64];
+  const int n_words = advised(words);
+  const char *arguments[13] = {"--stats", "-"};
+  int n = 2;
+  if (surface) arguments[n++] = "--surface";
+  if (surface) arguments[n++] = surface;
+  for (int i = 0; i < n_words; ++i) arguments[n++] = words[i];
+  run_program(mesh, arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5], arguments[6],
+              arguments[7], arguments[8], arguments[9], arguments[10], arguments[11], NULL);
+  expect_wanted_marks();
+}
+
+static void test_wrong_valve_units(void **state) {
+  (void)state;
+  run_program(meshes[0], NULL);
+  expect_warning(3, "no node is marked: the mesh looks as if it were in metres, the surface in centimetres");
+  expect_warning(3, ": write --unit m\n");
+  expect_cured(meshes[0], NULL);
+  run_program(meshes[0], "--quiet", "--stats", scratch_path("s.json"), NULL);
+  expect_warning(3, ": write --unit m\n");
+  run_program(meshes[2], NULL);
+  expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
+  expect_warning(program_exit_code, ": write --unit mm\n");
+  expect_cured(meshes[2], NULL);
+  run_program(meshes[1], "--scale", "0.01", NULL);
+  expect_warning(3, "the mesh looks as if it were in centimetres, as the surface is");
+  expect_warning(3, ": write --unit cm in place of --scale 0.01\n");
+  expect_cured(meshes[1], NULL);
+  run_program(meshes[0], "--unit", "mm", NULL);
+  expect_warning(3, ": write --unit m in place of --unit mm\n");
+  expect_cured(meshes[0], NULL);
+  /* A half thickness that would go with neither is told of at once. */
+  run_program(meshes[0], "--half-thickness", "0.1", NULL);
+  expect_warning(3, ": write --unit m --half-thickness 0.001\n");
+  expect_cured(meshes[0], NULL);
+}
+
+static void test_wrong_file_units(void **state) {
+  (void)state;
+  run_program(meshes[0], "--surface", surfaces[2], NULL);
+  expect_warning(3, ": write --unit m --surface-unit mm\n");
+  expect_cured(meshes[0], surfaces[2]);
+  run_program(meshes[2], "--surface", surfaces[0], NULL);
+  expect_warning(program_exit_code, ": write --unit mm --surface-unit m\n");
+  expect_cured(meshes[2], surfaces[0]);
+  run_program(meshes[0], "--surface", surfaces[2], "--unit", "m", "--surface-unit", "m", NULL);
+  expect_warning(3, ": write --unit m --surface-unit mm in place of --unit m --surface-unit m\n");
+  expect_cured(meshes[0], surfaces[2]);
+  /* Both in one unit, which is not the half thickness'. */
+  run_program(meshes[2], "--surface", surfaces[2], NULL);
+  expect_warning(0, "the median edge of the mesh ");
+  expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
+  expect_cured(meshes[2], surfaces[2]);
+  run_program(meshes[0], "--surface", surfaces[0], NULL);
+  expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
+  expect_warning(0, "both look as if they were in metres: write --unit m --surface-unit m\n");
+  expect_cured(meshes[0], surfaces[0]);
+  /* A factor that no two units have. */
+  run_program(meshes[1], "--surface", surfaces[1], "--scale", "1e-4", NULL);
+  expect_warning(3, "different units");
+  expect_warning(3, "in place of --scale 0.0001\n");
+}
+
+static void test_half_thickness(void **state) {
+  (void)state;
+  run_program(meshes[0], "--scale", "0.01", "--half-thickness", "0.1", "--quiet", "--stats", scratch_path("s.json"),
+              NULL);
+  expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
+  expect_warning(0, ": write --half-thickness 0.001\n");
+  run_program(meshes[0], "--scale", "0.01", "--half-thickness", "0.001", "--stats", "-", NULL);
+  expect_wanted_marks();
+  run_program(meshes[1], "--half-thickness", "1", NULL);
+  expect_warning(0, "nodes are marked, which looks wrong: the half thickness is 1, the largest side of the surface 2.");
+  expect_cured(meshes[1], NULL);
+  run_program(meshes[1], "--half-thickness", "0.001", NULL);
+  expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
+  expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
+  expect_cured(meshes[1], NULL);
+  /* Too coarse a mesh for any power of ten: its edge. */
+  const double far = 1.6;
+  assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
+                                  (double[3]){far, far, far}, 0),
+                   1);
+  run_program(scratch_path("coarse.vtu"), "--half-thickness", "0.08", NULL);
+  expect_warning(program_exit_code, ": write --half-thickness 0.");
+  /* A file whose surface is in no size of a valve. */
+  run_program(meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
+  expect_warning(0, ": write --half-thickness 0.07\n");
+}
+
+/* Where sizes explain nothing: the places. */
+static void test_places(void **state) {
+  (void)state;
+  run_program(meshes[1], "--translate", "50,0,0", NULL);
+  expect_warning(3,
+                 "no node is marked: the mesh is in x -1.7 to 1.5, y -1.6 to 1.6, z -1.3 to 0.4, the surface in x 48.");
+  expect_warning(3, "the half thickness is 0.1: see --translate, --rotate, --scale, --half-thickness\n");
+  /* A corner of the valve alone is in the mesh. */
+  run_program(meshes[1], "--translate", "2.6,0,0", NULL);
+  expect_warning(0, "only ");
+  expect_warning(0, " of 10,648 nodes are marked: the mesh is in x");
+  RUN_FINE(meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));
+  /* A mesh of few nodes, all of them near, is no news. */
+  scratch_write_text("few.vtk",
+                     "# vtk DataFile Version 3.0\nfew\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                     "1 0 -.3 1.01 0 -.3 1 .01 -.3 1 0 -.31\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  run_program(scratch_path("few.vtk"), "--half-thickness", "1", NULL);
+  assert_int_equal(program_exit_code, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_valves),           cmocka_unit_test(test_surface_files),
+      cmocka_unit_test(test_patches),          cmocka_unit_test(test_wrong_valve_units),
+      cmocka_unit_test(test_wrong_file_units), cmocka_unit_test(test_half_thickness),
+      cmocka_unit_test(test_places),
+  };
+  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
+}

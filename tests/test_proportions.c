@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The warning of a mesh, a surface and a half thickness that can hardly be in one unit: when there is one, once, and none for a part
+ * of a mesh that is elsewhere. What the warning goes by, the box of the nodes, wherever they lie. */
+#include <pthread.h>
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+enum { n_side = 11, n_nodes = n_side * n_side * n_side };
+
+typedef struct heard {
+  pthread_mutex_t lock;
+  int n;
+  char last[512];
+} heard;
+static heard warnings = {PTHREAD_MUTEX_INITIALIZER, 0, ""};
+
+static void listen(void *user_data, int32_t level, const char *message) {
+  heard *to = user_data;
+  if (level != RIIS_LOG_WARNING) return;
+  pthread_mutex_lock(&to->lock);
+  ++to->n;
+  snprintf(to->last, sizeof to->last, "%s", message);
+  pthread_mutex_unlock(&to->lock);
+}
+
+static int start_listening(void **state) {
+  (void)state;
+  warnings.n = 0;
+  warnings.last[0] = 0;
+  riis_set_log(listen, &warnings);
+  return 0;
+}
+
+static int stop_listening(void **state) {
+  (void)state;
+  riis_set_log(NULL, NULL);
+  return 0;
+}
+
+static double box[3 * n_nodes];
+
+/* A cube of nodes round a point. */
+static riis_mesh *cube(double centre, double side) {
+  riis_mesh *mesh = NULL;
+  for (int i = 0; i < n_nodes; ++i) {
+    const int place[3] = {i % n_side, i / n_side % n_side, i / n_side / n_side};
+    for (int k = 0; k < 3; ++k) box[3 * i + k] = centre + side * (place[k] / (double)(n_side - 1) - 0.5);
+  }
+  CHECK_OK(riis_mesh_create(n_nodes, box, box + 1, box + 2, 3, &mesh));
+  return mesh;
+}
+
+static void mark(const riis_surface *surface, const riis_mesh *mesh) {
+  riis_mark_options options = mark_options();
+  riis_mark_result *result = NULL;
+  options.n_threads = 1;
+  CHECK_OK(riis_mark_result_create(&result));
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  riis_mark_result_destroy(&result);
+}
+
+/* The number of warnings of one marking of the aortic valve in a new mesh. */
+static int n_warnings(double scale, double half_thickness, double centre, double side) {
+  riis_surface_options options = surface_options();
+  options.scale = scale;
+  options.half_thickness = half_thickness;
+  riis_surface *surface = aortic_surface(&options);
+  riis_mesh *mesh = cube(centre, side);
+  const int before = warnings.n;
+  mark(surface, mesh);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  return warnings.n - before;
+}
+
+static void sizes_that_fit_are_no_news(void **state) {
+  (void)state;
+  assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4), 0);
+  assert_int_equal(n_warnings(0.01, RIIS_AUTO, 0, 0.04), 0);
+  assert_int_equal(n_warnings(10, RIIS_AUTO, 0, 400), 0);
+  /* Parts of a mesh that other processes hold the rest of. */
+  assert_int_equal(n_warnings(1, RIIS_AUTO, 100, 4), 0);
+  assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 0.2), 0);
+  assert_int_equal(n_warnings(0.01, RIIS_AUTO, -3, 1), 0);
+}
+
+static void expect_text(const char *a, const char *b, const char *c) {
+  const char *const parts[] = {a, b, c, "scale", "half_thickness"};
+  for (int i = 0; i < 5; ++i)
+    if (!strstr(warnings.last, parts[i])) fail_msg("\"%s\" is not in \"%s\"", parts[i], warnings.last);
+  assert_null(strchr(warnings.last, '\n'));
+}
+
+static void sizes_that_do_not_fit_are_told(void **state) {
+  (void)state;
+  /* A mesh in metres, the valve in centimetres; a mesh in micrometres. */
+  assert_int_equal(n_warnings(1, 0.001, 0, 0.04), 1);
+  expect_text("the surface is more than 50 times as large as the mesh", "0.04 (mesh of 1331 nodes)",
+              "half thickness is 0.001");
+  assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4e4), 1);
+  expect_text("the mesh is more than 50 times as large as the surface", "40000 (mesh", "half thickness is 0.1");
+  /* Half thicknesses in centimetres. */
+  assert_int_equal(n_warnings(0.01, 0.1, 0, 0.04), 1);
+  expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
+  assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
+  expect_text("the half thickness is larger than the mesh", "0.4 (mesh", "half thickness is 0.5");
+  /* Without translation a disjoint box is out of proportion all the same. */
+  assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 4e4), 1);
+}
+
+static void one_warning_a_mesh_and_surface(void **state) {
+  (void)state;
+  riis_surface *first = aortic_surface(NULL), *second = aortic_surface(NULL);
+  riis_mesh *mesh = cube(0, 0.01), *other = NULL;
+  for (int step = 0; step < 5; ++step) {
+    mark(first, mesh);
+    mark(second, mesh);
+    CHECK_OK(riis_mesh_update(mesh, n_nodes, box, box + 1, box + 2, 3));
+  }
+  assert_int_equal(warnings.n, 2);
+  CHECK_OK(riis_mesh_create(n_nodes, box, box + 1, box + 2, 3, &other));
+  mark(first, other);
+  mark(first, other);
+  assert_int_equal(warnings.n, 3);
+  /* Surfaces that come and go: each is another one, though it may lie where the last one did; and an end to it. */
+  for (int i = 0; i < 20; ++i) {
+    riis_surface_destroy(&second);
+    second = aortic_surface(NULL);
+    mark(second, other);
+    assert_int_equal(warnings.n, 3 + (i < 7 ? i + 1 : 7));
+  }
+  riis_mesh_destroy(&other);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&first);
+  riis_surface_destroy(&second);
+}
+
+/* Nobody has been told as long as nobody listens. */
+static void a_late_listener_is_told(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mesh *mesh = cube(0, 0.01);
+  riis_set_log(NULL, NULL);
+  mark(surface, mesh);
+  riis_set_log(listen, &warnings);
+  assert_int_equal(warnings.n, 0);
+  mark(surface, mesh);
+  mark(surface, mesh);
+  assert_int_equal(warnings.n, 1);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+}
+
+typedef struct pair {
+  const riis_surface *surface;
+  const riis_mesh *mesh;
+  riis_status status;
+} pair;
+
+static void *mark_by_thread(void *argument) {
+  pair *const shared = argument;
+  riis_mark_options options;
+  riis_mark_result *result = NULL;
+  shared->status = riis_mark_options_init(&options, sizeof options);
+  options.n_threads = 1;
+  if (!shared->status) shared->status = riis_mark_result_create(&result);
+  for (int step = 0; step < 20 && !shared->status; ++step)
+    shared->status = riis_mark_nodes(shared->surface, shared->mesh, &options, result);
+  riis_mark_result_destroy(&result);
+  return NULL;
+}
+
+static void threads_share_the_one_warning(void **state) {
+  (void)state;
+  enum { n_threads = 8 };
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mesh *mesh = cube(0, 0.01);
+  pthread_t threads[n_threads];
+  pair shared[n_threads];
+  for (int i = 0; i < n_threads; ++i) {
+    shared[i] = (pair){surface, mesh, RIIS_OK};
+    assert_int_equal(pthread_create(&threads[i], NULL, mark_by_thread, &shared[i]), 0);
+  }
+  for (int i = 0; i < n_threads; ++i) pthread_join(threads[i], NULL);
+  for (int i = 0; i < n_threads; ++i) assert_int_equal(shared[i].status, RIIS_OK);
+  assert_int_equal(warnings.n, 1);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+}
+
+/* Nodes with a stride, x first or last. */
+typedef struct layout {
+  int64_t stride;
+  int first[3]; /* of x, y, z */
+} layout;
+enum { n_layouts = 4, most_nodes = 1004, n_doubles = 5 * most_nodes };
+static const layout layouts[n_layouts] = {
+    {3, {0, 1, 2}}, {3, {2, 1, 0}}, {1, {0, most_nodes, 2 * most_nodes}}, {5, {1, 4, 2}}};
+static double coordinates[n_doubles];
+
+static double *coordinate(const layout *lies, int node, int axis) {
+  return &coordinates[lies->first[axis] + lies->stride * node];
+}
+
+static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
+  return riis_mesh_create(n, coordinates + lies->first[0], coordinates + lies->first[1], coordinates + lies->first[2],
+                          lies->stride, mesh);
+}
+
+/* All nodes but one are within a hundredth of the surface: no warning only if the one is in the box. Every place that a node may
+ * have in the registers, every axis, both directions. */
+static void the_box_holds_every_node(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  for (int l = 0; l < n_layouts; ++l)
+    for (int n = 1000; n < most_nodes; ++n)
+      for (int node = n - 12; node < n; ++node)
+        for (int axis = 0; axis < 3; ++axis)
+          for (double far = -4; far <= 4; far += 4) {
+            riis_mesh *mesh = NULL;
+            for (int i = 0; i < n_doubles; ++i) coordinates[i] = 1e-6 * i;
+            *coordinate(&layouts[l], node, axis) += far;
+            CHECK_OK(create(&layouts[l], n, &mesh));
+            const int before = warnings.n;
+            mark(surface, mesh);
+            if (warnings.n - before != (far == 0))
+              fail_msg("layout %d, node %d of %d, axis %d at %g: %d warnings", l, node, n, axis, far,
+                       warnings.n - before);
+            riis_mesh_destroy(&mesh);
+          }
+  riis_surface_destroy(&surface);
+}
+
+/* The first is named, wherever it and a second one are. */
+static void the_first_bad_coordinate_is_named(void **state) {
+  (void)state;
+  const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e60, -1.1e60};
+  for (int l = 0; l < n_layouts; ++l)
+    for (int n = 1; n < 14; ++n)
+      for (int node = 0; node < n; ++node)
+        for (int axis = 0; axis < 3; ++axis)
+          for (int k = 0; k < 5; ++k) {
+            riis_mesh *mesh = NULL;
+            char text[64];
+            for (int i = 0; i < n_doubles; ++i) coordinates[i] = i % 7;
+            *coordinate(&layouts[l], node, axis) = bad[k];
+            *coordinate(&layouts[l], n - 1, 2) = node == n - 1 && axis == 2 ? bad[k] : bad[(k + 1) % 5];
+            snprintf(text, sizeof text, "%c of node %d is ", "xyz"[axis], node);
+            CHECK_REFUSED(RIIS_INVALID_MESH, text, create(&layouts[l], n, &mesh));
+            assert_null(mesh);
+          }
+  /* Large ones are good. */
+  for (int i = 0; i < n_doubles; ++i) coordinates[i] = i % 2 ? 1e60 : -1e60;
+  riis_mesh *mesh = NULL;
+  CHECK_OK(create(&layouts[0], most_nodes, &mesh));
+  riis_mesh_destroy(&mesh);
+}
+
+#define TEST(f) cmocka_unit_test_setup_teardown(f, start_listening, stop_listening)
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      TEST(sizes_that_fit_are_no_news),        TEST(sizes_that_do_not_fit_are_told),
+      TEST(one_warning_a_mesh_and_surface),    TEST(a_late_listener_is_told),
+      TEST(threads_share_the_one_warning),     TEST(the_box_holds_every_node),
+      TEST(the_first_bad_coordinate_is_named),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
