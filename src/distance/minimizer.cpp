@@ -49,7 +49,7 @@ void Minimizer::ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const {
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
-  // Starts with the patch whose box is nearest, so that most of the others need no query: no result is less than the
+  // Starts with the patch whose box is nearest, so that most of the others need no query. No result is less than the
   // distance to the patch's box.
   std::size_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();

@@ -90,7 +90,7 @@ std::array<double, 2> minimum_on_segment(const Function &f, double low, double h
 }
 
 // Minimises f >= 0 over [0,1]^2 from a start in it. No line leaves the square. Each line is searched over its whole segment
-// inside and at both ends, because closest points at the rim are common and Brent's method only tends to the ends.
+// inside, and also at both ends. Closest points at the rim are common, but Brent's method only tends to the ends.
 //   enough       iterations end when an iteration lowers the root of f by no more than this
 //   step_of(d)   how far along d, in units of d, a line search may be off
 template <class Function, class StepOf>

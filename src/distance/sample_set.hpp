@@ -20,8 +20,8 @@ struct SampleCounts {
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
 };
 
-// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v: half the length of the longest
-// diagonal of parameter steps h_u, h_v in any tangent plane of S.
+// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v. The bound is half the length of the
+// longest diagonal of parameter steps h_u, h_v in any tangent plane of S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
 // Returns the fewest samples that keep the covering radius within `radius`, in the proportion of the patch's width to

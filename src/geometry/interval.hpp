@@ -35,9 +35,9 @@ inline Interval square(Interval a) {
   const double p = a.low * a.low, q = a.high * a.high;
   return {a.low <= 0 && a.high >= 0 ? 0.0 : std::min(p, q), std::max(p, q)};
 }
-// For values that cannot be negative: a bound below 0 means 0.
+// Takes the root of values that cannot be negative: a bound below 0 means 0.
 inline Interval root(Interval a) { return {std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0))}; }
-// For values that are above 0: the result is infinite if the lower bound is not above 0.
+// Inverts values that are above 0. The upper bound is infinite if the lower bound of the values is not above 0.
 inline Interval inverse(Interval a) {
   return {1 / a.high, a.low > 0 ? 1 / a.low : std::numeric_limits<double>::infinity()};
 }
@@ -60,7 +60,7 @@ inline Jet operator*(double a, const Jet &b) { return {a * b.value, a * b.first,
 inline Jet square(const Jet &a) {
   return {square(a.value), 2 * (a.value * a.first), 2 * (square(a.first) + a.value * a.second)};
 }
-// For values above 0.
+// Takes the root of values above 0.
 inline Jet root(const Jet &a) {
   const Interval value = root(a.value), half_inverse = 0.5 * inverse(value), first = half_inverse * a.first;
   return {value, first, half_inverse * a.second - inverse(value) * square(first)};

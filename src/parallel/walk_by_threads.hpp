@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Implements concurrent_walk with standard threads, for the thread sanitizer, which understands them but not TBB. It
-// orders no more than TBB does: a range comes after the call of add that hands it on, and the end of the walk comes
+// orders no more than TBB does. A range comes after the call of add that hands it on, and the end of the walk comes
 // after everything. Relaxed atomics count everything else and order nothing. A lock around a common queue would put
 // bodies in an order and hide their races.
 #pragma once
