@@ -29,7 +29,8 @@ struct PlacedPatch {
 
 struct PlacedPatches {
   std::vector<PlacedPatch> patches;
-  // For each patch, how far S may be from the smooth surface at equal (u,v), in placed units; at most max_error times the scale.
+  // Bound for each patch on the distance of S from the smooth surface at equal (u,v), in placed units. It is at most
+  // max_error times the scale.
   std::vector<double> errors;
 
   // max_error is in the patches' units, before placement. Fails with RIIS_LIMIT_EXCEEDED as make_grids does.

@@ -21,7 +21,7 @@ class Flattening {
  public:
   Flattening(Vec3 first, double max_error) : max_error_(max_error), flattened_{{first}, {0.0}, {}} {}
 
-  // Adds the part from share t0 to t1 of the whole curve if the part is of one piece.
+  // Adds a part of one piece, from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
     if (accept(
@@ -34,7 +34,7 @@ class Flattening {
     add(right, 0.5 * part_length, middle, t1, depth + 1);
   }
 
-  // Adds the part from share t0 to t1 of the whole curve if the part may be of several pieces.
+  // Adds a part of one or several pieces, from share t0 to t1 of the whole curve.
   void add(const Curve &part, double t0, double t1, int depth) {
     const std::vector<Bezier> &pieces = part.pieces();
     if (pieces.size() == 1) {

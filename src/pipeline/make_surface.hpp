@@ -21,7 +21,7 @@ struct SurfaceRequest {
   int n_threads;
 };
 
-// How far distances to a generated valve may be from distances to the smooth valve, in placed units.
+// Limits for the difference between distances to a generated valve and to the smooth valve, in placed units.
 struct ValveAccuracy {
   double triangle_error;
   std::int32_t distance;  // RIIS_DISTANCE_*
