@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * For the project's own components, which are libraries of their own (riis_vtk): reports through the core's last error.
- * Exported, but not installed and not part of the public interface.
+ * The project's own components, which are separate libraries (riis_vtk), report through the core's last error.
+ * This function is exported, but it is not installed and not part of the public interface.
  */
 #ifndef RIIS_BASE_COMPONENT_H
 #define RIIS_BASE_COMPONENT_H
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Makes text, cut to the library's limit, the calling thread's last error and returns status. */
+/* Makes `text`, cut to the library's limit, the calling thread's last error and returns `status`. */
 RIIS_API riis_status riis_component_error(riis_status status, const char *text);
 
 #ifdef __cplusplus

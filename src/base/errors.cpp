@@ -29,7 +29,7 @@ riis_status record_current_exception() noexcept {
     return record_error(error.status, error.message.text());
   } catch (const std::bad_alloc &) {
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
-  } catch (const std::length_error &) {  // a container asked for more than memory can hold
+  } catch (const std::length_error &) {  // a container needs more than memory can hold
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &exception) {
     return record_error(RIIS_INTERNAL_ERROR, Message("internal error: ", exception.what()).text());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a failure travels: fail() throws, guarded() is the wall that turns any exception into a status and a message. The message
-// lives in the exception and in the thread, so that reporting an error allocates nothing of the library's own.
+// A failure travels as an exception: fail() throws, and guarded() is the wall that turns any exception into a status and a
+// message. The message lives in the exception and in the thread, so the library itself allocates nothing to report an error.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,7 +17,7 @@ struct Error {
   Message message;
 };
 
-// Throws an Error. Its message, which names the argument and its value, is put together from words and numbers.
+// Throws an Error. Its message names the argument and its value, and is put together from words and numbers.
 template <class... Parts>
 [[noreturn]] void fail(riis_status status, const Parts &...parts) {
   throw Error{status, Message(parts...)};
@@ -26,13 +26,13 @@ template <class... Parts>
 // Makes the text the calling thread's last error and returns the status.
 riis_status record_error(riis_status status, const char *text) noexcept;
 
-// The calling thread's last error, "" if it has none.
+// Returns the calling thread's last error, "" if it has none.
 const char *recorded_error() noexcept;
 
-// Status and text of the exception that is being handled.
+// Records the message of the exception that is being handled, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Every public function's body runs in here: no exception leaves, the floating-point environment is the default one.
+// Runs the body of a public function: no exception leaves, and the floating-point environment is the default one.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integers of the caller's as they lie, 32 or 64 bits wide, counted from 0 or 1; and the checks of what says so.
+// Reads the caller's integers where they lie, 32 or 64 bits wide and counted from 0 or 1, and checks the fields that say so.
 #pragma once
 
 #include <cstdint>

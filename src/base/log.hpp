@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages that go to the caller's log function, or nowhere.
+// Messages go to the caller's log function, or nowhere.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,7 +20,7 @@ void log_message(std::int32_t level, const Parts &...parts) noexcept {
   log_message(level, Message(parts...));
 }
 
-// NULL is silence. Any thread may call these functions.
+// NULL means silence. Any thread may call these functions.
 void set_log_function(riis_log_function function, void *user_data) noexcept;
 
 }  // namespace riis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A message put together from words and numbers, in memory of a fixed size: nothing is allocated, and no locale matters.
+// A message is put together from words and numbers in memory of a fixed size. It allocates nothing and depends on no locale.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// A number with so many significant digits; without it numbers get as many as tell them from all others.
+// A number with that many significant digits. Other numbers get as many digits as tell them from all others.
 struct Rounded {
   double value;
   int n_digits;
@@ -31,7 +31,7 @@ class Message {
   const char *text() const { return text_; }
 
  private:
-  // What does not fit any more is cut off.
+  // Words that no longer fit are cut off.
   void add(std::string_view words) noexcept {
     const std::size_t n = std::min(words.size(), room());
     std::memcpy(text_ + size_, words.data(), n);

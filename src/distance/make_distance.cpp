@@ -13,7 +13,7 @@
 namespace riis {
 namespace {
 
-// Of the allowed error: S is that close to the smooth surface. More lines are cheaper than more samples.
+// S is within this share of the allowed error of the smooth surface. More lines are cheaper than more samples.
 constexpr double patch_share = 0.1;
 
 PlacedPatches make_patches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {

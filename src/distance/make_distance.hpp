@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The method that a surface's options ask for.
+// Makes the distance method that a surface's options choose.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct DistanceRequest {
   double max_error;     // distance_tolerance * half_thickness, placed units
 };
 
-// Fails with RIIS_LIMIT_EXCEEDED where patches or samples would be too many.
+// Fails with RIIS_LIMIT_EXCEEDED if patches or samples would be too many.
 std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
                                                    const Placement &placement, bool flip_normals);
 

@@ -19,7 +19,7 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
     for (const Vec3 &p : {box.lower, box.upper})
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  // Three mixes, each right to two units of rounding, in three coordinates.
+  // A point takes three mixes, each right to two units of rounding, in three coordinates.
   rounding_ = 0x1p-49 * largest;
 }
 
@@ -36,7 +36,7 @@ void Minimizer::ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const {
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // A step that moves S by no more than a tenth of what ends the iterations, or as little as squares can tell.
+  // Returns a step that moves S by at most a tenth of `enough`, or the smallest step that squares can tell.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * measures_[patch].width + std::abs(along.v) * measures_[patch].height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));
@@ -49,8 +49,8 @@ void Minimizer::ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const {
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
-  // The patch whose box is nearest first, so that most of the others need not be asked: none answers less than the distance
-  // of its box.
+  // Starts with the patch whose box is nearest, so that most of the others need no query. No result is less than the
+  // distance to the patch's box.
   std::size_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < measures_.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances by minimisation (paper, 4.1 "Minimization"): |S(u,v) - P|^2 made small on every patch by Powell's method from
-// (0.5, 0.5). It ends in a local minimum, so what it says is a distance to a point of S, but not always of the closest
-// (docs/theory.md, section 9).
+// Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, from
+// (0.5, 0.5). It ends in a local minimum. So the result is the distance to a point of S, but not always to the closest
+// one (docs/theory.md, section 9).
 // In: placed patches, when to stop. Out: the least local minimum of all patches.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace riis {
 
 class Minimizer final : public PatchDistance {
  public:
-  // Iterations end when one lowers the distance by no more than `enough`, placed units.
+  // Iterations end when an iteration lowers the distance by no more than `enough`, in placed units.
   Minimizer(PlacedPatches patches, double enough);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -33,7 +33,7 @@ class Minimizer final : public PatchDistance {
   double enough_;
   double rounding_ = 0;             // of a point S(u,v), which may be outside of the box by as much
   std::vector<Measures> measures_;  // of each patch
-  Bounds box_;                      // of all
+  Bounds box_;                      // of all patches
 };
 
 }  // namespace riis

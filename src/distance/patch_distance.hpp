@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance of a point to the surface by another method than triangles (paper, 4.1): for comparison.
+// Measures the distance of a point to the surface by another method than triangles (paper, 4.1), for comparison.
 // In: a point, a limit. Out: the closest point that the method finds, with its patch, u and v.
 #pragma once
 
@@ -22,15 +22,15 @@ class PatchDistance {
  public:
   virtual ~PatchDistance() = default;
 
-  // What the method finds closest to p, if its distance is at most limit (>= 0, may be infinite); patch -1 if not. The same
-  // bits whatever the limit, as long as it is not below the distance. May be called by several threads at once.
+  // Returns the point that the method finds closest to p, if its distance is at most limit (>= 0, may be infinite); patch is -1
+  // if not. The limit does not change the bits of a result within it. Several threads may call this function at once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
-  // False only where nothing is within the limit of p.
+  // Returns false only if nothing is within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Whether the distance is that to a set of points, the same for every p: it then differs between two p by at most their
-  // distance.
+  // Returns true if the distance is to a set of points that is the same for every p. The distance then differs between
+  // two p by at most the distance between them.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches as S(u,v) that can be evaluated anywhere, in place (paper, 3.3): what sampling and minimisation work on.
-// In: curves and patches of a valve, the error allowed, where to put it. Out: a grid of quads for each image of a patch.
+// Placed patches as S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
+// In: curves and patches of a valve, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 #pragma once
 
 #include <array>
@@ -15,21 +15,22 @@
 
 namespace riis {
 
-// S(u,v), bilinear in every quad of the grid, whose points are placed.
+// S(u,v), bilinear in every quad of a grid with placed points.
 struct PlacedPatch {
   QuadGrid grid;
   std::int32_t leaflet_id;
-  bool is_turned_over;  // S_u x S_v is against the normal
+  bool is_turned_over;  // S_u x S_v points against the normal
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
-  // Unit normal by the right-hand rule of the triangles; 0 where S has none, as at a collapsed side. On a grid line it is
-  // that of the quad behind it.
+  // Returns the unit normal by the right-hand rule of the triangles; 0 if S has none, as at a collapsed side. On a grid
+  // line it is the normal of the quad behind the line.
   Vec3 normal_at(double u, double v) const;
 };
 
 struct PlacedPatches {
   std::vector<PlacedPatch> patches;
-  // Of each: how far S may be from the smooth surface at equal (u,v), in placed units; at most max_error times the scale.
+  // Bound for each patch on the distance of S from the smooth surface at equal (u,v), in placed units. It is at most
+  // max_error times the scale.
   std::vector<double> errors;
 
   // max_error is in the patches' units, before placement. Fails with RIIS_LIMIT_EXCEEDED as make_grids does.
@@ -37,8 +38,8 @@ struct PlacedPatches {
   double largest_error() const;
 };
 
-// Visits the derivatives of S in every quad: visit(along_u, along_v), two each, at the quad's two ends. In between S_u is a
-// mean of the two along_u, at its lower and its upper v, and S_v of the two along_v.
+// Calls visit(along_u, along_v) with the derivatives of S in every quad, two of each, at the quad's two ends. In
+// between, S_u is a mean of the two along_u, at the lower and the upper v; S_v is a mean of the two along_v.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
@@ -51,17 +52,17 @@ void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
     }
 }
 
-// The largest |S_u| and |S_v|: no line v = const is longer than the first, none with u = const than the second.
+// The largest |S_u| and |S_v|. No line v = const is longer than the first, and no line u = const is longer than the second.
 struct Speeds {
   double u, v;
 };
 Speeds largest_speeds(const QuadGrid &grid);
 
-// Of the grid's points, hence of S, which is a mean of them everywhere.
+// Returns the box of the grid's points. It also holds S, which is a mean of these points everywhere.
 Bounds bounds_of(const QuadGrid &grid);
 
-// The distance from p to a box, squared; no larger, in every bit, than the square of the distance to any point in it when that is
-// computed as dot(q - p, q - p): rounding keeps the order of differences, squares and sums.
+// Returns the square of the distance from p to a box. It is no larger, in every bit, than the square of the distance to
+// any point q in the box, computed as dot(q - p, q - p). Rounding keeps the order of differences, squares and sums.
 double distance_sq_to(const Bounds &box, Vec3 p);
 
 }  // namespace riis

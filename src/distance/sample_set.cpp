@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// Steps of 1/n, n whole: no longer than h.
+// Returns the n of steps 1/n, n whole, that are no longer than h.
 std::int64_t n_steps(double h) {
   constexpr double too_many = 1e15;
   return h < 1 ? static_cast<std::int64_t>(std::min(std::ceil(1 / h), too_many)) : 1;
@@ -31,11 +31,11 @@ double covering_radius(const QuadGrid &grid, double h_u, double h_v) {
 }
 
 SampleCounts samples_within(const QuadGrid &grid, double radius) {
-  // Squares where the lines are at right angles; one step where there is no width or height to speak of.
+  // The steps make squares where the lines are at right angles. A patch without noticeable width or height has one step there.
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
-  // It grows in proportion to both steps; a step above 1 is none.
+  // The radius grows in proportion to both steps; no step can be above 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};
 }
@@ -53,7 +53,7 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }
 
-// The tree: patches are halved by number, a patch's samples along the longer side.
+// The tree halves the patches by number, and a patch's samples along the longer side.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
     const SampleCounts &counts = counts_[static_cast<std::size_t>(begin)];
@@ -75,7 +75,7 @@ std::int32_t SampleSet::add_samples(std::int32_t patch, const Samples &samples) 
     add_leaf(patch, samples, nodes_.back());
     return node;
   }
-  // Steps are about as long in u as in v, so the longer side is that with more of them.
+  // Steps are about as long in u as in v, so the longer side is the side with more of them.
   if (n_columns >= n_rows) {
     const std::int32_t half = n_columns / 2;
     add_samples(patch, {column, row, half, n_rows});
@@ -127,7 +127,7 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // Also where they are equal: of equally near samples the first is wanted, whatever the order of visits.
+    // Equal distances are also visited: the first of equally near samples is wanted, whatever the order of visits.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances by sampling (paper, 4.1 "Sampling"): the nearest of evenly spaced points S(u,v), as many a patch as its width and
-// height ask for (docs/theory.md, section 9).
+// Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). Each
+// patch has as many as its width and height need (docs/theory.md, section 9).
 // In: placed patches, how far a distance may be off. Out: nearest samples.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// The library takes on this many samples: 24 bytes each, and a little for the boxes around them.
+// The most samples that the library accepts. Each takes 24 bytes, and a little for the boxes around it.
 inline constexpr std::int64_t max_samples = 16'777'216;
 
 // s_u and s_v: samples stand at u = 0, 1/s_u, ..., 1 and v = 0, 1/s_v, ..., 1.
@@ -20,18 +20,18 @@ struct SampleCounts {
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
 };
 
-// The largest distance of any S(u,v) from the sample nearest to it in u and in v, or more: half the length of the longest
-// diagonal of parameter steps h_u, h_v in any tangent plane of S.
+// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v. The bound is half the length of the
+// longest diagonal of parameter steps h_u, h_v in any tangent plane of S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// The fewest, in the proportion of the patch's width to its height, that keep the covering radius within `radius`. May be
-// too many to have.
+// Returns the fewest samples that keep the covering radius within `radius`, in the proportion of the patch's width to
+// its height. They may be too many to have.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Distances are within max_error of those to the smooth surface, placed units: what the patches' own error leaves of it is the
-  // covering radius. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Distances are within max_error of the distances to the smooth surface, in placed units. The covering radius is
+  // max_error less the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -45,13 +45,13 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // Boxes of samples in boxes; of a box that holds others the first follows it.
+  // A box of samples or of two other boxes, of which the first follows it.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // -1 for a leaf
     std::int32_t leaf = -1;
   };
-  // A patch's samples from column to column, row by row.
+  // A block of a patch's samples, row by row.
   struct Leaf {
     std::int64_t first;  // position of its first sample
     std::int32_t patch;

@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// Summed block by block, so that it does not depend on who summed which.
+// Sums block by block, so that the area does not depend on which thread summed which block.
 double area_of(const TriangleSet &set, int n_threads) {
   const auto n = static_cast<std::int64_t>(set.n_triangles());
   constexpr std::int64_t triangles_per_block = 4096;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface that can be asked: triangles, their scene, the half thickness, and another method for distances where one is wanted.
+// A surface for queries: triangles, their scene, the half thickness, and another method for distances if one is wanted.
 // In: triangles. Out: closest triangles, sides.
 #pragma once
 
@@ -17,11 +17,11 @@ namespace riis {
 
 class Surface {
  public:
-  // Again for a surface that moved, with the memory of what was there. Of no use if it fails.
+  // Makes the surface, again after it moved, and reuses its memory. The surface is of no use after a failure.
   void make(TriangleSet triangles, double half_thickness, int n_threads);
-  // For their memory.
+  // Gives the triangles away, for their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
-  // Distances are those of the triangles, unless there is another method.
+  // Sets another method for distances. Without it, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
   const TriangleSet &triangles() const { return triangles_; }
@@ -29,16 +29,16 @@ class Surface {
   double half_thickness() const { return half_thickness_; }
   double area() const { return area_; }
 
-  // The method that distances are measured by; null: the triangles' scene.
+  // Returns the method that measures distances. Null means the triangles' scene.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
-  // The distance to the triangles is at most this above the distance to any point of the patches that the method works on.
+  // The distance to the triangles exceeds the distance to any point of the method's patches by at most this.
   double triangle_error() const { return triangle_error_; }
 
-  // +1, -1 or 0: the side of the surface that p is on, seen from its closest point, which lies on that triangle. May be asked by
-  // several threads at once.
+  // Returns +1, -1 or 0: the side of the surface that p is on, seen from its closest point, which lies on that
+  // triangle. Several threads may call this function at once.
   int side(Vec3 p, std::size_t triangle, const PointOnTriangle &closest) const;
 
-  // Makes what sides need, once; otherwise the first side does.
+  // Makes the normals for sides, once. Otherwise the first query of a side makes them.
   void prepare_sides() const { pseudonormals(); }
 
  private:
@@ -50,7 +50,7 @@ class Surface {
   double area_ = 0;
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
-  // Made when a side is first asked for: marking never needs it.
+  // They are made at the first query of a side: marking never needs them.
   mutable std::mutex pseudonormals_mutex_;
   mutable std::unique_ptr<const Pseudonormals> pseudonormals_owner_;
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};

@@ -16,7 +16,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   return distance(p, a + t * ab);
 }
 
-// |B'(t)| from the coefficients of B' in powers of t: the innermost loop of all arc lengths.
+// Computes |B'(t)| from the coefficients of B' in powers of t. This is the innermost loop of all arc lengths.
 struct Speed {
   explicit Speed(const Bezier &curve) {
     const auto &q = curve.control;
@@ -30,7 +30,7 @@ struct Speed {
   Vec3 constant, linear, quadratic;
 };
 
-// Gauss-Legendre rule with 8 points on [t0, t1].
+// Integrates the speed over [t0, t1] by the Gauss-Legendre rule with 8 points.
 double quadrature(const Speed &speed, double t0, double t1) {
   static constexpr double node[4] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
                                      0.96028985649753623168};
@@ -45,13 +45,13 @@ double quadrature(const Speed &speed, double t0, double t1) {
 double adaptive_length(const Speed &speed, double t0, double t1, double whole, double tolerance, int depth) {
   const double middle = 0.5 * (t0 + t1);
   const double left = quadrature(speed, t0, middle), right = quadrature(speed, middle, t1);
-  // Also where something is no number.
+  // A NaN also ends the recursion.
   if (depth == 0 || !(std::abs(left + right - whole) > tolerance)) return left + right;
   return adaptive_length(speed, t0, middle, left, 0.5 * tolerance, depth - 1) +
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
 
-// An error of lengths that does not matter.
+// Returns an error of lengths that does not matter.
 double length_tolerance(const Bezier &curve) {
   double control_length = 0, largest = 0;
   for (std::size_t i = 0; i <= degree_of(curve); ++i) {
@@ -59,8 +59,8 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // Where the curve is short for its coordinates their rounding is all that two halves differ by; where it is shorter than any
-  // triangle may be (surface/triangle_set.hpp), its squares underflow.
+  // If the curve is short for its coordinates, two halves differ only by the coordinates' rounding. If it is shorter
+  // than any triangle may be (surface/triangle_set.hpp), its squares underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
@@ -69,7 +69,8 @@ double length_between(const Speed &speed, double tolerance, double t0, double t1
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
-// Where a share of the length would be left behind if the speed were the parabola through its values at 0, 1/2 and 1.
+// Returns the parameter that leaves a share of the length behind if the speed is the parabola through its values at 0,
+// 1/2 and 1.
 double first_guess(const Speed &speed, double share) {
   const double start = speed(0), middle = speed(0.5), end = speed(1);
   const double slope = 4 * middle - 3 * start - end, bend = 2 * (start - 2 * middle + end);
@@ -84,9 +85,9 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// A bound on the curvature |B' x B''| / |B'|^3, infinite where the curve may turn on the spot. B' and B'' are Bézier curves of the
-// differences of control points: products of these bound the numerator, and the least component of the former along the
-// chord bounds the denominator from below.
+// Bounds the curvature |B' x B''| / |B'|^3; infinite if the curve may turn on the spot. B' and B'' are Bézier curves
+// with differences of control points as control points. Products of these differences bound the numerator. The least
+// component of the differences in B' along the chord bounds the denominator from below.
 double curvature_bound(const Bezier &curve) {
   const std::size_t n = degree_of(curve);
   const Vec3 chord = curve.last() - curve.first();
@@ -146,7 +147,7 @@ double flatness(const Bezier &curve) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // The bound from control points is loose by how much they vary: quarters of the curve vary little.
+  // The bound from control points is loose if they vary much; in quarters of the curve they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
@@ -157,7 +158,7 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
-  // Newton's method on the length from 0 to t, kept inside a shrinking bracket.
+  // Newton's method on the length from 0 to t stays inside a shrinking bracket.
   double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
   double excess = length_between(speed, tolerance, 0, t) - behind;
   for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {

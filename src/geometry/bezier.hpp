@@ -18,7 +18,7 @@ struct Bezier {
   static Bezier quadratic(Vec3 q0, Vec3 q1, Vec3 q2) { return {2, {q0, q1, q2, Vec3{0, 0, 0}}}; }
   static Bezier cubic(Vec3 q0, Vec3 q1, Vec3 q2, Vec3 q3) { return {3, {q0, q1, q2, q3}}; }
   static Bezier line(Vec3 q0, Vec3 q1) { return quadratic(q0, 0.5 * (q0 + q1), q1); }
-  // A curve that never leaves its point: the collapsed side of a patch.
+  // Returns a curve that never leaves its point: the collapsed side of a patch.
   static Bezier point(Vec3 q) { return quadratic(q, q, q); }
 
   Bezier reversed() const {
@@ -30,28 +30,28 @@ struct Bezier {
   Vec3 last() const { return control[static_cast<std::size_t>(degree)]; }
 };
 
-// B(t) for t in [0,1]; the end points exactly at 0 and 1.
+// Returns B(t) for t in [0,1]; exactly the end points at 0 and 1.
 Vec3 evaluate(const Bezier &curve, double t);
 
-// dB/dt.
+// Returns dB/dt.
 Vec3 derivative(const Bezier &curve, double t);
 
-// Length of the curve from parameter t0 to t1, t0 <= t1: adaptive Gauss-Legendre quadrature of |B'|, relative error
-// about 1e-12.
+// Returns the length of the curve from parameter t0 to t1, t0 <= t1, by adaptive Gauss-Legendre quadrature of |B'|. The
+// relative error is about 1e-12.
 double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 
-// The two parts left and right of t, by de Casteljau's algorithm.
+// Returns the two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
-// The t in [0,1] at which the curve, of length curve_length, has that much of it behind it, 0 <= behind <= curve_length; 0 on a
-// curve without length.
+// Returns the t in [0,1] that leaves the length `behind` of the curve behind it, 0 <= behind <= curve_length.
+// curve_length is the length of the whole curve; if it is 0, so is t.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
-// kappa: the largest distance of an inner control point to the segment from the first to the last. (The paper measures
-// to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
+// Returns kappa, the largest distance of an inner control point to the segment from the first to the last. (The paper
+// measures to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
 double flatness(const Bezier &curve);
 
-// A bound on the curvature everywhere on the curve; infinite where it may turn on the spot.
+// Bounds the curvature everywhere on the curve; infinite if the curve may turn on the spot.
 double largest_curvature(const Bezier &curve);
 
 }  // namespace riis

@@ -9,7 +9,7 @@
 
 namespace riis {
 
-// Of nothing as long as nothing is added.
+// The box is empty until something is added.
 struct Bounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -21,7 +21,7 @@ struct Bounds {
     upper = {std::max(upper.x, other.upper.x), std::max(upper.y, other.upper.y), std::max(upper.z, other.upper.z)};
   }
 
-  // Halved before they are added: coordinates may be as large as they like.
+  // Coordinates are halved before they are added, so that they may have any size.
   Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
   Vec3 half_extent() const { return 0.5 * upper - 0.5 * lower; }
 };

@@ -24,20 +24,20 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// What the control points, all of a Bézier curve's derivative, leave possible for it: it stays in their hull.
+// Returns the hull of the control points of a Bézier curve's derivative, in which the derivative stays.
 IntervalVector hull_of(const Vec3 *control, std::size_t n) {
   IntervalVector all = IntervalVector::of(control[0]);
   for (std::size_t i = 1; i < n; ++i) all = hull(all, IntervalVector::of(control[i]));
   return all;
 }
 
-// A curve's unit tangent on a range of u on which it has the speed |d curve / du|, with derivatives by u.
+// A curve's unit tangent on a range of u, with derivatives by u. The curve has the speed |d curve / du| on that range.
 struct Along {
   JetVector tangent;
   double speed;
 };
 
-// The tangent as a jet, from the derivatives of a Bézier piece by its own parameter t: dt/du = speed / |B'(t)|.
+// Returns the tangent as a jet, from the derivatives of a Bézier piece by its own parameter t: dt/du = speed / |B'(t)|.
 JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const IntervalVector &d3, double speed) {
   const JetVector along = JetVector::of(d1, d2, d3);
   const Jet size = root(dot_self(along)), inverse_size = inverse(size);
@@ -64,7 +64,7 @@ struct Derivatives {
   Vec3 third;
 };
 
-// How far a function can be from the line between its ends on a range du.
+// Bounds how far a function is from the line between its ends on a range of length du.
 double deviation(const Interval &second, double du) { return 0.125 * du * du * second.magnitude(); }
 
 void narrow(Jet &a, double start, double end, double du) {
@@ -76,7 +76,7 @@ Vec3 unit(Vec3 a) {
   return size > 0 ? (1 / size) * a : a;
 }
 
-// On the whole of a piece, which spans at most du.
+// Returns the tangent on the whole of a piece, which spans at most du.
 Along along_piece(const Bezier &piece, double speed, double du) {
   if (!(speed > 0)) return {JetVector{}, 0};
   const Derivatives d(piece);
@@ -89,7 +89,7 @@ Along along_piece(const Bezier &piece, double speed, double du) {
   return {tangent, speed};
 }
 
-// At the start or the end of a piece.
+// Returns the tangent at the start or the end of a piece.
 Along along_end(const Bezier &piece, double speed, bool at_end) {
   if (!(speed > 0)) return {JetVector{}, 0};
   const Derivatives d(piece);
@@ -100,22 +100,22 @@ Along along_end(const Bezier &piece, double speed, bool at_end) {
 
 double norm(const IntervalVector &a) {
   const double bound = length(a.magnitudes());
-  return bound >= 0 ? bound : infinity;  // NaN where infinities met
+  return bound >= 0 ? bound : infinity;  // NaN if infinities met
 }
 
-// O from W, whose derivatives are those of edge minus base, and the base's tangent; empty where W may run along the base, and O have no
-// direction.
+// Returns O from W and the base's tangent. The derivatives of W are those of edge minus base. Returns nothing if W may
+// run along the base, because O then may have no direction.
 std::optional<JetVector> offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
   const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
                                         edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
   const JetVector across = cross(width, base.tangent);
   const Jet across_sq = dot_self(across);
   if (!(across_sq.value.low > 0)) return std::nullopt;
-  // factor |W| M / |M| with M = W x T.
+  // O is factor |W| M / |M| with M = W x T.
   return (factor * root(dot_self(width) * inverse(across_sq))) * across;
 }
 
-// O where a share of both curves is left behind.
+// Returns O at a share of the length of both curves.
 Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor) {
   const Curve::Frame on_base = base.frame(share);
   return arc_offset(edge.at(share) - on_base.point, on_base.tangent, factor);
@@ -134,7 +134,7 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
   const double du = u1 - u0;
   const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
 
-  // W stays near the line between its ends, by the largest bend of all pairs of pieces.
+  // W stays near the line between its ends: the largest bend of all pairs of pieces bounds the distance.
   const Vec3 start = edge.first() - base.first(), end = edge.last() - base.last();
   std::vector<Along> along_base, along_edge;
   for (const Bezier &piece : base.pieces()) along_base.push_back(along_piece(piece, base_.length(), du));
@@ -149,7 +149,7 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
   const double eighth = 0.125 * du * du;
   w = {widened(w.x, eighth * bend.x), widened(w.y, eighth * bend.y), widened(w.z, eighth * bend.z)};
 
-  // |O''| on the smooth parts.
+  // `second` bounds |O''| on the smooth parts.
   double second = 0;
   for (const Along &b : along_base)
     for (const Along &e : along_edge) {
@@ -157,16 +157,16 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
       second = std::max(second, offset ? norm(offset->second()) : infinity);
     }
 
-  // Nowhere is |O| more than |factor| |W|, nor is the line's.
+  // |O| and the length of its linear interpolation are never more than |factor| |W|.
   const double largest = 2 * std::abs(factor_) * norm(w);
-  // Intervals overestimate |O''| several times over. So O is looked at in a few points, and only from one to the next is the
-  // bound relied on: n points have it count n^2 times less.
+  // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound serves only
+  // between neighbouring points. If the range has n parts, the bound counts n^2 times less.
   double error = infinity;
   for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, second);
-  return error <= largest ? error : largest;  // also where the error is no number
+  return error <= largest ? error : largest;  // also if the error is NaN
 }
 
-// From O at n - 1 points between u0 and u1, and the bound on |O''|.
+// Bounds the error from O at n - 1 points between u0 and u1, and from the bound on |O''|.
 double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, double u1, int n, double second) const {
   double off_line = 0;
   if (n > 1) {
@@ -178,7 +178,8 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
   }
   const double step = (u1 - u0) / n;
   double between = 0.125 * step * step * second;
-  // At a joint O' may jump: a kink of height |jump| a b / (a + b), a and b from the points before and after it.
+  // O' may jump at a joint. That adds a kink of height |jump| a b / (a + b), with the distances a and b to the points
+  // before and after it.
   for (const double joint : joints_) {
     if (!(joint > u0 && joint < u1)) continue;
     const double behind = std::fmod(joint - u0, step);
@@ -187,7 +188,7 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
   return off_line + between;
 }
 
-// |O'| on one side of u minus O' on the other.
+// Bounds |O' on one side of u - O' on the other side|.
 double Bulge::jump(double u) const {
   const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
   const auto beside = [&](bool after) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"): every line from a point of the base
-// (the annulus) to the edge's point at the same u (the leaflet's free edge) is a quadratic Bézier curve whose middle control point
-// lies off the straight line's middle by
+// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). Each line from a point of the base
+// (the annulus) to the point of the edge (the leaflet's free edge) at the same u is a quadratic Bézier curve. Its
+// middle control point lies off the straight line's middle by
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction,
-// so that D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', which vanishes where the
-// edge stands still and turns over at its corners, and by a number without a length: docs/theory.md.)
+// so that D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that
+// is not a length. That product vanishes where the edge stands still, and turns over at its corners: docs/theory.md.)
 // In: two curves and the factor. Out: O(u), and how far it may be from linear between two u.
 #pragma once
 
@@ -15,26 +15,26 @@
 
 namespace riis {
 
-// O from W and T; 0 where it has no direction.
+// Returns O from W and T; 0 if O has no direction.
 Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 
 class Bulge {
  public:
-  // Keeps copies. The edge may be a point.
+  // Keeps copies of both curves. The edge may be a point.
   Bulge(Curve base, Curve edge, double factor);
 
-  // O(u). Where base and edge touch it is 0.
+  // Returns O(u). It is 0 where base and edge touch.
   Vec3 at(double u) const;
 
-  // Where the arc at u begins.
+  // Returns the point where the arc at u begins.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // A bound on |O(u) - its linear interpolation between u0 and u1| for u0 <= u <= u1. It falls with (u1 - u0)^2, but for
-  // where W gets parallel to T and O has no direction: there it stays at 2 |factor| |W|.
-  // Looks no closer once it is at most enough.
+  // Bounds |O(u) - its linear interpolation between u0 and u1| for u0 <= u <= u1. The bound falls with (u1 - u0)^2. If
+  // W gets parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. Refines the bound no further once
+  // it is at most `enough`.
   double linear_error(double u0, double u1, double enough) const;
 
-  // u at which O may change its course, ascending: joints of the curves.
+  // Returns the u at which O may change its course, ascending: the joints of the curves.
   const std::vector<double> &joints() const { return joints_; }
 
  private:

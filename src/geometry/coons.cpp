@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// The parameters that a side contributes: none but the ends if it is collapsed.
+// Returns the parameters that a side contributes; only the ends if it is collapsed.
 std::vector<double> own_parameters(const Polyline &side) {
   return side.length > 0 ? side.t : std::vector<double>{0.0, 1.0};
 }
@@ -29,8 +29,8 @@ std::vector<double> middles(const std::vector<GridLine> &lines) {
   return values;
 }
 
-// How far a side may be from its curve between each two grid lines: the error of the segment there, and the shift of shared lines
-// along the side.
+// Bounds how far a side is from its curve between each two grid lines. The bound is the error of the segment there plus
+// the shift of shared lines along the side.
 std::vector<double> errors_between(const std::vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   std::vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
@@ -43,7 +43,7 @@ std::vector<double> errors_between(const std::vector<GridLine> &lines, const Pol
   return errors;
 }
 
-// The larger value at two ends of what is linear between them.
+// Returns the larger of two values, at `from` and at `to`, of the linear function that is at0 at 0 and at1 at 1.
 double larger_mix(double at0, double at1, double from, double to) {
   return std::max((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
 }
@@ -54,7 +54,7 @@ std::vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
 }
 
-// The largest 2 v (1-v) from one v to another.
+// Returns the largest 2 v (1-v) from one v to another.
 double largest_arc_weight(double from, double to) {
   const double v = std::clamp(0.5, from, to);
   return 2 * v * (1 - v);
@@ -89,7 +89,7 @@ class ArcRefinement {
   }
 
  private:
-  // In the middle, or at a joint that is not too near an end: a kink is then no kink.
+  // Returns the middle, or a joint that is not too near an end: a cut at a kink removes it.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -105,11 +105,11 @@ class ArcRefinement {
 
 std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
   const std::vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
-  // Never so wide that two vertices of one side compete for a partner.
+  // The tolerance is never so wide that two vertices of one side compete for a partner.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   std::vector<GridLine> lines{{0.0, 0.0, 0.0}};
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // Past the last inner vertex of a side its parameter is out of reach.
+    // Past the last inner vertex of a side, its parameter is infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {
@@ -141,7 +141,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
     for (std::size_t i = 0; i < u_lines.size(); ++i) {
       const double u = u_lines[i].middle;
       const Vec3 bottom = evaluate(*sides.side_v0, u_lines[i].t0), top = evaluate(*sides.side_v1, u_lines[i].t1);
-      // The boundary is the polylines' own, to the last bit: neighbouring patches share it.
+      // The boundary consists of the polylines' own points, to the last bit, because neighbouring patches share it.
       if (j == 0)
         grid.points.push_back(bottom);
       else if (j + 1 == v_lines.size())
@@ -154,7 +154,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
         grid.points.push_back(mix(bottom, top, v) + mix(left, right, u) - mix(mix(p00, p10, u), mix(p01, p11, u), v));
     }
   }
-  // A point of the patch inherits the errors of its four side points with their weights.
+  // A point of the patch inherits the errors of its four side points, with their weights.
   const std::vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const std::vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const std::vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);
@@ -198,8 +198,8 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
                             : v == 1 ? edge[i]
                                      : mix(base[i], edge[i], v) + (2 * v * (1 - v)) * lines.offsets[i]);
 
-  // Between two lines the base, the edge and O are off from linear by their errors; on a line, the chords of its arc by |O| / 2 times
-  // the row's height squared.
+  // Between two lines, the base, the edge and O differ from linear by their errors. On a line, the chords of its arc
+  // differ from it by |O| / 2 times the square of the row's height.
   const std::vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
   const std::vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches as grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces").
+// Turns patches into grids of quads (paper, 3.3 "Surface structure", and the appendix, "Leaflet surfaces").
 // In: boundary polylines that meet at their ends. Out: grid points at the union of their parameters.
 #pragma once
 
@@ -11,22 +11,22 @@
 
 namespace riis {
 
-// The sides of a patch, named by the parameter that is constant on them. side_v0 and side_v1 run with u, side_u0 and
-// side_u1 run with v. A collapsed side has length 0.
+// The sides of a patch have the name of the parameter that is constant on them. side_v0 and side_v1 run with u, side_u0
+// and side_u1 run with v. A collapsed side has length 0.
 struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// One line of the grid. Where vertices of two opposite sides nearly coincide in parameter they share a line, each side
-// keeping its own vertex: no sliver quads, and no vertex of a shared curve is lost or moved, so neighbouring patches
-// stay without cracks.
+// A line of the grid. Vertices of two opposite sides share a line if they nearly coincide in parameter, and each side
+// keeps its own vertex. So there are no sliver quads, and no vertex of a shared curve is lost or moved: neighbouring
+// patches stay without cracks.
 struct GridLine {
   double t0, t1;  // parameter on the first and the second side that the line ends on
   double middle;  // their mean: the line's u (or v)
 };
 
-// The union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without length
-// gives none.
+// Returns the union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without
+// length contributes none.
 std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
 
 struct QuadGrid {
@@ -40,12 +40,12 @@ struct QuadGrid {
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }
 };
 
-// The Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged where that
-// moves a point by at most max_merge_shift along a side.
+// Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if
+// that moves a point by at most max_merge_shift along a side.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift);
 
-// A patch of arcs: the straight lines between side_v0, the base, and side_v1, the edge, with O(u) added as 2 v (1-v) O(u)
-// (geometry/bulge.hpp). Made in two steps, because patches that share an arc must agree on the number of rows.
+// A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
+// (geometry/bulge.hpp). It is made in two steps, because patches that share an arc must agree on the number of rows.
 struct ArcLines {
   std::vector<GridLine> u_lines;
   std::vector<Vec3> offsets;   // O on each line
@@ -58,20 +58,21 @@ struct ArcLimits {
   std::size_t max_lines;
 };
 
-// The grid lines of the two sides, and more until O is within max_error of linear between them; no further once there are more than
-// max_lines. offset_u0 and offset_u1 are O at the ends as the neighbours have it, to the last bit. Only side_v0 and
-// side_v1 are looked at. Fails with RIIS_INVALID_PARAMETER where O has no direction.
+// Returns the grid lines of the two sides, and more lines until O is within max_error of linear between them. Adds none
+// once there are more than max_lines. offset_u0 and offset_u1 are O at the ends as the neighbours have it, to the last
+// bit. Uses side_v0 and side_v1 only. Fails with RIIS_INVALID_PARAMETER if O has no direction.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 
-// Rows of equal height: an arc is at most |O| / 2 times that height squared from its chords.
+// Makes rows of equal height h. An arc is at most |O| / 2 times h squared from its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
-// Index of the interval of ascending values that holds x: the one behind a value, the last one at the upper end.
+// Returns the index of the interval of ascending values that holds x. A value belongs to the interval behind it, the
+// upper end to the last interval.
 std::size_t interval_of(const std::vector<double> &values, double x);
 
-// S(u,v): bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for the
-// weight's numerator; it is u - u_{o-1}.)
+// Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for
+// the weight's numerator; it is u - u_{o-1}.)
 Vec3 evaluate(const QuadGrid &grid, double u, double v);
 
 }  // namespace riis

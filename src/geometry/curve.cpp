@@ -10,10 +10,10 @@
 namespace riis {
 namespace {
 
-// A length that is nothing on a curve of that length.
+// A share of a curve's length that is negligible.
 constexpr double negligible = 1e-14;
 
-// 2^20 parts a curve: only reached by requests that no surface of this library could be made from.
+// A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
 constexpr int max_depth = 20;
 
 // Collects the chords of parts that are within max_error of them.
@@ -21,7 +21,7 @@ class Flattening {
  public:
   Flattening(Vec3 first, double max_error) : max_error_(max_error), flattened_{{first}, {0.0}, {}} {}
 
-  // The part from share t0 to t1 of the whole curve, of one piece ...
+  // Adds a part of one piece, from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
     if (accept(
@@ -34,7 +34,7 @@ class Flattening {
     add(right, 0.5 * part_length, middle, t1, depth + 1);
   }
 
-  // ... or of several.
+  // Adds a part of one or several pieces, from share t0 to t1 of the whole curve.
   void add(const Curve &part, double t0, double t1, int depth) {
     const std::vector<Bezier> &pieces = part.pieces();
     if (pieces.size() == 1) {
@@ -56,9 +56,9 @@ class Flattening {
   Flattened take() { return std::move(flattened_); }
 
  private:
-  // Both the part and its chord parametrised by the share of their own length, they are at most length^2 / 8 times the largest
-  // curvature apart (linear interpolation of a function with that second derivative; joints do not matter, since the
-  // direction is continuous there), and at most the length where the curve may turn on the spot.
+  // If the part and its chord are parametrised by the share of their own length, they are at most length^2 / 8 times the largest
+  // curvature apart. (That is linear interpolation of a function with that second derivative. Joints do not matter, because the
+  // direction is continuous there.) If the curve may turn on the spot, they are at most the length apart.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

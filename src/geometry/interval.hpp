@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interval arithmetic with first and second derivatives: what a function and its derivatives can be anywhere on a range.
-// In: ranges. Out: ranges that hold every value (to rounding, which is not counted: the bounds it serves are far above).
+// Interval arithmetic with first and second derivatives bounds a function and its derivatives on a range.
+// In: ranges. Out: ranges that hold every value, to rounding. Rounding is not counted: it is far below these bounds.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@ struct Interval {
   static Interval of(double x) { return {x, x}; }
   double magnitude() const {
     const double larger = std::max(std::abs(low), std::abs(high));
-    return low <= high ? larger : std::numeric_limits<double>::infinity();  // also where a bound is no number
+    return low <= high ? larger : std::numeric_limits<double>::infinity();  // also if a bound is NaN
   }
 };
 
 inline Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
 inline Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
 inline Interval operator*(Interval a, Interval b) {
-  // A bound of 0 makes 0 of any number, however large: infinity stands for those.
+  // A bound of 0 times any number is 0. Infinity only stands for a number that may be arbitrarily large.
   const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
   const double p = product(a.low, b.low), q = product(a.low, b.high), r = product(a.high, b.low),
                s = product(a.high, b.high);
@@ -35,9 +35,9 @@ inline Interval square(Interval a) {
   const double p = a.low * a.low, q = a.high * a.high;
   return {a.low <= 0 && a.high >= 0 ? 0.0 : std::min(p, q), std::max(p, q)};
 }
-// Of what is not negative by nature, so that a bound below 0 means 0.
+// Takes the root of values that cannot be negative: a bound below 0 means 0.
 inline Interval root(Interval a) { return {std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0))}; }
-// Of what is above 0 by nature; infinite where the bound is not above 0.
+// Inverts values that are above 0. The upper bound is infinite if the lower bound of the values is not above 0.
 inline Interval inverse(Interval a) {
   return {1 / a.high, a.low > 0 ? 1 / a.low : std::numeric_limits<double>::infinity()};
 }
@@ -60,7 +60,7 @@ inline Jet operator*(double a, const Jet &b) { return {a * b.value, a * b.first,
 inline Jet square(const Jet &a) {
   return {square(a.value), 2 * (a.value * a.first), 2 * (square(a.first) + a.value * a.second)};
 }
-// Of what is above 0.
+// Takes the root of values above 0.
 inline Jet root(const Jet &a) {
   const Interval value = root(a.value), half_inverse = 0.5 * inverse(value), first = half_inverse * a.first;
   return {value, first, half_inverse * a.second - inverse(value) * square(first)};

@@ -4,7 +4,7 @@
 namespace riis {
 
 SineCosine sine_cosine_degrees(double degrees) {
-  // Exact reduction to [-45, 45] degrees and a quarter turn count.
+  // The reduction to [-45, 45] degrees and a number of quarter turns is exact.
   const double turned = std::remainder(degrees, 360.0);
   const double quarters = std::nearbyint(turned / 90.0);
   const double radians = (turned - 90.0 * quarters) * (3.14159265358979323846 / 180.0);

@@ -16,11 +16,11 @@ inline Vec3 operator*(const Rotation &rotation, Vec3 a) {
   return {dot(rotation.row_x, a), dot(rotation.row_y, a), dot(rotation.row_z, a)};
 }
 
-// By an angle in degrees about an axis of any length > 0, counter-clockwise seen against the axis. Exact for multiples
-// of 90 degrees about a coordinate axis.
+// Rotates by an angle in degrees about an axis of any length > 0, counter-clockwise seen against the axis. Exact for
+// multiples of 90 degrees about a coordinate axis.
 Rotation rotation_about(Vec3 axis, double degrees);
 
-// First about x, then y, then z, by degrees: how the paper's rotation [x, y, z] of a cusp is read.
+// Rotates by degrees about x, then about y, then about z. The paper's rotation [x, y, z] of a cusp has this meaning.
 Rotation rotation_xyz(Vec3 degrees);
 
 struct Placement {

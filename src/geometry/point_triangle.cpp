@@ -11,14 +11,14 @@ struct Weights {
   double b, c;  // of the second and third corner; the first has the rest
 };
 
-// Weights of the point of the triangle's plane closest to a + r. n = ab x ac.
+// Returns the weights of the point of the triangle's plane closest to a + r, with n = ab x ac.
 Weights plane_weights(Vec3 r, Vec3 ab, Vec3 ac, Vec3 n, double inverse_nn) {
   return {dot(cross(r, ac), n) * inverse_nn, dot(cross(ab, r), n) * inverse_nn};
 }
 
 bool inside(Weights w) { return w.b >= 0 && w.c >= 0 && w.b + w.c <= 1; }
 
-// Parameter of the point of the segment closest to its first end + r.
+// Returns the parameter of the segment's point closest to the segment's first end + r.
 double segment_parameter(Vec3 r, Vec3 edge) {
   const double t = dot(r, edge) / dot(edge, edge);
   return t > 0 ? (t < 1 ? t : 1.0) : 0.0;
@@ -47,8 +47,8 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   const double inverse_nn = 1.0 / dot(n, n);
   Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
   if (inside(w)) {
-    // The weights of a needle carry an error of rounding over its sine; projecting what is left takes it down by that factor each
-    // time. Others are done after the first.
+    // The weights of a needle carry an error of rounding divided by its sine. Each projection of the rest reduces the
+    // error by that factor. Other triangles are done after the first projection.
     for (int repeat = 0; repeat < 6; ++repeat) {
       const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
       const Weights refined{w.b + rest.b, w.c + rest.c};

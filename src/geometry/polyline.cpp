@@ -18,7 +18,7 @@ Polyline make_polyline(const std::vector<Vec3> &points) {
     polyline.errors.push_back(0.0);
   }
   if (polyline.length > 0) {
-    // The end point is the given one, whatever step was dropped before it: neighbours share it.
+    // The end point is the given one even if a step before it was dropped, because neighbours share it.
     polyline.points.back() = points.back();
     for (double &t : polyline.t) t /= polyline.length;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Polylines parametrised by length (paper, 3.2.2 "Polyline").
-// In: points or a curve. Out: C(t), t in [0,1] the share of the length.
+// In: points or a curve. Out: C(t) for t in [0,1], the share of the length.
 #pragma once
 
 #include <vector>
@@ -12,24 +12,24 @@ namespace riis {
 
 struct Polyline {
   std::vector<Vec3> points;    // at least 1
-  std::vector<double> t;       // of every point, ascending from 0 to 1; a single 0 where the length is 0
+  std::vector<double> t;       // of every point, ascending from 0 to 1; a single 0 if the length is 0
   std::vector<double> errors;  // of every segment: how far it may be, at equal t, from the curve that it stands for
-  double length;               // of that curve
+  double length;               // length of that curve
 };
 
-// The polyline through the points, parametrised by its own length and standing for itself. Repeated points are dropped, so
-// that t ascends strictly. At least one point.
+// Returns the polyline through the points, parametrised by its own length and standing for itself. Drops repeated
+// points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const std::vector<Vec3> &points);
 
-// The polyline that stands for a curve, every segment within max_error (> 0) of it. Its t is the share of the
-// curve's length, not of its own as in the paper: a vertex then is where the curve is at that t, whatever the tolerance.
+// Returns the polyline that stands for a curve, with every segment within max_error (> 0) of it. Its t is the share of the
+// curve's length, not of its own length as in the paper. So a vertex is where the curve is at that t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
 
-// The same polyline from its last point to its first.
+// Returns the same polyline from its last point to its first.
 Polyline reversed(const Polyline &polyline);
 
-// C(t) by linear interpolation, t in [0,1]; a vertex exactly at its own t. C(1) is the last point. (The paper's
-// smallest t_i > t does not exist at t = 1.)
+// Returns C(t) by linear interpolation, t in [0,1]. A vertex is exact at its own t, and C(1) is the last point. (The
+// paper's smallest t_i > t does not exist at t = 1.)
 Vec3 evaluate(const Polyline &polyline, double t);
 
 }  // namespace riis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double precision, eight at a time: the decision kernel, operation by operation as geometry/point_triangle.cpp has it, so that every
-// lane has its bits; and the frames of triangles for the filter. Compiled for each instruction set, never contracted.
+// Double precision, eight at a time. The decision kernel repeats geometry/point_triangle.cpp operation by operation, so
+// every lane has its bits. The file also makes the frames of triangles for the filter. It is compiled for each
+// instruction set and never contracted.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -129,7 +130,7 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// A direction and its length; where there is none, length 0 and the direction that is given.
+// A direction and its length. A vector without direction has length 0 and the direction that the caller gives.
 struct Direction {
   Doubles3 unit;
   Doubles length;
@@ -144,7 +145,7 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Rounded to single precision so that it does not matter: to a unit beyond.
+// Round to single precision and a unit beyond, so that the bounds hold.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-23 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -158,7 +159,7 @@ struct Extent {
   double from, to;
 };
 
-// Of one coordinate of all corners.
+// Returns the extent of one coordinate of all corners.
 RIIS_INLINE Extent extent_of(const Doubles (*coordinates)[3]) {
   Doubles lower = coordinates[0][0], upper = lower;
   for (int h = 0; h < halves; ++h)
@@ -185,7 +186,8 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Unit vectors across the triangles, along an edge, and across both. Any three at right angles are right; these make a small box.
+// Chooses unit vectors across the triangles, along an edge, and across both. Any three at right angles are right; these
+// make a small box.
 RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const GroupCorners &as_given, float (*axis)[3]) {
   double across[3] = {0, 0, 0};
   for (int h = 0; h < halves; ++h) {
@@ -202,7 +204,7 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const GroupCorners &a
     for (int i = 0; i < 3; ++i) a[i] /= length;
     return true;
   };
-  // In units of the largest, so that the squares of small triangles' do not vanish.
+  // The largest component is the unit, so that the squares for small triangles do not vanish.
   double largest = 0;
   for (int i = 0; i < 3; ++i) largest = __builtin_fmax(largest, __builtin_fabs(across[i]));
   for (int i = 0; i < 3; ++i) across[i] = largest > 0 ? across[i] / largest : i == 2;
@@ -218,7 +220,7 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const GroupCorners &a
     for (int i = 0; i < 3; ++i) along[i] = i == (__builtin_fabs(across[0]) < 0.6 ? 0 : 1);
     take_across_away();
   }
-  take_across_away();  // what rounding left of it, which is much where the edge is nearly across the triangles
+  take_across_away();  // removes the rest that rounding left, which is large for an edge nearly across the triangles
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     axis[0][i] = static_cast<float>(across[i]);
@@ -249,7 +251,7 @@ RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const GroupCorners &a
     bounds.from[i] = round_down(extent.from);
     bounds.to[i] = round_up(extent.to);
   }
-  // The corner that is nearest to the middle; lanes without a triangle have the first one's.
+  // Finds the corner that is nearest to the middle. Lanes without a triangle have the first triangle's corners.
   const Doubles3 to = {Doubles::all(middle[0]), Doubles::all(middle[1]), Doubles::all(middle[2])};
   Doubles nearest = Doubles::all(__builtin_inf());
   Doubles3 nearest_corner = to;
@@ -283,9 +285,10 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
               Doubles::load(corners.xyz[3 * i + 2] + from)};
     const Doubles3 ac = q[2] - q[0];
     const Direction e = direction(q[1] - q[0], {one, zero, zero});
-    // What of a-c is across e, twice: the second time takes away what rounding left of e in a needle's.
+    // Returns the part of v across e. It is called twice: the second call removes the part along e that rounding leaves
+    // in a needle.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    // Where rounding has left nothing of the triangle's height, what is across e is noise, and may be along e again.
+    // If rounding has left nothing of the triangle's height, the part across e is noise and may again be along e.
     const Doubles3 over = across(ac);
     const Doubles::Mask has_height = dot(over, over) > Doubles::all(0x1p-88) * dot(ac, ac);
     Doubles3 other = {zero, zero, one};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single precision: leaves out pairs of nodes and triangles that cannot matter. Compiled for each instruction set.
+// Leaves out pairs of nodes and triangles that cannot matter, in single precision. Compiled for each instruction set.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -17,14 +17,14 @@ RIIS_INLINE Floats3 load(const float (*from)[16]) {
   return {Floats::load(from[0]), Floats::load(from[1]), Floats::load(from[2])};
 }
 
-// How far x is outside from..to.
+// Returns how far x is outside from..to.
 RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
   return greatest(greatest(from - x, x - to), Floats::all(0));
 }
 
-// Squares of the distances of n points to sixteen triangles: points together, so that a triangle's numbers are loaded once. Everything
-// is a distance to a point of the triangle, to rounding: inside means inside by a margin; next to the edges the nearest edge is as
-// near, to that margin.
+// Computes the squares of the distances of n points to sixteen triangles, points together, so that a triangle's numbers
+// are loaded once. Every result is the distance to a point of the triangle, to rounding. Inside means inside by a
+// margin; next to the edges, the nearest edge is as near, to that margin.
 template <int n>
 RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
                                     Floats (&distances)[n]) {
@@ -87,8 +87,8 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
 
 constexpr int halves = nodes_per_leaf / 16;
 
-// The nodes of a leaf in the surface's frame, and for every group a lower bound of their distance to it; the nearest corner of the
-// groups is an upper bound of their distance to the surface.
+// Computes squares of bounds for the nodes p of a leaf, in the surface's frame. Every group gets a lower bound of their
+// distance to it. The nearest corner of the groups is an upper bound of their distance to the surface.
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats3 *p) {
   Floats best[halves];
   for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);
@@ -109,7 +109,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats
   for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
 }
 
-// The group that is nearest to two of the leaf's nodes to the front: what is near is found before what need not be looked at then.
+// Moves the group that is nearest to two of the leaf's nodes to the front. Near triangles are found early, and farther
+// groups then need no comparison.
 RIIS_INLINE void nearest_first(const LeafTask &leaf) {
   int32_t nearest = 0;
   float least_sum = __builtin_inff();
@@ -142,12 +143,13 @@ RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, in
 // A node and the triangles of a group that were close to it when it was compared with them.
 struct Close {
   float nearest_sq;
-  int32_t group;  // of the leaf's
+  int32_t group;  // position in near_groups of the leaf
   uint32_t triangles;
   int32_t lane;
 };
 
-// Four nodes of the rest, or as many as there are, with a group; adds those that are close to some of its triangles.
+// Compares a group with four nodes of the rest, or with as many as there are. Adds the nodes that are close to some of
+// its triangles and returns their number.
 RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float (*xyz)[nodes_per_leaf], int32_t k,
                             uint32_t *rest, Close *found) {
   const GroupBounds &bounds = task.bounds[leaf.near_groups[k]];
@@ -159,7 +161,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
   Floats distances[n];
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
-      // Nothing of what is left out here is used.
+      // The lanes that are left out here are never used.
       for (int j = i; j < n; ++j) lanes[j] = -1, distances[j] = distances[0];
       break;
     }
@@ -218,7 +220,7 @@ int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const PairArrays &pa
   }
   leaf.next_group = k;
   leaf.rest = rest;
-  // Less what was near before something nearer was found.
+  // Leaves out pairs that were near only until a nearer triangle was found.
   int32_t n = 0;
   uint32_t nodes = 0;
   for (int32_t i = 0; i < n_found; ++i) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen floats or eight doubles that are computed with together, as registers of the instruction set that the including file is
-// compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a function that the
-// linker could take from the wrong one. For the same reason only headers without inline functions of their own are included.
+// Sixteen floats or eight doubles are computed together, in registers of the instruction set that the including file is
+// compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a
+// function that the linker could take from the wrong one. For the same reason, no header is included that has inline
+// functions with code of their own.
 #pragma once
 
 #if defined(__x86_64__)
@@ -62,7 +63,7 @@ RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
 #endif
 }
 
-// a * b + c, in one rounding where there is an instruction for that.
+// Returns a * b + c, in one rounding if there is an instruction for that.
 RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -91,13 +92,13 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // From and to memory aligned to 64 bytes.
+  // load and store need memory aligned to 64 bytes.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     __builtin_memcpy(lanes.part, __builtin_assume_aligned(from, 64), sizeof lanes.part);
     return lanes;
   }
-  // One number of each of n places.
+  // Gathers one number from each of n places.
   static RIIS_INLINE Lanes gather(const Scalar *const *from, int64_t offset) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) {
@@ -160,7 +161,7 @@ RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R
   RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
 }
 
-// A bit a lane, the first lane's lowest.
+// Returns a bit for each lane, the first lane's lowest.
 RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #if defined(__AVX512DQ__)
   return _mm512_movepi32_mask((__m512i)mask.part[0]);
@@ -178,7 +179,7 @@ RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #endif
 }
 
-// bits(a <= b)
+// Returns bits(a <= b).
 RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_LE_OQ);
@@ -187,7 +188,7 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
-// 0 where a >= b, x elsewhere.
+// Returns 0 where a >= b, and x elsewhere.
 RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #if defined(__AVX512F__)
   const __mmask16 keep = _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NGE_UQ);
@@ -199,7 +200,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Those of 16 integers whose bits are set, one after the other; writes 16, whatever their number.
+// Writes the integers of 16 whose bits are set, one after the other. It may write all 16 places, whatever their number.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -218,7 +219,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
   return r != 0;
 }
 
-// The least lane of each of four.
+// Finds the least lane of each of four.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
 #if defined(__SSE2__)
   __m128 m[4];
@@ -234,7 +235,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Halves next to each other, twice.
+  // Takes the least of neighbouring halves, twice.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

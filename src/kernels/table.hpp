@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each file of kernels gives, under a name of its instruction set.
+// Each file of kernels gives one table, under a name with its instruction set.
 #pragma once
 
 #include "kernels/kernels.hpp"
 
-// RIIS_INSTRUCTION_SET is baseline, avx2 or avx512: which one this is being compiled for.
+// RIIS_INSTRUCTION_SET names the instruction set that this is being compiled for: baseline, avx2 or avx512.
 #define RIIS_JOIN(a, b) a##_##b
 #define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
 #define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seam through which every parallel loop goes; the only file that names OpenMP.
+// Every parallel loop goes through this file. No other file names OpenMP.
 #pragma once
 
 #include <omp.h>
@@ -13,19 +13,19 @@
 
 namespace riis {
 
-// The processors that the calling thread may use, by its affinity mask: what n_threads = 0 stands for. Where OpenMP itself
-// binds threads to places, the mask is the one that the process started with.
+// Returns the number of processors that the calling thread may use, by its affinity mask; n_threads = 0 stands for it.
+// If OpenMP itself binds threads to places, the mask is the one with which the process started.
 inline int default_thread_count() noexcept {
   const int n = omp_get_num_procs();
   return n < 1 ? 1 : n;
 }
 
-// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads and returns how many
-// threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. Of exceptions that of the
-// lowest block is thrown again here after all threads have stopped: the one that a single thread meets, as all blocks before it
-// were handed out before it and run to their end. No setting of the caller's OpenMP changes; inside a caller's parallel region
-// the loop runs on as many threads as nesting allows. One thread is the calling one, without OpenMP: its run-time ends the process
-// when it has no memory.
+// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads, and returns how many
+// threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. After all threads
+// have stopped, the exception of the lowest block is thrown again here. It is the one that a single thread meets,
+// because all blocks before it were handed out before it and run to their end. No setting of the caller's OpenMP
+// changes. Inside a caller's parallel region, the loop runs on as many threads as nesting allows. One thread is the
+// calling thread, without OpenMP: the run-time of OpenMP ends the process if it has no memory.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_threads > n_blocks) n_threads = n_blocks < 1 ? 1 : static_cast<int>(n_blocks);
@@ -61,7 +61,7 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   return n_ran;
 }
 
-// The same over [0, n) in ranges of per_block, the last one shorter: body(range, thread).
+// Does the same over [0, n) in ranges of per_block, the last one possibly shorter, with body(range, thread).
 template <class Body>
 int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
   return parallel_for((n + per_block - 1) / per_block, n_threads, [&](std::int64_t block, int thread) {

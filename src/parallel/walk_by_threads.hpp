@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// concurrent_walk by standard threads, for the thread sanitizer, which understands them and not TBB. It orders no more than TBB
-// does: what add hands on comes after add, the end of the walk after everything. All else is counted with relaxed atomics, which
-// order nothing; a lock around a common queue would put bodies in an order and hide their races.
+// Implements concurrent_walk with standard threads, for the thread sanitizer, which understands them but not TBB. It
+// orders no more than TBB does. A range comes after the call of add that hands it on, and the end of the walk comes
+// after everything. Relaxed atomics count everything else and order nothing. A lock around a common queue would put
+// bodies in an order and hide their races.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 
 namespace riis {
 
-// Places for ranges, as many as it takes; none moves.
+// Places for any number of ranges; a place never moves.
 class RangePlaces {
  public:
   struct Place {

@@ -25,7 +25,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The two approximations of the smooth surface differ by at most their own errors, and by rounding.
+// Bounds the difference between two approximations of the smooth surface by their own errors and by rounding.
 double largest_difference(double triangle_error, const PatchDistance &distance) {
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
@@ -42,18 +42,18 @@ SurfaceSeconds make_surface(const Valve &valve, const SurfaceRequest &request, c
                             Surface &surface) {
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
-  // Parameters to curves and patches.
+  // Parameters become curves and patches.
   const PatchSet patches = valve.make_patches();
-  // Curves to polylines, patches to quads, quads to triangles.
+  // Curves become polylines, patches become quads, and quads become triangles.
   TriangleSet triangles = triangulate(patches, accuracy.triangle_error / placement.scale, placement,
                                       request.flip_normals, request.n_threads, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
-  // Another distance than the triangles', where one is wanted; it goes first, because it may be refused.
+  // Another method for distances is made before the surface, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.distance != RIIS_DISTANCE_TRIANGLES)
     distance = make_distance(patches, {accuracy.distance, accuracy.distance_error}, placement, request.flip_normals);
-  // Triangles to the scene that answers closest points.
+  // Triangles become the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pipeline in one place: from a valve's parameters, or the caller's arrays, to a surface that answers closest points.
-// In: a valve or arrays, where the surface stands, how exact it must be. Out: the surface, and the seconds that it took.
+// The whole pipeline, from a valve's parameters or the caller's arrays to a surface that answers queries for closest points.
+// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds that it took.
 #pragma once
 
 #include <riis/riis.h>
@@ -13,7 +13,7 @@
 
 namespace riis {
 
-// What every surface is made by. Lengths are in placed units, the mesh's.
+// Every surface is made with these values. Lengths are in placed units, the mesh's.
 struct SurfaceRequest {
   double half_thickness;
   Placement placement;
@@ -21,18 +21,18 @@ struct SurfaceRequest {
   int n_threads;
 };
 
-// How far distances to a generated valve may be from those to the smooth one, in placed units.
+// Limits for the difference between distances to a generated valve and to the smooth valve, in placed units.
 struct ValveAccuracy {
   double triangle_error;
   std::int32_t distance;  // RIIS_DISTANCE_*
-  double distance_error;  // only for distances that triangles do not measure
+  double distance_error;  // unused if triangles measure distances
 };
 
 struct SurfaceSeconds {
   double triangles, scene;
 };
 
-// Both replace the content of `surface` and reuse its memory; after a failure it is only fit to be made again.
+// Both replace the content of `surface` and reuse its memory. After a failure the surface can only be made again.
 // The first fails as the stages of the pipeline do, and with RIIS_INVALID_PARAMETER for a valve without area.
 SurfaceSeconds make_surface(const Valve &valve, const SurfaceRequest &request, const ValveAccuracy &accuracy,
                             Surface &surface);

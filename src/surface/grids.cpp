@@ -13,12 +13,12 @@
 namespace riis {
 namespace {
 
-// How the allowed error is shared out; docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a u and of
-// a v curve and of merged grid lines, each bounded as below; what they leave in a quad is for its split into triangles:
-// at least 1 - 2 * (curve_share + merge_share).
+// The allowed error is shared out as in docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a
+// u curve, a v curve and merged grid lines, each bounded as below. At least 1 - 2 * (curve_share + merge_share) is left
+// for the split of a quad into triangles.
 constexpr double curve_share = 0.45, merge_share = 0.01;
-// A point of a patch of arcs inherits the mean of two curves' errors, at most half of O's, and that of the chords of arcs: at
-// least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
+// A point of a patch of arcs inherits the mean of two curves' errors, at most half of the error of O, and the error of
+// the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
 constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 class GridMaker {
@@ -31,7 +31,7 @@ class GridMaker {
         polylines_(set.curves.size()),
         reversed_(set.curves.size()) {
     check_precision();
-    // One polyline a curve, as exact as the most demanding of its patches needs it.
+    // Each curve gets one polyline, as exact as its most demanding patch needs it.
     for (const Patch &patch : set.patches) {
       for (const Side &side : {patch.v0, patch.v1}) allow(side, patch.bulge != 0 ? arc_curve_share : curve_share);
       if (patch.bulge == 0)
@@ -40,7 +40,7 @@ class GridMaker {
     for (std::size_t i = 0; i < tightness.size(); ++i) errors_[i] *= tightness[i];
   }
 
-  // All is counted, as it goes on, before anything large is made.
+  // Counts the triangles at each step, before anything large is made.
   std::vector<QuadGrid> make() {
     const std::size_t n_patches = set_.patches.size();
     lines_.resize(n_patches);
@@ -53,7 +53,7 @@ class GridMaker {
       });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Patches of arcs meet along arcs: all have the same number of rows.
+    // Patches of arcs meet along arcs, so all have the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = std::max(1.0, rows_for(offset));
@@ -70,8 +70,8 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches: no more than these are made before they are counted. A number
-  // of its own, so that how far it came does not depend on the threads.
+  // A curve may have a million points, and a valve a million patches. So the polylines of at most this many patches are made
+  // before they are counted. The number is fixed so that the count at a failure does not depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
 
   void allow(const Side &side, double share) {
@@ -84,7 +84,7 @@ class GridMaker {
                  [&](std::int64_t i, int) { visit(first + static_cast<std::size_t>(i)); });
   }
 
-  // Of the curves that these patches ask something of, those that are not there yet.
+  // Makes the polylines that these patches need and that do not exist yet.
   void make_polylines(std::size_t first, std::size_t end) {
     std::vector<std::size_t> curves;
     for (std::size_t i = first; i < end; ++i) {
@@ -107,7 +107,7 @@ class GridMaker {
   }
 
   PatchSides sides_of(const Patch &patch) const {
-    // The arcs at the sides of a patch of arcs are no polylines: rows are cut from all its arcs alike.
+    // The arcs at the sides of a patch of arcs have no polylines: all its arcs are cut into rows alike.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
             is_coons ? polyline(patch.u1) : nullptr};
@@ -119,13 +119,13 @@ class GridMaker {
     const auto curve = [&](const Side &side) {
       return side.reversed ? set_.curves[side.curve].reversed() : set_.curves[side.curve];
     };
-    // What makes the side an arc, from its control points: both patches at it get the same bits.
+    // The control points give the offset that makes the side an arc, so both patches at it get the same bits.
     const auto offset = [&](const Side &side) {
       const auto &control = set_.curves[side.curve].pieces().front().control;
       return control[1] - 0.5 * (control[0] + control[2]);
     };
     const Vec3 at_u0 = offset(patch.u0), at_u1 = offset(patch.u1);
-    // More lines than this are too many triangles.
+    // More lines than this make too many triangles.
     const double n_rows = std::max(1.0, rows_for(std::max(length(at_u0), length(at_u1))));
     const auto max_lines = static_cast<std::size_t>(static_cast<double>(max_triangles) / n_rows) + 2;
     ArcLines lines = make_arc_lines(sides, Bulge(curve(patch.v0), curve(patch.v1), patch.bulge), at_u0, at_u1,
@@ -134,7 +134,7 @@ class GridMaker {
     return lines;
   }
 
-  // Lengths and coordinates round: patches for which that matters cannot be right to max_error.
+  // Refuses curves whose lengths or coordinates round by too much for max_error.
   void check_precision() const {
     double largest = 0, longest = 0;
     for (const Curve &curve : set_.curves) {
@@ -153,7 +153,7 @@ class GridMaker {
            " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error_);
   }
 
-  // Of all images of a patch, if no quad is split.
+  // Returns the number of triangles of all images of a patch if no quad is split.
   double n_triangles(std::size_t i, double n_rows) const {
     const auto n_between = [](const Polyline &a, const Polyline &b) {
       return static_cast<double>(std::max<std::size_t>({a.t.size(), b.t.size(), 2}) - 1);
@@ -168,7 +168,7 @@ class GridMaker {
   const PatchSet &set_;
   double max_error_;
   int n_threads_;
-  std::vector<double> errors_;  // what each curve is allowed
+  std::vector<double> errors_;  // allowed error of each curve; infinity: needs no polyline
   std::vector<Polyline> polylines_, reversed_;
   std::vector<PatchSides> sides_;
   std::vector<ArcLines> lines_;

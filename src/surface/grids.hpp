@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches to grids of quads (paper, 3.2 and 3.3).
-// In: curves and patches of a valve, the error allowed. Out: a grid for each patch that leaves enough of that error for
-// the quads' split into triangles.
+// Turns patches into grids of quads (paper, 3.2 and 3.3).
+// In: curves and patches of a valve, the allowed error. Out: a grid for each patch, which leaves enough of that error
+// for the split of quads into triangles.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 
 namespace riis {
 
-// One grid a patch, in their order, before any image of it is put in place. Curves are kept within their share of max_error, times
-// tightness of each (1 for all, if there is none). Fails with RIIS_LIMIT_EXCEEDED where it would take more than
-// max_triangles triangles.
+// Makes one grid for each patch, in their order, before any image of the patch is placed. Keeps each curve within its
+// share of max_error times its tightness; an empty `tightness` means 1 for all. Fails with RIIS_LIMIT_EXCEEDED if the
+// surface would take more than max_triangles triangles.
 std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness = {},
                                  int n_threads = 1);
 

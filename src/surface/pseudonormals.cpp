@@ -8,7 +8,7 @@
 namespace riis {
 namespace {
 
-// A number for every vertex, equal where coordinates are equal.
+// Numbers all vertices; vertices with equal coordinates get the same number.
 std::vector<std::size_t> distinct_positions(const TriangleSet &set, std::size_t &n_positions) {
   const auto key = [&](std::size_t vertex) {
     const Vec3 p = set.vertex(static_cast<std::int64_t>(vertex));
@@ -31,7 +31,7 @@ double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), do
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
-  // Scaled first, so that neither small nor large triangles leave the range of doubles.
+  // Edges are scaled first, so that neither small nor large triangles leave the range of doubles.
   const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
   return (1.0 / length(n)) * n;
@@ -86,7 +86,7 @@ Vec3 Pseudonormals::at(std::size_t triangle, const std::array<double, 3> &baryce
     else if (is_zero(previous) && !is_zero(k) && !is_zero(next))
       normal = edge_[3 * triangle + k];
   }
-  // Faces folded onto each other cancel up to rounding: then the triangle's own normal has to do.
+  // Faces folded onto each other cancel up to rounding; the triangle's own normal then takes their place.
   return length(normal) > 1e-9 ? normal : face_[triangle];
 }
 

@@ -15,7 +15,8 @@ struct Centroid {
   std::int32_t triangle;
 };
 
-// Halves the triangles along the longest side of their centroids' box, at a multiple of the size of groups, until there are groups.
+// Halves the triangles along the longest side of their centroids' box, until each part is a group. Cuts at multiples of
+// the group size.
 template <class Visit>
 void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
   if (n <= triangles_per_group) {
@@ -82,7 +83,7 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
       const Vec3 q = p - origin;
       largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     }
-  // Between -3 and 3, whatever the unit is.
+  // The scale keeps coordinates between -3 and 3 in any unit.
   const double scale = largest > 0 ? 1 / largest : 0;
   for (std::int32_t i = begin; i < end; ++i) {
     Vec3 sum{0, 0, 0};
@@ -101,7 +102,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   frame = surface_frame;
   corners.resize(9 * set.n_triangles());
   const bool is_by_place = set.grouping.end.empty();
-  // Groups by place stay as long as they do not fall apart: triangles in the order of the last time's have mostly moved only.
+  // Groups by place are kept until they fall apart: if the number of triangles is the same, most triangles have only moved.
   const bool are_known = is_by_place ? is_by_place_ && grouping_.order.size() == set.n_triangles()
                                      : !is_by_place_ && grouping_ == set.grouping;
   const auto group_anew = [&] {
@@ -111,7 +112,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   };
   if (!are_known) group_anew();
   enclose(set, n_threads);
-  // Of the longest edge of all, whichever groups it is in.
+  // The longest edge of all does not depend on the groups.
   longest_edge = 0;
   for (const GroupBounds &group : bounds) longest_edge = std::max(longest_edge, group.longest_edge);
   are_as_before = are_known && size() <= much * size_at_first_;
@@ -123,7 +124,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   size_at_first_ = size();
 }
 
-// Of all boxes, in the units of the frame: how much they overlap, or miss, shows in it.
+// Returns the sum of the extents of all boxes, in the units of the frame. It grows as the groups fall apart.
 double TriangleGroups::size() const {
   double sum = 0;
   for (const GroupBounds &group : bounds)
@@ -144,7 +145,7 @@ void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
       of_group.n = end[g] - first;
       GroupCorners framed;
       for (int i = 0; i < triangles_per_group; ++i) {
-        if (i >= of_group.n) {  // the first again
+        if (i >= of_group.n) {  // repeats the first triangle
           for (auto &coordinate : framed.xyz) coordinate[i] = coordinate[0];
           continue;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles in space as every later stage sees them.
+// Triangles in space, as every later stage uses them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// Triangles by groups of neighbours, for searches: positions in the set, group after group, and where each group ends.
+// Groups of neighbouring triangles, for searches: positions in the set, group after group, and the end of each group.
 struct Grouping {
   std::vector<std::int32_t> order, end;
 
@@ -25,10 +25,10 @@ struct TriangleSet {
   std::vector<std::int64_t> triangle_id;  // (n_triangles), ascending
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
   std::vector<std::int32_t> patch_id;     // (n_triangles)
-  std::int64_t n_zero_area = 0;           // left out
-  Grouping grouping;                      // empty where whoever made the triangles knows nothing of it
+  std::int64_t n_zero_area = 0;           // triangles that were left out
+  Grouping grouping;                      // empty if the maker of the triangles knows no groups
 
-  // Of nothing, with the memory of what was there.
+  // Empties the set and keeps its memory.
   void clear() {
     for (auto *numbers : {&xyz, &uv}) numbers->clear();
     for (auto *ids : {&vertex_id, &triangle_id}) ids->clear();
@@ -47,15 +47,15 @@ struct TriangleSet {
   }
 };
 
-// The library takes on this many triangles: four-byte ids and a few hundred bytes each, with room.
+// The most triangles that the library accepts. Four-byte ids could count more; each triangle takes a few hundred bytes.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
-// Height over the longest edge at most 1e-12 of that edge, or nothing longer than min_edge.
+// True if the height over the longest edge is at most 1e-12 of that edge, or if all edges are shorter than min_edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   if (!(longest_sq >= min_edge * min_edge)) return true;
-  // From edges of 1e-60 to 1e60 nothing here under- or overflows.
+  // Edges from 1e-60 to 1e60 neither underflow nor overflow here.
   const Vec3 twice_area = cross(ab, ac);
   return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }

@@ -30,14 +30,14 @@ bool is_flat_enough(const Quad &quad, int level, double max_error) {
   return true;
 }
 
-// Halvings of a quad's sides until its parts are close enough to their triangles. The twist of all parts falls by exactly 4 each
-// time, so there is an end; no quad that the library takes on needs more than 12.
+// Returns how often a quad's sides are halved until its parts are close enough to their triangles. Each halving divides the
+// twist of all parts by exactly 4, so there is an end. No quad that the library accepts needs more than 12 halvings.
 int subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
   int enough = 0;
   for (double kappa = quad_flatness(quad); kappa > left && enough < 13; kappa *= 0.25) ++enough;
-  // All parts are looked at where there are few.
+  // All parts are checked while there are few.
   constexpr int few = 5;
   for (int level = 0; level < std::min(enough, few); ++level)
     if (is_flat_enough(quad, level, left)) return level;
@@ -50,11 +50,11 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// A patch's quads with the level that each is subdivided to, in the order of for_each_quad.
+// The quads of a patch, with the level of subdivision of each in the order of for_each_quad.
 struct LevelledGrid {
   QuadGrid grid;
   std::vector<int> levels;
-  std::int64_t n_triangles;  // of one image, with those that turn out to have no area
+  std::int64_t n_triangles;  // of one image, including triangles that turn out to have no area
   std::int64_t n_vertices;
 };
 
@@ -70,14 +70,14 @@ LevelledGrid with_levels(QuadGrid grid, double max_error) {
   return made;
 }
 
-// An image of a patch, and which of a set's vertices and triangles are its; its threads write no others.
+// An image of a patch, with its own vertices and triangles in a set. The thread that builds the image writes no others.
 struct Piece {
   const LevelledGrid *levelled;
   const PatchImage *image;
   std::int64_t first_vertex, first_triangle;
-  std::int64_t n_triangles = 0;  // without those that turned out to have no area: fewer than there is room for
+  std::int64_t n_triangles = 0;  // without triangles that turned out to have no area; there may be room for more
   std::int64_t n_zero_area = 0;
-  bool is_whole = true;  // false if more was left out, for want of area, than the triangles kept stand for
+  bool is_whole = true;  // false if the triangles kept do not stand for all triangles left out for lack of area
   Grouping grouping{};
 };
 
@@ -110,12 +110,12 @@ class PieceBuilder {
  private:
   std::int32_t next_triangle() const { return static_cast<std::int32_t>(piece_.first_triangle + piece_.n_triangles); }
 
-  // Quads of the grid from i0 to i1 - 1 and j0 to j1 - 1.
+  // The quads of the grid from i0 to i1 - 1 and from j0 to j1 - 1.
   struct Quads {
     std::size_t i0, i1, j0, j1;
   };
 
-  // Halves quads along their longer side until their triangles are a group.
+  // Halves quads along their longer side until their triangles fit in a group.
   void group(const Quads &quads) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
     const std::size_t n_u = grid_.u.size() - 1;
@@ -158,8 +158,8 @@ class PieceBuilder {
     uv[0] = u, uv[1] = v;
   }
 
-  // Recursive halving of a bilinear quad ends in equal parts, since all parts of a level have the same flatness: made in
-  // one go.
+  // All parts of a bilinear quad at one level have the same flatness. So recursive halving would end in equal parts,
+  // and they are made in one go.
   void add_subdivided_quad(std::size_t i, std::size_t j, int level) {
     const int n = 1 << level;
     const Quad quad = quad_of(grid_, i, j);
@@ -183,8 +183,8 @@ class PieceBuilder {
     if (!second) check_left_out(corner[3], corner[0], corner[2], first);
   }
 
-  // A triangle without area is its longest edge. That is still there if it is the diagonal of a quad whose other half was kept, and
-  // nothing is lost if it is a point.
+  // A triangle without area is its longest edge. The edge is still there if it is the diagonal of a quad whose other
+  // half was kept. Nothing is lost if the triangle is a point.
   void check_left_out(std::int64_t corner, std::int64_t a, std::int64_t b, bool other_was_kept) {
     const double diagonal = distance(set_.vertex(a), set_.vertex(b));
     const double other =
@@ -217,7 +217,7 @@ class PieceBuilder {
   std::vector<std::int32_t> first_of_quad_;
 };
 
-// For all pieces, with whatever is in it: they write everything.
+// Makes room for all pieces. The old contents may stay: the pieces write everything.
 void make_room(std::int64_t n_vertices, std::int64_t n_triangles, TriangleSet &set) {
   set.xyz.resize(3 * static_cast<std::size_t>(n_vertices));
   set.uv.resize(2 * static_cast<std::size_t>(n_vertices));
@@ -227,7 +227,7 @@ void make_room(std::int64_t n_vertices, std::int64_t n_triangles, TriangleSet &s
   set.n_zero_area = 0;
 }
 
-// One after the other, where pieces have fewer triangles than there was room for.
+// Moves the triangles of all pieces together. Pieces may have fewer triangles than there was room for.
 void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
   set.grouping.order.clear();
   set.grouping.end.clear();
@@ -311,7 +311,7 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
       close_gaps(pieces, triangles);
       return triangles;
     }
-    // Patches thinner than the tolerance lose their area where their sides become the same chords: these have to be finer.
+    // Patches thinner than the tolerance lose their area if their sides become the same chords. Their curves have to be finer.
     constexpr int max_attempts = 12;
     if (attempt == max_attempts)
       fail(RIIS_INVALID_PARAMETER, "patch ", set.patches[vanished.front()].images.front().patch_id,

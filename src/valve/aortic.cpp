@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below: those of the whole valve, then those of each cusp.
+// Positions in the list of specs below: parameters of the whole valve first, then parameters of each cusp.
 // clang-format off
 enum General {
   root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
@@ -33,7 +33,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // Lengths from what a valve can be in micrometres to what it can be in kilometres; check_together looks at their ratios.
+  // The limits suit a valve in any unit from kilometres to micrometres; check_together checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"aortic", {
@@ -75,8 +75,8 @@ ValveKind make_kind() {
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The free edge or the bending curve of half a cusp, y >= 0, in the cusp's frame: from the symmetry plane to the end at
-// radius_out and angle, along the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power.
+// Returns the free edge or the bending curve of half a cusp, y >= 0, in the cusp's frame. It runs from the symmetry
+// plane to the end at radius_out and angle, along the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power.
 Bezier profile_curve(double radius_in, double radius_out, double angle, double power, double height, double t0,
                      double t3) {
   const auto [sine, cosine] = sine_cosine_degrees(angle);
@@ -86,7 +86,8 @@ Bezier profile_curve(double radius_in, double radius_out, double angle, double p
   return Bezier::cubic(first, first + t0 * Vec3{first_slope, 1, 0}, last - t3 * Vec3{last_slope, 1, 0}, last);
 }
 
-// Splits at t and sets the common point, known to be on the curve, to the last bit: other curves end in it.
+// Splits the curve at t and sets the common point to `point`, which is known to be on the curve. Other curves end
+// there, to the last bit.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   below.control[static_cast<std::size_t>(below.degree)] = point;
@@ -94,7 +95,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// The curves of half a cusp in the cusp's frame: symmetry plane y = 0, root at z = 0, z to the aorta.
+// The curves of half a cusp in the cusp's frame. Its symmetry plane is y = 0, the root is at z = 0, and z points to the aorta.
 struct HalfCusp {
   Bezier leaflet, bending, sinus_below, sinus_above, symmetry_below, symmetry_above;
 };
@@ -110,12 +111,12 @@ HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
   half.bending = profile_curve(own(bending_radius_in), own(bending_radius_out), own(bending_angle), own(bending_power),
                                h_b, general(t0_bending, cusp), general(t3_bending, cusp));
 
-  // Sinus: the quadratic from the root point to the leaflet's end, through the bending curve's end at s.
+  // The sinus curve is the quadratic from the root point to the leaflet's end, through the bending curve's end at s.
   const Vec3 root{R, 0, 0}, L = half.leaflet.last(), B = half.bending.last();
   const Vec3 through = (1.0 / (2 * s * (1 - s))) * (B - (1 - s) * (1 - s) * root - s * s * L);
   std::tie(half.sinus_below, half.sinus_above) = split_through(Bezier::quadratic(root, through, L), s, B);
 
-  // Symmetry: the cubic from the root point to the leaflet's middle, through the bending curve's middle at s.
+  // The symmetry curve is the cubic from the root point to the leaflet's middle, through the bending curve's middle at s.
   const Vec3 b = half.bending.first(), D3 = half.leaflet.first();
   const Vec3 D1{0.5 * (R + b.x) + general(xq) * (R - b.x), 0, 0.5 * h_b + general(zq) * h_b};
   const double a = 1 - s;
@@ -124,7 +125,7 @@ HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
   return half;
 }
 
-// Lengths against the root radius; heights against each other.
+// Checks lengths against the root radius, and heights against each other.
 void check_together(const ParameterValues &values) {
   const Measure radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
   const auto check = [&](std::size_t position, const Measure &measure, double least, double most) {
@@ -142,8 +143,8 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Values that are sound one by one can still throw a curve far away: a high power with a long tangent, a bending curve near
-// the root. Such a curve is refused with the parameters that made it.
+// Refuses a curve that reaches far away, and names the parameters that made it. Values that are sound one by one can do
+// that: a high power with a long tangent, or a bending curve near the root.
 void check_reach(const Bezier &curve, const char *what, const char *parameters, std::size_t cusp, double size) {
   for (int i = 0; i <= curve.degree; ++i) {
     const double reach = length(curve.control[static_cast<std::size_t>(i)]);
@@ -154,7 +155,7 @@ void check_reach(const Bezier &curve, const char *what, const char *parameters, 
   }
 }
 
-// Every curve of one state; those in between two states lie in between.
+// Checks every curve of one state. Curves between two checked states lie between theirs.
 void check_values(const ParameterValues &values) {
   check_together(values);
   const double size = std::max(values[root_radius][0], values[leaflet_height][0]);
@@ -190,7 +191,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
     const Side bending = add_blended(&HalfCusp::bending), leaflet = add_blended(&HalfCusp::leaflet);
     const Side sinus_below = add_blended(&HalfCusp::sinus_below), sinus_above = add_blended(&HalfCusp::sinus_above);
 
-    // The frame is no control point: its angles and its shift are blended as numbers.
+    // The frame has no control points: its angles and its shift are blended as numbers.
     const auto vector_of = [&](OfCusp parameter) {
       const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
       return blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
@@ -202,7 +203,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
       return std::vector<PatchImage>{{Mirror::none, turn, shift, leaflet_id, 4 * leaflet_id + part},
                                      {Mirror::in_y, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
     };
-    // u runs from the symmetry plane to the sinus and v upwards, so S_u x S_v points to the sinus face: downstream.
+    // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face: downstream.
     set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0)});
     set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1)});
   }
@@ -212,7 +213,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &aortic_valve_kind() {
-  // Made at the first use and never destroyed: usable from the first to the last instruction of the process.
+  // The kind is made at the first use and never destroyed, so it is usable from the first to the last instruction of
+  // the process.
   static const ValveKind &kind = *new ValveKind(make_kind());
   return kind;
 }

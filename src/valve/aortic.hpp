@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic valve: three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
+// The aortic valve has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
 #pragma once
 
 #include "valve/valve.hpp"

@@ -51,13 +51,13 @@ ValveKind make_kind() {
 }
 // clang-format on
 
-// The half of the valve on the posteromedial side, x >= 0; the other half is its mirror image. The annulus runs from the
-// posterior point, u = 0, counter-clockwise seen from +z, to the anterior point, u = 1/2.
+// The half of the valve on the posteromedial side, x >= 0; the other half is its mirror image. The annulus runs from
+// the posterior point, u = 0, to the anterior point, u = 1/2, counter-clockwise seen from +z.
 struct HalfValve {
   std::array<Bezier, 3> annulus;
   Bezier anterior;        // free edge, from the posteromedial to the anterolateral commissure
   Bezier side_scallop;    // free edge, from the posteromedial commissure to the cleft
-  Bezier middle_scallop;  // free edge, from this cleft to the other half's
+  Bezier middle_scallop;  // free edge, from this cleft to the cleft of the other half
   double u_commissure;    // u_pm
   double triangle_width;  // r_tr, in u
   double bulge;           // tan(surface_angle) / 2
@@ -66,8 +66,8 @@ struct HalfValve {
 
 Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 
-// Six points and the tangents there; the half uses points 0 to 3. The paper prints IT_distance for the widest point's x
-// on one side, where its symmetry asks for ALPM_diameter / 2.
+// The annulus has six points and tangents; the half uses points 0 to 3. The paper prints IT_distance for the widest
+// point's x on one side, but its symmetry needs ALPM_diameter / 2.
 std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   const double ap = value(AP_diameter), alpm = value(ALPM_diameter), position = value(ALPM_position_ratio),
@@ -82,15 +82,15 @@ std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
           Bezier::cubic(P2, P2 + T2, P3 - T3, P3)};
 }
 
-// The annulus as leaflets hang from it: A(u) and N(u), the tangent turned by 90 degrees in the plane, inwards.
+// The annulus, from which the leaflets hang: A(u), and N(u), the tangent turned inwards by 90 degrees in the plane.
 class Annulus {
  public:
   explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
 
   const Curve &half() const { return half_; }
   Curve::Frame frame(double u) const { return half_.frame(2 * u); }
-  // U(u, x): from the annulus by x, inwards by an angle below the plane. (The paper prints U by a product with N, whose z is
-  // 0, so that the angle has no effect.)
+  // Returns U(u, x), the point at distance x from the annulus, inwards by an angle below the plane. (The paper prints U
+  // by a product with N, whose z is 0, so that the angle has no effect.)
   Vec3 below(double u, double x, SineCosine angle) const {
     const auto [A, T] = frame(u);
     const double in_plane = std::hypot(T.x, T.y);
@@ -102,8 +102,8 @@ class Annulus {
   Curve half_;
 };
 
-// The cubic from one end to the other through the tip at 1/2: the affine image of the cubic that stands for a circular arc of
-// that angle. (The paper's matrix has rank 3; this is what it is meant to give.)
+// Returns the cubic from one end to the other through the tip at 1/2. It is the affine image of the cubic that approximates a
+// circular arc of that angle. (The paper's matrix has rank 3; this is the curve that it is meant to give.)
 Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
   const auto [half_sine, half_cosine] = sine_cosine_degrees(0.5 * arc_angle);
@@ -113,7 +113,7 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
 }
 
-// A free edge that is all in one point makes no leaflet.
+// Returns the length of a free edge. Refuses an edge that is all in one point, because it makes no leaflet.
 double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
   const double length = arc_length(edge);
   if (!(length >= 1e-6 * arc_length(annulus)))
@@ -123,7 +123,7 @@ double checked_length(const Bezier &edge, const char *which, const Bezier &annul
   return length;
 }
 
-// The parameter of the closed anterior edge a third of its length from the commissure: where the cleft is.
+// Returns the parameter of the cleft: the point of the closed anterior edge a third of its length from the commissure.
 double cleft_parameter(const Bezier &closed_anterior, const Bezier &annulus) {
   const double whole = checked_length(closed_anterior, "closed", annulus);
   return parameter_at_length(closed_anterior, whole, whole / 3);
@@ -151,13 +151,13 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
   half.cleft = 0;
   if (is_open) {
-    // Clefts at a third of the way; the paper swaps tips and ends of the side scallops.
+    // The clefts are a third of the way along the annulus. The paper swaps tips and ends of the side scallops.
     const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
     half.side_scallop =
         free_edge(commissure, edge_point(2 * u_pm / 3, value(posterior_scallop_length1)), cleft, arc_angle);
     half.middle_scallop = free_edge(cleft, edge_point(0, value(posterior_scallop_length2)), mirrored(cleft), arc_angle);
   } else {
-    // The leaflets meet in one edge: thirds of its length are the scallops.
+    // The leaflets meet in one edge, and the scallops are thirds of its length.
     half.cleft = cleft_parameter(half.anterior, half.annulus[0]);
     const auto [side, rest] = split(half.anterior, half.cleft);
     half.side_scallop = side;
@@ -180,7 +180,7 @@ HalfValve blend(const HalfValve &closed, const HalfValve &open, double opening) 
   return half;
 }
 
-// Lengths against the depth of the annulus.
+// Checks lengths against the depth of the annulus.
 void check_values(const ParameterValues &values) {
   const std::vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
   const Measure depth{"AP_diameter", values[AP_diameter][0]};
@@ -203,7 +203,7 @@ void check_values(const ParameterValues &values) {
          "; twice that must leave at least 0.02 of anterior_ratio, which is ", ratio);
 }
 
-// Cuts an edge at the plane of symmetry.
+// Cuts an edge at the plane of symmetry and returns the first half.
 Bezier up_to_symmetry_plane(const Bezier &edge, double middle) {
   Bezier half = split(edge, middle).first;
   half.control[3].x = 0;
@@ -222,7 +222,7 @@ class Patches {
         is_closed ? anterior_middle : add(up_to_symmetry_plane(half.middle_scallop, 0.5));
     const std::size_t commissure = add(Bezier::point(side_edge.first()));
 
-    // u along the annulus: the anterior edge stands for what the triangle leaves, by its length.
+    // u runs along the annulus. The anterior edge covers the part that the triangle leaves, in proportion to its length.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
     const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
@@ -248,7 +248,7 @@ class Patches {
     return set_.curves.size() - 1;
   }
 
-  // The arc from the annulus at u to that point of the edge, as a side that both its patches share.
+  // Returns the arc from the annulus at u to a point of the edge, as a side that both its patches share.
   Arc arc(double u, Vec3 on_edge) {
     const auto [on_annulus, along] = annulus_.frame(u);
     Vec3 offset = arc_offset(on_edge - on_annulus, along, half_.bulge);
@@ -258,8 +258,8 @@ class Patches {
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
-  // Patches run clockwise, down from the anterior point, so that S_u x S_v points into the ventricle: downstream. O goes along
-  // (edge - annulus) x (the annulus' counter-clockwise direction), hence the minus.
+  // Patches run clockwise, down from the anterior point, so that S_u x S_v points into the ventricle: downstream. O
+  // goes along (edge - annulus) x (the annulus' counter-clockwise direction), hence the minus.
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
@@ -298,7 +298,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &mitral_valve_kind() {
-  // Made at the first use and never destroyed: usable from the first to the last instruction of the process.
+  // The kind is made at the first use and never destroyed, so it is usable from the first to the last instruction of
+  // the process.
   static const ValveKind &kind = *new ValveKind(make_kind());
   return kind;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a valve hands on to the surface: curves, and patches that share them by position.
+// A valve hands curves on to the surface, and patches that share the curves by position.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ namespace riis {
 
 enum class Mirror { none, in_x, in_y };
 
-// Where a patch is put: mirrored or not, then turned, then moved. The same patch is put at several places by the same
-// operations on the same points, so a patch and its mirror image meet in the mirror's plane to the last bit.
+// The place of a patch: it is mirrored or not, then turned, then moved. All images of a patch come from the same
+// operations on the same points. So a patch and its mirror image meet in the mirror's plane to the last bit.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -29,20 +29,20 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
          image.translation;
 }
 
-// A curve by its position in PatchSet::curves, run along from its first point or from its last.
+// A curve, given by its position in PatchSet::curves, that runs from its first point or from its last.
 struct Side {
   std::size_t curve;
   bool reversed = false;
 };
 
-// A patch by its four sides, named by the parameter that is constant on them. A curve that two patches share appears once,
-// so that it becomes one polyline and the patches meet without cracks. S_u x S_v points downstream; mirror images are
-// turned over to keep it so.
+// A patch, given by its four sides, which are named by the parameter that is constant on them. A curve that two patches
+// share appears once, so that it becomes one polyline and the patches meet without cracks. S_u x S_v points downstream;
+// mirror images are turned over to keep it so.
 struct Patch {
   Side v0, v1, u0, u1;
   std::vector<PatchImage> images;
-  // 0: the Coons patch of the sides. Otherwise the patch of arcs from v0 to v1 that this factor makes (geometry/bulge.hpp);
-  // u0 and u1 are then such arcs themselves.
+  // 0 means the Coons patch of the sides. Any other factor means the patch of the arcs that it makes from v0 to v1
+  // (geometry/bulge.hpp); u0 and u1 are then such arcs themselves.
   double bulge = 0;
 };
 

@@ -42,7 +42,7 @@ std::vector<Bezier> curves_of(const riis_patches &arrays) {
   return curves;
 }
 
-// The diagonal of the box of all control points.
+// Returns the diagonal of the box of all control points.
 double size_of(const std::vector<Bezier> &curves) {
   Vec3 lower = curves.front().first(), upper = lower;
   for (const Bezier &curve : curves)
@@ -62,7 +62,7 @@ class PatchReader {
   Patch read(std::int64_t patch) const {
     std::array<Side, 4> sides{};
     for (std::size_t k = 0; k < 4; ++k) sides[k] = side(patch, k);
-    // The corners, each by the two sides that end in it.
+    // Two sides meet in each corner.
     check_corner(patch, sides, 0, false, 2, false);
     check_corner(patch, sides, 0, true, 3, false);
     check_corner(patch, sides, 1, false, 2, true);
@@ -125,7 +125,7 @@ void check_states(const ValveState &closed, const ValveState &open) {
     fail(RIIS_INVALID_PARAMETER, "the open state has ", to.curves.size(), " curves and ", to.patches.size(),
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(), ": they must be built alike");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
-    // Lines are quadratics here, and may become one.
+    // Lines are quadratics here, and a line may become a quadratic.
     const int degree = from.curves[i].pieces().front().degree, open_degree = to.curves[i].pieces().front().degree;
     if (degree != open_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in the ", open_degree == 3 ? "open state" : "valve",

@@ -13,7 +13,7 @@
 namespace riis {
 namespace {
 
-// A name as it appears in a message: cut, because it may be anything.
+// Cuts a name for a message, because it may be anything.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
 // The parameter that may have been meant, with its leaflet's name where the given name has one; "" if none is near.
@@ -35,7 +35,7 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
        "riis_valve_parameter and riis-mark --print-params list them");
 }
 
-// Whether the spec's name is a leaflet's name, a dot, and the given name.
+// Returns whether the spec's name is a leaflet's name, a dot, and the given name.
 bool is_of_a_leaflet(const ParameterSpec &spec, std::string_view name) {
   const std::string_view full = spec.name;
   return full.size() > name.size() + 1 && full.substr(full.size() - name.size()) == name &&
@@ -97,7 +97,7 @@ void Valve::set_open_state(const Valve &open) {
     fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
          kind_->name, ": a valve opens to one of its own");
   if (kind_->check_states) kind_->check_states(state_, open.state_);
-  open_ = ValveState(open.state_);  // copied aside: assigned member by member it could stop half way
+  open_ = ValveState(open.state_);  // copied aside first: an assignment member by member could stop half way
 }
 
 PatchSet Valve::make_patches() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Valves: kinds of them, their named parameters, a second state to open to.
-// In: names and values as users write them. Out: checked values, and the patches they make at an opening.
+// Valves have a kind, named parameters, and a second state to open to.
+// In: names and values as users write them. Out: checked values, and the patches that they make at an opening.
 #pragma once
 
 #include <array>
@@ -24,48 +24,48 @@ struct ParameterSpec {
   double minimum, maximum;
 };
 
-using ParameterValues = std::vector<std::array<double, 3>>;  // one entry a spec
+using ParameterValues = std::vector<std::array<double, 3>>;  // one entry for each spec
 
-// What makes a valve's shape: parameters, or patches for valves that are given by patches.
+// A valve's shape: parameters, or patches for valves that are given by patches.
 struct ValveState {
   ParameterValues values;
   PatchSet patches;
 };
 
-// What a kind of valve is: its parameters and the way from them to patches.
+// A kind of valve: its parameters and the way from them to patches.
 struct ValveKind {
   const char *name;
   std::vector<ParameterSpec> parameters;
   std::size_t opening;   // position of the parameter of that name
-  bool opens_by_itself;  // one set of parameters makes it closed and open
-  // Refuses values that do not go together; NULL: they always do.
+  bool opens_by_itself;  // one set of parameters makes the valve both closed and open
+  // Refuses values that do not go together. NULL: all values go together.
   void (*check_values)(const ParameterValues &values);
-  // The patches at an opening from 0, which the closed state makes, to 1, which the open one makes: control points are
-  // blended. Both states may be the same, and have been checked.
+  // Makes the patches at an opening from 0, the closed state, to 1, the open state, by blending control points. Both
+  // states have been checked; they may be the same.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses an open state that is not of the closed one's build; NULL: states of a kind always are.
+  // Refuses an open state that is not built like the closed one. NULL: all states of the kind are built alike.
   void (*check_states)(const ValveState &closed, const ValveState &open);
 };
 
-// The kind of that name; fails with RIIS_INVALID_PARAMETER naming the kinds there are.
+// Returns the kind of that name. Fails with RIIS_INVALID_PARAMETER and names the existing kinds.
 const ValveKind &find_valve_kind(std::string_view name);
 
-// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER, naming the parameter and the value,
-// and then leave the valve as it was.
+// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER, name the parameter and the value, and
+// then leave the valve as it was.
 class Valve {
  public:
   explicit Valve(const ValveKind &kind, PatchSet patches = {});
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // A name without a leaflet sets the parameter of every leaflet that has one of that name.
+  // A name without a leaflet sets the parameter of that name in every leaflet that has one.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
 
-  // Takes the other valve's own state as the one to open to. It must be of the same kind.
+  // Takes the other valve's own state as the state to open to. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
-  // At the opening that is set.
+  // Makes the patches at the current opening.
   PatchSet make_patches() const;
 
  private:
@@ -76,21 +76,21 @@ class Valve {
   std::optional<ValveState> open_;
 };
 
-// What blending does to one number. Exact at both ends.
+// Blends one number; exact at both ends.
 inline double blend(double closed, double open, double opening) {
   return opening == 0 ? closed : opening == 1 ? open : (1 - opening) * closed + opening * open;
 }
 inline Vec3 blend(Vec3 closed, Vec3 open, double opening) {
   return {blend(closed.x, open.x, opening), blend(closed.y, open.y, opening), blend(closed.z, open.z, opening)};
 }
-// Of two curves of the same degree.
+// Blends two curves of the same degree.
 Bezier blend(const Bezier &closed, const Bezier &open, double opening);
 
-// The spec of the parameter that every kind has.
+// Returns the spec of the opening, a parameter that every kind has.
 ParameterSpec opening_spec(const char *description, double default_value);
 
-// Parts of values that are checked against another one, as in "leaflet_height is 30; it must be from 0.05 to 10 times
-// root_radius, which is 1.29".
+// A value that others are checked against, as in "leaflet_height is 30; it must be from 0.05 to 10 times root_radius,
+// which is 1.29".
 struct Measure {
   const char *name;
   double size;
