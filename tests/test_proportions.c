@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning of a mesh, a surface and a half thickness that can hardly be in one unit: when there is one, once, and none for a part
- * of a mesh that is elsewhere. What the warning goes by, the box of the nodes, wherever they lie. */
+ * The warning of a mesh, a surface and a half thickness that can hardly be in one unit: it comes once, and not for a part of
+ * a mesh that is elsewhere. It goes by the box of the nodes, which is tested for every layout of the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 

@@ -9,8 +9,8 @@
 
 namespace riis {
 
-// How many letters must be changed, added, left out, or swapped with the next one to make one name of the other; capitals count as
-// small letters. Of a longer name the first 80 letters are compared.
+// How many letters must be changed, added, left out, or swapped with the next one to make one name of the other. Capitals count
+// as small letters. Only the first 80 letters are compared.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   constexpr std::size_t longest = 80;
   a = a.substr(0, longest);

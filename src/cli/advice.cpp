@@ -175,7 +175,8 @@ std::optional<std::string> advice_on_half_thickness(const Situation &s) {
            option("--surface-unit", *unit);
   }
   const double better = better_half_thickness(s);
-  return text + (better > 0 ? ": write --half-thickness " + shown(better) : ": see --half-thickness, --scale");
+  if (better > 0) return text + ": write --half-thickness " + shown(better);
+  return text + (is_large ? ": see --half-thickness, --scale" : ": the mesh is too coarse for this surface");
 }
 
 }  // namespace riis::cli

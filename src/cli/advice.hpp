@@ -13,8 +13,8 @@ namespace riis::cli {
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 
-// Whether mesh and surface are in different units by the look of their sizes, and what to write then: "the mesh looks as if it were
-// in metres, ...: write --unit m".
+// For a mesh and a surface whose sizes look like different units: what they look like and what to write, such as "the mesh
+// looks as if it were in metres, ...: write --unit m".
 std::optional<std::string> advice_on_units(const Situation &situation);
 
 // The same for a half thickness that is too large or too small.

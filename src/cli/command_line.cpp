@@ -412,8 +412,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// In the order in which they were typed, which is not CLI11's. Where an option is unknown, its value is left over as well, or passes
-// for the mesh: only the options are told then.
+// What CLI11 did not understand, in the order in which it was typed, which is not CLI11's. The value of an unknown option is left
+// over as well, or passes for the mesh: only the options are named then.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);

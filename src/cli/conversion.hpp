@@ -8,8 +8,8 @@ namespace riis::cli {
 
 enum class Content { mesh, surface };
 
-// Such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk"; "" for an ending that can be read, and for one that nothing
-// is known of.
+// Such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". It is "" for an ending that can be read, and for an
+// unknown one.
 std::string conversion_hint(const std::string &path, Content wanted);
 
 }  // namespace riis::cli

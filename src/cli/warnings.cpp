@@ -36,7 +36,8 @@ bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >
 
 // A single layer of nodes all over the surface would be about area / edge^2.
 bool has_hardly_any(const Situation &s) {
-  return s.n_marked > 0 && static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
+  if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
+  return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
 }
 
 bool has_odd_half_thickness(const Situation &s) {

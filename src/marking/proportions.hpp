@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the sizes of a mesh, a surface and its half thickness can be in one unit. In: boxes that are known anyway. Out: a warning
-// to the caller's log function, once for a mesh and a surface.
+// Whether a mesh, a surface and its half thickness can be in one unit.
+// In: boxes that are known anyway. Out: a warning to the caller's log function, once for a mesh and a surface.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct Sizes {
   double half_thickness;
 };
 
-// Takes the same few comparisons for any mesh. A box that is elsewhere says nothing: it may be of one rank of many.
+// Makes a few comparisons, whatever the size of the mesh. Only sizes are compared: a rank's part of a mesh may be elsewhere.
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, Warned &warned);
 
 }  // namespace riis

@@ -6,8 +6,8 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// The median of the edges of linear cells, each as often as it is in a cell; of at most 20,000 cells, evenly spaced in their order.
-// 0 where there is none.
+// The median of the edges of linear cells, 0 where there is none. An edge counts once for each of its cells. At most 20,000
+// cells are looked at, evenly spaced in their order.
 double median_edge_of(vtkUnstructuredGrid *grid);
 
 }  // namespace riis::vtk

@@ -9,8 +9,8 @@
 
 namespace riis::vtk {
 
-// The piece of every face, numbered in the order of their first faces. Faces are connected that have a vertex in common, or two with
-// exactly the same coordinates.
+// The piece of every face. Pieces are numbered in the order of their first faces. Faces are connected if they share a vertex, or
+// have vertices with exactly the same coordinates.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
 }  // namespace riis::vtk

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files of other formats: the refusal names a command, with the user's own names, and the command works, for which it is run where its
- * program is installed. */
+ * Files of other formats: the refusal names a command with the user's own names. Where its program is installed, the
+ * command is run, and the file that it makes is read. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --leaflets: a surface file's leaflets from its pieces or from an array of its own. --prefix and --replace: the marks of a second valve
- * beside those of the first, or in their place. */
+ * --leaflets: a surface file's leaflets from its pieces or from an array of its own. --prefix and --replace: the marks of a
+ * second valve beside those of the first, or in their place. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>

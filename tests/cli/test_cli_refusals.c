@@ -76,7 +76,7 @@ static void test_new_usage(void **state) {
   RUN_REFUSED(2, "--prefix: 'a b' must be 1 to 64 letters, digits", mesh, "--output", out, "--prefix", "a b");
   RUN_REFUSED(2, "--prefix: the value is empty", mesh, "--output", out, "--prefix=", "--quiet");
   RUN_REFUSED(2, "--unit", mesh, "--unit", "km");
-  RUN_REFUSED(2, "--unit excludes --scale", mesh, "--unit", "m", "--scale", "0.01");
+  RUN_REFUSED(2, "--scale excludes --unit", mesh, "--unit", "m", "--scale", "0.01");
   RUN_REFUSED(2, "--surface-unit needs --unit", mesh, "--surface", "a.stl", "--surface-unit", "mm");
   RUN_REFUSED(2, "--unit needs --surface-unit, the unit of a.stl", mesh, "--surface", "a.stl", "--unit", "mm");
   RUN_REFUSED(2, "--unit needs --surface-unit, the unit of a.json", mesh, "--valve", "a.json", "--unit", "mm");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --unit and --surface-unit: the same marks whatever the unit. And what is told of sizes that do not go together: the options that the
- * line names are taken from it, and mend it. */
+ * --unit and --surface-unit: the marks are the same whatever the unit. Sizes that do not go together: the options that the
+ * warning names are taken from it, and they mend it. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -176,9 +176,9 @@ static void test_wrong_file_units(void **state) {
   expect_warning(0, "both look as if they were in metres: write --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[0]);
   /* A factor that no two units have. */
-  run_program(meshes[1], "--surface", surfaces[1], "--scale", "1e-4", NULL);
+  run_program(meshes[1], "--surface", surfaces[1], "--scale", "0.005", NULL);
   expect_warning(3, "different units");
-  expect_warning(3, "in place of --scale 0.0001\n");
+  expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
 }
 
 static void test_half_thickness(void **state) {
@@ -196,13 +196,19 @@ static void test_half_thickness(void **state) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* Too coarse a mesh for any power of ten: its edge. */
+  /* A mesh too coarse for any power of ten: its edge, unless that is too coarse as well. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
                    1);
   run_program(scratch_path("coarse.vtu"), "--half-thickness", "0.08", NULL);
-  expect_warning(program_exit_code, ": write --half-thickness 0.");
+  expect_warning(program_exit_code, ", the median edge of the mesh 0.9");
+  expect_warning(program_exit_code, ": the mesh is too coarse for this surface\n");
+  assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 12, (double[3]){-far, -far, -far},
+                                  (double[3]){far, far, far}, 0),
+                   1);
+  run_program(scratch_path("coarse.vtu"), "--half-thickness", "0.075", NULL);
+  expect_warning(program_exit_code, ": write --half-thickness 0.4");
   /* A file whose surface is in no size of a valve. */
   run_program(meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
   expect_warning(0, ": write --half-thickness 0.07\n");
@@ -216,7 +222,7 @@ static void test_places(void **state) {
                  "no node is marked: the mesh is in x -1.7 to 1.5, y -1.6 to 1.6, z -1.3 to 0.4, the surface in x 48.");
   expect_warning(3, "the half thickness is 0.1: see --translate, --rotate, --scale, --half-thickness\n");
   /* A corner of the valve alone is in the mesh. */
-  run_program(meshes[1], "--translate", "2.6,0,0", NULL);
+  run_program(meshes[1], "--translate", "3,0,0", NULL);
   expect_warning(0, "only ");
   expect_warning(0, " of 10,648 nodes are marked: the mesh is in x");
   RUN_FINE(meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));

@@ -18,6 +18,13 @@ void check(const riis::cli::Options &options) {
   EXPECT(!options.opening || (*options.opening >= 0 && *options.opening <= 1), "opening %g", *options.opening);
   for (const riis::cli::Picture &picture : options.pictures)
     EXPECT(picture.view >= 0 && picture.view <= 2 && !picture.path.empty(), "view %d", picture.view);
+  EXPECT(!options.surface_unit || options.unit, "a surface's unit without the mesh's");
+  EXPECT(!options.unit || (options.surface_options.scale >= 1e-3 && options.surface_options.scale <= 1e3), "scale %g",
+         options.surface_options.scale);
+  EXPECT(!options.unit || options.surface_options.half_thickness > 0, "half thickness %g",
+         options.surface_options.half_thickness);
+  EXPECT(!options.prefix.empty() && options.prefix.find_first_of(" /\n\"<") == std::string::npos, "prefix %s",
+         options.prefix.c_str());
   riis_valve *handle = nullptr;
   EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",
          riis_last_error());

@@ -54,6 +54,9 @@ void read_mesh() {
   if (is_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), RIIS_INVALID_MESH))
     EXPECT(std::isfinite(sum), "%g", sum);
   use_rows(mesh, read, n_nodes);
+  double edge = -1;
+  EXPECT(riis_vtk_mesh_median_edge(read, &edge) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(edge >= 0 && std::isfinite(edge), "edge %g", edge);
   riis_mesh_destroy(&mesh);
   riis_vtk_mesh_destroy(&read);
 }
@@ -68,6 +71,9 @@ void read_surface() {
   EXPECT(riis_surface_arrays_init(&arrays, sizeof arrays) == RIIS_OK, "%s", riis_last_error());
   EXPECT(riis_vtk_surface_arrays(read, &arrays) == RIIS_OK, "%s", riis_last_error());
   EXPECT(arrays.n_faces > 0 && arrays.n_vertices > 0, "%lld faces", static_cast<long long>(arrays.n_faces));
+  EXPECT(riis_vtk_surface_number_pieces(read) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_surface_arrays(read, &arrays) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(arrays.leaflet_id && arrays.leaflet_id[0] == 0, "the first face is not of the first piece");
   riis_surface_options options;
   EXPECT(riis_surface_options_init(&options, sizeof options) == RIIS_OK, "%s", riis_last_error());
   options.zero_area = RIIS_ZERO_AREA_SKIP;

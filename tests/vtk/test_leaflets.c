@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Leaflets of surface files by pieces and by arrays; marks by other names; the length of a mesh's edges. Pieces and edges are compared
- * with slow computations of them. */
+ * Leaflets of surface files by pieces and by arrays; marks by other names; the length of a mesh's edges. Pieces and edges
+ * are compared with slow computations of them. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points of a lattice, so that some of them meet; with 0 and -0, which are the same place. Their pieces by
- * passing the lowest face's number on until nothing changes. */
+/* Random triangles on few points, so that some of them meet. Coordinates are 0 or -0, which is the same place. The pieces come
+ * from passing the lowest face's number on until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];
