@@ -142,33 +142,33 @@ module riis_c
     type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_faces), or c_null_ptr
   end type riis_surface_arrays
 
-  !> What a surface is.
+  !> The size of a surface, and the time that it took.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices     !< length of what riis_surface_vertices gives
-    integer(c_int64_t) :: n_triangles    !< those that are asked for closest points
-    integer(c_int64_t) :: n_zero_area    !< triangles left out because they have no area
+    integer(c_int64_t) :: n_vertices     !< length of the array of riis_surface_vertices
+    integer(c_int64_t) :: n_triangles    !< triangles that answer queries
+    integer(c_int64_t) :: n_zero_area    !< triangles skipped for want of area
     real(c_double) :: half_thickness     !< placed units
     real(c_double) :: area               !< of all triangles, placed units squared
     real(c_double) :: lower(3), upper(3) !< bounds of the triangles, placed units
     real(c_double) :: seconds_triangles  !< wall time of the last create or update: checks and triangles
-    real(c_double) :: seconds_scene      !< and the Embree scene, with what another distance than the triangles' needs
+    real(c_double) :: seconds_scene      !< Embree scene, and the samples or patches of another distance
   end type riis_surface_info
 
-  !> The closest point of the surface to one point. Where the surface's distances are by sampling or minimisation, the
-  !! point is the sample or S(u,v), leaflet_id that of its patch, normal that of S there, 0 0 0 where it has none, as at
-  !! a collapsed side; triangle_id is -1, barycentric and side are 0.
+  !> The closest point of the surface to one point. For distances by sampling or minimisation, the point is the sample
+  !! or S(u,v), with its patch's leaflet_id and the normal of S, 0 0 0 where S has none, as where a side is a point.
+  !! Then triangle_id is -1; barycentric and side are 0.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0
     real(c_double) :: point(3)        !< on the triangle
     real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
-    integer(c_int64_t) :: triangle_id !< the lowest of the closest triangles' ids
+    integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< the triangle's
-    integer(c_int32_t) :: side        !< +1 on the side that normals point to (downstream), -1 on the other, 0 exactly
-                                      !! on the surface or level with its rim. At an edge or a vertex that several
-                                      !! triangles share, their angle-weighted normal decides (Baerentzen, Aanaes 2005);
-                                      !! vertices are shared when their placed coordinates are equal. Where an edge ends
-                                      !! inside another (along the bending curve) it is the one triangle's
+    integer(c_int32_t) :: side        !< +1 on the side that normals point to (downstream), -1 on the other, 0 on the
+                                      !! surface or level with its rim. At a shared edge or vertex the angle-weighted
+                                      !! normal of its triangles decides (Baerentzen, Aanaes 2005); vertices with equal
+                                      !! placed coordinates are shared. An edge that ends inside another, along the
+                                      !! bending curve, is one triangle's
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -245,18 +245,16 @@ module riis_c
     integer(c_int64_t) :: n_nodes        !< of the mesh, masked out or not
     integer(c_int64_t) :: n_marked       !< nodes within the half thickness
     integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
-    integer(c_int64_t) :: n_queries      !< closest-point queries that were made, of nodes and, by the neighbour search,
-                                         !! of groups of nodes
+    integer(c_int64_t) :: n_queries      !< closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< threads that really ran, the most in any part of the search. A caller's TBB
-                                         !! limit binds walks, not loops
-    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, which is certain, for the
-                                         !! coordinates that the mesh was last told of; 0: it is not certain
-                                         !! (RIIS_SEARCH_PAPER)
-    integer(c_int32_t) :: instructions   !< those that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search did not reach from
-                                         !! neighbour to neighbour, and that its proof found
+    integer(c_int32_t) :: n_threads      !< threads that ran, the most in any part of the search. A caller's TBB limit
+                                         !! binds walks, not loops
+    integer(c_int32_t) :: complete       !< 1: every node within the limit was certainly found, by the coordinates last
+                                         !! given; 0: not certain (RIIS_SEARCH_PAPER)
+    integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search did not walk to, but its
+                                         !! proof found
   end type riis_mark_stats
 
   ! -------------------------------------------------------------------------------------------------------------------
@@ -637,7 +635,7 @@ module riis_c
     end function riis_mesh_set_adjacency
 
     ! -----------------------------------------------------------------------------------------------------------------
-    ! Adjacency from what solvers have
+    ! Adjacency from cells, faces, or a structured grid
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   struct_size  c_sizeof(cells)
