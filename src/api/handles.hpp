@@ -10,6 +10,7 @@
 #include "api/errors.hpp"
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
+#include "parallel/keeps_arenas.hpp"
 #include "surface/surface.hpp"
 #include "valve/valve.hpp"
 
@@ -55,6 +56,7 @@ struct riis_valve : riis::Handle<riis::HandleKind::valve> {
 };
 
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {
+  riis::KeepsArenas keeps_arenas;
   std::unique_ptr<riis::Surface> surface;
   std::unique_ptr<riis::Surface> before;  // the last content, for its memory
   riis_surface_options options;           // as completed
@@ -63,6 +65,7 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
 
 struct riis_mesh : riis::Handle<riis::HandleKind::mesh> {
   explicit riis_mesh(const riis::StridedPoints &nodes) : mesh(nodes) {}
+  riis::KeepsArenas keeps_arenas;
   riis::Mesh mesh;
 };
 
@@ -71,6 +74,7 @@ struct riis_adjacency : riis::Handle<riis::HandleKind::adjacency> {
 };
 
 struct riis_mark_result : riis::Handle<riis::HandleKind::mark_result> {
+  riis::KeepsArenas keeps_arenas;
   riis::MarkResult result;
 };
 
