@@ -59,18 +59,6 @@ std::int64_t allocations_of(const Work &work) {
   return n_allocations;
 }
 
-// Bytes of the process in memory.
-double resident() {
-  long long all = 0, in_memory = 0;
-  std::FILE *file = std::fopen("/proc/self/statm", "r");
-  if (!file || std::fscanf(file, "%lld %lld", &all, &in_memory) != 2) {
-    std::fprintf(stderr, "/proc/self/statm cannot be read\n");
-    std::exit(1);
-  }
-  std::fclose(file);
-  return 4096.0 * static_cast<double>(in_memory);
-}
-
 constexpr int period = 50;  // steps from closed to open and back: what is compared are steps in the same position
 constexpr int n_warm_steps = 100;  // two periods
 constexpr double most_growth = 1e6;

@@ -32,19 +32,26 @@ static riis_patches parabola(void) {
   return sheets(1, degree, control, curve_id);
 }
 
-/* From (x, z) to the parabola: the nearest of many points of it, and Newton's method from there. */
+/* From (x, z) to the parabola: Newton's method from every minimum among many points of it. The least of the points need not be next to
+ * the nearest one. */
 static double distance_to_parabola(double x, double z) {
-  double best = INFINITY, t = 0;
-  for (int i = 0; i <= 2000; ++i) {
-    const double at = 2 * focal * (i / 1000.0 - 1), far = hypot(at - x, at * at / (4 * focal) - z);
-    if (far < best) best = far, t = at;
+  enum { n = 2000 };
+  double at[n + 1], best = INFINITY;
+  for (int i = 0; i <= n; ++i) {
+    const double t = 2 * focal * (2.0 * i / n - 1);
+    at[i] = hypot(t - x, t * t / (4 * focal) - z);
   }
-  for (int step = 0; step < 20; ++step) {
-    const double height = t * t / (4 * focal) - z, slope = t / (2 * focal);
-    const double derivative = t - x + height * slope, second = 1 + slope * slope + height / (2 * focal);
-    t = fmin(fmax(t - derivative / second, -2 * focal), 2 * focal);
+  for (int i = 0; i <= n; ++i) {
+    if ((i > 0 && at[i - 1] < at[i]) || (i < n && at[i + 1] < at[i])) continue;
+    double t = 2 * focal * (2.0 * i / n - 1);
+    for (int step = 0; step < 20; ++step) {
+      const double height = t * t / (4 * focal) - z, slope = t / (2 * focal);
+      const double derivative = t - x + height * slope, second = 1 + slope * slope + height / (2 * focal);
+      t = fmin(fmax(t - derivative / second, -2 * focal), 2 * focal);
+    }
+    best = fmin(best, fmin(at[i], hypot(t - x, t * t / (4 * focal) - z)));
   }
-  return fmin(best, hypot(t - x, t * t / (4 * focal) - z));
+  return best;
 }
 
 static double curvature_of_parabola(double x) { return 1 / (2 * focal) / pow(1 + x * x / (4 * focal * focal), 1.5); }

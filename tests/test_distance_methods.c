@@ -71,20 +71,24 @@ static double distance_to_profile(const double *p, double t) {
   return hypot(x, z);
 }
 
+/* All minima of a fine net are followed: near the middle between two, the net's least need not be the true one. */
 static double distance_to_cylinder(const double *p) {
   enum { n = 400 };
-  int nearest = 0;
-  for (int i = 1; i <= n; ++i)
-    if (distance_to_profile(p, (double)i / n) < distance_to_profile(p, (double)nearest / n)) nearest = i;
-  double low = fmax(nearest - 1, 0) / n, high = fmin(nearest + 1, n) / n;
-  for (int i = 0; i < 60; ++i) {
-    const double third = (high - low) / 3;
-    if (distance_to_profile(p, low + third) < distance_to_profile(p, high - third))
-      high -= third;
-    else
-      low += third;
+  double at[n + 1], nearest = INFINITY;
+  for (int i = 0; i <= n; ++i) at[i] = distance_to_profile(p, (double)i / n);
+  for (int i = 0; i <= n; ++i) {
+    if ((i > 0 && at[i - 1] < at[i]) || (i < n && at[i + 1] < at[i])) continue;
+    double low = fmax(i - 1, 0) / n, high = fmin(i + 1, n) / n;
+    for (int step = 0; step < 60; ++step) {
+      const double third = (high - low) / 3;
+      if (distance_to_profile(p, low + third) < distance_to_profile(p, high - third))
+        high -= third;
+      else
+        low += third;
+    }
+    nearest = fmin(nearest, distance_to_profile(p, low));
   }
-  return hypot(distance_to_profile(p, low), fmax(fmax(-p[1], p[1] - 1), 0));
+  return hypot(nearest, fmax(fmax(-p[1], p[1] - 1), 0));
 }
 
 static riis_valve *valve_of(const char *kind) {

@@ -91,9 +91,9 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* How far p is from the patch, no nearer than the truth: steps of Gauss and Newton from a first guess of (u, v). */
-static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p) {
-  double u = guess[0], v = guess[1], nearest = INFINITY;
+/* Steps of Gauss and Newton from a first guess of (u, v): the least distance on the way. */
+static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, double u, double v, const double *p) {
+  double nearest = INFINITY;
   for (int step = 0; step < 4; ++step) {
     const double h = 1e-5, hu = u > 0.5 ? -h : h, hv = v > 0.5 ? -h : h;
     double s[3], su[3], sv[3], a = 0, b = 0, c = 0, e = 0, f = 0;
@@ -110,6 +110,16 @@ static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, c
     u = fmin(fmax(u + (c * e - b * f) / determinant, 0), 1);
     v = fmin(fmax(v + (a * f - b * e) / determinant, 0), 1);
   }
+  return nearest;
+}
+
+/* How far p is from the patch, no nearer than the truth. The steps can end in another minimum, or leave the patch where it folds.
+ * A distance of more than enough is therefore looked for again, from all over the patch. */
+static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p,
+                                 double enough) {
+  double nearest = distance_on_way(smooth, patch_id, guess[0], guess[1], p);
+  for (int i = 0; i <= 40 && nearest > enough; ++i)
+    for (int j = 0; j <= 40; ++j) nearest = fmin(nearest, distance_on_way(smooth, patch_id, i / 40.0, j / 40.0, p));
   return nearest;
 }
 
@@ -150,7 +160,7 @@ static deviation measure(const smooth_valve *smooth, const riis_valve *valve, do
       }
       smooth->point(patch_id[t], at[0], at[1], s);
       if (distance_between(s, p) > d.to_smooth * bound)
-        d.to_smooth = fmax(d.to_smooth, distance_to_smooth(smooth, patch_id[t], at, p) / bound);
+        d.to_smooth = fmax(d.to_smooth, distance_to_smooth(smooth, patch_id[t], at, p, bound) / bound);
     }
   }
   riis_surface_destroy(&surface);

@@ -12,6 +12,7 @@
 #include "distance/surface.hpp"
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
+#include "parallel/keeps_arenas.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
@@ -56,6 +57,7 @@ struct riis_valve : riis::Handle<riis::HandleKind::valve> {
 };
 
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {
+  riis::KeepsArenas keeps_arenas;
   std::unique_ptr<riis::Surface> surface;
   std::unique_ptr<riis::Surface> before;  // the last content, for its memory
   riis_surface_options options;           // as completed
@@ -72,6 +74,7 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
 
 struct riis_mesh : riis::Handle<riis::HandleKind::mesh> {
   riis_mesh(const riis::StridedPoints &nodes, const riis::Bounds &bounds) : mesh(nodes, bounds) {}
+  riis::KeepsArenas keeps_arenas;
   riis::Mesh mesh;
 };
 
@@ -80,6 +83,7 @@ struct riis_adjacency : riis::Handle<riis::HandleKind::adjacency> {
 };
 
 struct riis_mark_result : riis::Handle<riis::HandleKind::mark_result> {
+  riis::KeepsArenas keeps_arenas;
   riis::MarkResult result;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seam through which work that makes more work goes; the only file that names TBB.
+// The seam through which work that makes more work goes; it and arena_pool.* are the only files that name TBB.
 #pragma once
 
 #if defined(RIIS_STD_THREADS)
@@ -18,24 +18,28 @@
 #include <vector>
 
 #include "base/float_environment.hpp"
+#include "parallel/arena_pool.hpp"
 #include "parallel/range.hpp"
 
 namespace riis {
 
-// An arena of up to n_threads threads, the calling one among them. TBB gives no more threads than it may have in the process: where
-// that is fewer it may have more for as long as this lives, unless it was the caller who said so. An arena of more than there can be
-// would be announced on stderr.
+// An arena of up to n_threads threads, the calling one among them, lent by the pool for as long as this lives. TBB gives no more
+// threads than it may have in the process: where that is fewer it may have more for as long as this lives, unless it was the caller
+// who said so. An arena of more than there can be would be announced on stderr.
 class Arena {
  public:
   explicit Arena(int n_threads) {
     const auto wanted = static_cast<std::size_t>(n_threads);
     if (allowed() < wanted) limit_.emplace(tbb::global_control::max_allowed_parallelism, wanted);
-    arena_.initialize(static_cast<int>(std::min(allowed(), wanted)), 1);
+    lent_ = borrow_arena(static_cast<int>(std::min(allowed(), wanted)));
   }
+  ~Arena() { give_back(lent_); }
+  Arena(const Arena &) = delete;
+  Arena &operator=(const Arena &) = delete;
 
   template <class Work>
   void run(const Work &work) {
-    arena_.execute(work);
+    lent_->arena.execute(work);
   }
 
  private:
@@ -44,7 +48,7 @@ class Arena {
   }
 
   std::optional<tbb::global_control> limit_;
-  tbb::task_arena arena_;
+  PooledArena *lent_;
 };
 
 // Runs body(range, add, thread) for every range of the list and for all that bodies add, add(range), on up to n_threads threads, 0

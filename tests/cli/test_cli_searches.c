@@ -39,7 +39,7 @@ static void test_marks_are_equal(void **state) {
       assert_true(json_number(program_out, "n_within_limit") == (double)by_c.stats.n_within_limit);
       assert_true(json_number(program_out, "threads") <= n_threads);
       const double seconds = json_number(strstr(program_out, "\"seconds\": {"), "adjacency");
-      assert_true(i == 2 ? seconds > 0 && seconds < 100 : seconds == 0);
+      assert_true(i == 2 ? seconds > 0 : seconds == 0);
     }
   }
 }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// ./run bench proof, its third part: the memory of the process stays while a small mesh is marked again and again, by every search,
+// with 1, 2 and 4 threads, on processors that other processes keep busy. There threads come late to a search of less than a
+// millisecond, and TBB keeps what it made for them. Prints a table; fails where memory grows. argv[1]: another number of markings.
+// OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or all takes many times as long.
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "cylinder.hpp"
+#include "memory.hpp"
+
+namespace {
+
+using namespace bench;
+
+// Processes that compute, one for each processor that this process may use. They end with this object, and the system kills them
+// where this process ends without it (exit, a signal).
+class BusyProcessors {
+ public:
+  BusyProcessors() {
+    cpu_set_t usable;
+    const int n = sched_getaffinity(0, sizeof usable, &usable) == 0 ? CPU_COUNT(&usable) : 1;
+    const pid_t parent = getpid();
+    for (int i = 0; i < n; ++i) {
+      const pid_t process = fork();
+      if (process < 0) {
+        std::perror("fork");
+        end();
+        std::exit(1);
+      }
+      if (process == 0) compute_for(parent);
+      processes_.push_back(process);
+    }
+  }
+  ~BusyProcessors() { end(); }
+  BusyProcessors(const BusyProcessors &) = delete;
+  BusyProcessors &operator=(const BusyProcessors &) = delete;
+
+ private:
+  [[noreturn]] static void compute_for(pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(0);  // it ended before the system was told
+    for (volatile unsigned step = 0;; step = step + 1) {
+    }
+  }
+  void end() {
+    for (const pid_t process : processes_) {
+      kill(process, SIGKILL);
+      waitpid(process, nullptr, 0);
+    }
+  }
+
+  std::vector<pid_t> processes_;
+};
+
+// When the handles of a marking are made: a solver keeps them, a solver whose mesh moves may make the mesh each time, and a subroutine
+// that keeps nothing between its calls makes all of them.
+enum class Made { before, mesh_each_time, all_each_time };
+
+struct Case {
+  const char *name;
+  std::int32_t search;
+  Made made;
+};
+constexpr Case cases[] = {{"exhaustive", RIIS_SEARCH_EXHAUSTIVE, Made::before},
+                          {"clusters", RIIS_SEARCH_CLUSTERS, Made::before},
+                          {"paper", RIIS_SEARCH_PAPER, Made::before},
+                          {"neighbor", RIIS_SEARCH_NEIGHBOR, Made::before},
+                          {"neighbor, a new mesh each time", RIIS_SEARCH_NEIGHBOR, Made::mesh_each_time},
+                          {"neighbor, all new each time", RIIS_SEARCH_NEIGHBOR, Made::all_each_time}};
+
+Surface make_surface() {
+  const Valve valve = make_valve("aortic");
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  options.tolerance = 0.1;
+  options.half_thickness = 0.1;
+  options.n_threads = 1;
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve.get(), &options, &surface));
+  return Surface(surface);
+}
+
+// The handles of a marking, made as the case says.
+class Marking {
+ public:
+  Marking(const Case &of, int n_threads) : made_(of.made), nodes_(cylinders[0], 3000), rows_(nodes_.rows()) {
+    check(riis_mark_options_init(&options_, sizeof options_));
+    options_.search = of.search;
+    options_.n_threads = n_threads;
+  }
+
+  void mark() {
+    if (made_ != Made::before) mesh_.reset();
+    if (made_ == Made::all_each_time) surface_.reset(), result_.reset();
+    if (!surface_) surface_ = make_surface();
+    if (!result_) result_ = make_result();
+    if (!mesh_) {
+      mesh_ = mesh_over(nodes_);
+      check(riis_mesh_set_adjacency(mesh_.get(), &rows_));
+    }
+    check(riis_mark_nodes(surface_.get(), mesh_.get(), &options_, result_.get()));
+  }
+
+ private:
+  Made made_;
+  CylinderMesh nodes_;
+  riis_csr rows_;
+  riis_mark_options options_;
+  Surface surface_;
+  Mesh mesh_;
+  Result result_;
+};
+
+// What so many markings may add to the memory of the process: a thread's stack and its allocator's first pages, should the thread
+// first come now. In the short form (300 markings) it is 1 kB a marking. TBB's arena of two threads is 7 kB.
+constexpr double most_growth = 3e5;
+
+// A leak grows in every round, and what comes once does not.
+bool stays(const Case &of, int n_threads, int n_markings) {
+  Marking marking(of, n_threads);
+  for (int i = 0; i < 60; ++i) marking.mark();
+  for (int round = 1;; ++round) {
+    const double before = resident();
+    for (int i = 0; i < n_markings; ++i) marking.mark();
+    const double growth = resident() - before;
+    std::printf("| %s | %d | %d | %.3f | %.0f |\n", of.name, n_threads, round, 1e-6 * growth, growth / n_markings);
+    std::fflush(stdout);
+    if (growth <= most_growth) return true;
+    if (round == 3) return false;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const int n_markings = argc > 1 ? std::atoi(argv[1]) : 5000;
+  if (n_markings < 300) {
+    std::fprintf(stderr, "%s: not a number of markings, 300 or more: %s\n", argv[0], argv[1]);
+    return 2;
+  }
+  const BusyProcessors busy;  // forks, and so comes before the first thread
+  std::printf("| search | threads | round of %d markings | growth, MB | bytes a marking |\n|---|---|---|---|---|\n",
+              n_markings);
+  bool all_stay = true;
+  for (const Case &of : cases)
+    for (const int n_threads : {1, 2, 4}) all_stay = stays(of, n_threads, n_markings) && all_stay;
+  std::printf("\nmemory %s\n", all_stay ? "stays" : "does NOT stay");
+  return all_stay ? 0 : 1;
+}

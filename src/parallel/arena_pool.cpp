@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/arena_pool.hpp"
+
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "parallel/keeps_arenas.hpp"
+
+namespace riis {
+namespace {
+
+// Nothing destroys it when the process exits: destructors of a caller's static objects may still walk.
+struct Pool {
+  std::mutex mutex;
+  std::int64_t n_keepers = 0;
+  std::size_t n_arenas = 0;
+  PooledArena *idle = nullptr;  // a list, since giving back must not need memory
+  pid_t process = 0;            // that made them
+};
+Pool pool;
+static_assert(std::is_trivially_destructible_v<Pool>);
+
+PooledArena *take_idle(int n_threads) noexcept {
+  const std::lock_guard<std::mutex> lock(pool.mutex);
+  for (PooledArena **place = &pool.idle; *place; place = &(*place)->next) {
+    PooledArena *const arena = *place;
+    if (arena->n_threads != n_threads) continue;
+    *place = arena->next;
+    return arena;
+  }
+  return nullptr;
+}
+
+void destroy(PooledArena *first) noexcept {
+  std::optional<tbb::global_control> no_workers;
+  try {
+    // TBB then frees an arena at once, although workers that it called may not have come.
+    no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
+  } catch (...) {  // no memory: TBB frees the arena later, or keeps it
+  }
+  while (first) delete std::exchange(first, first->next);
+}
+
+}  // namespace
+
+PooledArena *borrow_arena(int n_threads) {
+  if (PooledArena *const idle = take_idle(n_threads)) return idle;
+  auto *const made = new PooledArena(n_threads);
+  const std::lock_guard<std::mutex> lock(pool.mutex);
+  ++pool.n_arenas;
+  pool.process = getpid();
+  return made;
+}
+
+void give_back(PooledArena *arena) noexcept {
+  const std::lock_guard<std::mutex> lock(pool.mutex);
+  arena->next = std::exchange(pool.idle, arena);
+}
+
+std::size_t n_arenas() noexcept {
+  const std::lock_guard<std::mutex> lock(pool.mutex);
+  return pool.n_arenas;
+}
+
+KeepsArenas::KeepsArenas() noexcept {
+  const std::lock_guard<std::mutex> lock(pool.mutex);
+  ++pool.n_keepers;
+}
+
+KeepsArenas::~KeepsArenas() {
+  PooledArena *first = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(pool.mutex);
+    if (--pool.n_keepers > 0) return;
+    for (const PooledArena *arena = pool.idle; arena; arena = arena->next) --pool.n_arenas;
+    first = std::exchange(pool.idle, nullptr);
+    // A child of fork() has none of the workers, and TBB may wait there for what they held.
+    if (getpid() != pool.process) return;
+  }
+  if (first) destroy(first);
+}
+
+}  // namespace riis

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The arenas that walks run in are kept for later walks, and each is lent to one walk at a time. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "arenas.h"
+
+static int keep(void **state) {
+  *state = arenas_keep();
+  return 0;
+}
+
+static int let_go(void **state) {
+  arenas_let_go((arenas_keeper **)state);
+  return 0;
+}
+
+static void expect_walk(walk_seen seen, int arena) {
+  assert_true(seen.is_right);
+  assert_int_equal(seen.arena, arena);
+}
+
+static void one_caller_has_one_arena(void **state) {
+  (void)state;
+  for (int i = 0; i < 200; ++i) {
+    expect_walk(walk_once(2), 2);
+    assert_true(sort_once());
+  }
+  assert_int_equal(arenas_made(), 1);
+  assert_true(walk_once(1).is_right); /* without TBB */
+  assert_int_equal(arenas_made(), 1);
+}
+
+static void each_number_of_threads_has_one(void **state) {
+  (void)state;
+  for (int i = 0; i < 100; ++i)
+    for (int n_threads = 2; n_threads <= 4; ++n_threads) expect_walk(walk_once(n_threads), n_threads);
+  assert_int_equal(arenas_made(), 3);
+}
+
+static void callers_at_once_have_one_each(void **state) {
+  (void)state;
+  assert_true(walk_at_once(2, 1));
+  assert_int_equal(arenas_made(), 2);
+  /* All five callers had an arena of two threads at once, and at most five had one of three. */
+  assert_true(walk_at_once(5, 200));
+  assert_in_range(arenas_made(), 6, 10);
+}
+
+static void the_callers_limit_is_kept(void **state) {
+  (void)state;
+  const int limits[] = {4, 1, 2, 1, 3, 4};
+  for (int repeat = 0; repeat < 20; ++repeat)
+    for (int i = 0; i < 6; ++i) {
+      expect_walk(walk_under_limit(limits[i], 4), limits[i]);
+      expect_walk(walk_once(4), 4); /* as many as are asked for, also where there are fewer processors */
+    }
+  assert_int_equal(arenas_made(), 4); /* of 1, 2, 3 and 4 threads */
+}
+
+static void an_arena_comes_back_when_a_body_throws(void **state) {
+  (void)state;
+  for (int i = 0; i < 100; ++i) {
+    assert_true(walk_that_throws(3));
+    expect_walk(walk_once(3), 3);
+  }
+  assert_int_equal(arenas_made(), 1);
+}
+
+static void the_callers_tasks_have_at_most_one_each(void **state) {
+  (void)state;
+  assert_true(walk_in_tasks(500));
+  assert_in_range(arenas_made(), 1, 4);
+}
+
+static void arenas_go_with_the_last_who_keeps_them(void **state) {
+  arenas_keeper *second = arenas_keep();
+  expect_walk(walk_once(2), 2);
+  arenas_let_go((arenas_keeper **)state);
+  assert_int_equal(arenas_made(), 1);
+  expect_walk(walk_once(3), 3);
+  arenas_let_go(&second);
+  assert_int_equal(arenas_made(), 0);
+  assert_true(end_tbb());
+  *state = arenas_keep();
+  expect_walk(walk_once(2), 2);
+  assert_int_equal(arenas_made(), 1);
+}
+
+static void a_child_of_fork_walks_alone_and_ends(void **state) {
+  expect_walk(walk_once(2), 2);
+  fflush(NULL);
+  const pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    const int is_right = walk_once(1).is_right;
+    arenas_let_go((arenas_keeper **)state);
+    exit(is_right ? 0 : 1);
+  }
+  int status = -1;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status));
+  assert_int_equal(WEXITSTATUS(status), 0);
+  expect_walk(walk_once(2), 2);
+  assert_int_equal(arenas_made(), 1);
+}
+
+/* Runs after all that was registered later: a caller's static object may walk in its destructor. */
+static pid_t process;
+static void walk_at_exit(void) {
+  if (getpid() != process) return; /* a child of fork */
+  arenas_keeper *keeper = arenas_keep();
+  const int is_right = walk_once(2).is_right;
+  arenas_let_go(&keeper);
+  if (!is_right) _exit(3);
+}
+
+int main(void) {
+  process = getpid();
+  if (atexit(walk_at_exit) != 0) return 2;
+#define KEPT(test) cmocka_unit_test_setup_teardown(test, keep, let_go)
+  const struct CMUnitTest tests[] = {
+      KEPT(one_caller_has_one_arena),
+      KEPT(each_number_of_threads_has_one),
+      KEPT(callers_at_once_have_one_each),
+      KEPT(the_callers_limit_is_kept),
+      KEPT(an_arena_comes_back_when_a_body_throws),
+      KEPT(the_callers_tasks_have_at_most_one_each),
+      KEPT(arenas_go_with_the_last_who_keeps_them),
+      KEPT(a_child_of_fork_walks_alone_and_ends),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
