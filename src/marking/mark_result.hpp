@@ -145,13 +145,21 @@ struct Collection {
   void prepare(int n_threads);
 };
 
+// Edges between two unmarked nodes that cross the surface, ascending.
+struct LeakingEdges {
+  std::vector<std::int64_t> node_id;  // (2, n)
+  std::vector<double> length, distance;
+};
+
 struct MarkResult {
   NodeList within;  // the distance limit
   NodeList marked;  // only used while the limit is wider than the half thickness; otherwise `within` is it
   bool limit_is_wider = false;
   double distance_limit = 0;
+  double half_thickness = 0;
   int n_threads = 1;  // as asked for
   riis_mark_stats stats{};
+  LeakingEdges leaking;  // of the last marking, once they were sought
   Collection collection;
 
   const NodeList &marked_nodes() const { return limit_is_wider ? marked : within; }

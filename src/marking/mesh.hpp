@@ -11,6 +11,7 @@
 #include "geometry/strided.hpp"
 #include "marking/adjacency.hpp"
 #include "marking/clusters.hpp"
+#include "marking/edges.hpp"
 #include "marking/node_groups.hpp"
 
 namespace riis {
@@ -26,16 +27,22 @@ class Mesh {
   void forget_places() {
     has_groups_.store(false, std::memory_order_relaxed);
     has_clusters_.store(false, std::memory_order_relaxed);
+    has_edges_.store(false, std::memory_order_relaxed);
   }
 
   // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
   void set_nodes(const StridedPoints &nodes);
-  void set_adjacency(const std::optional<Adjacency> &adjacency) { adjacency_ = adjacency; }
+  void set_adjacency(const std::optional<Adjacency> &adjacency) {
+    adjacency_ = adjacency;
+    has_edges_.store(false, std::memory_order_relaxed);
+  }
 
   // The nodes in groups of near ones. May be asked for by several threads at once.
   const NodeGroups &groups(int n_threads) const;
   // The same in clusters, for at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
+  // Where the long edges are; the mesh has an adjacency.
+  const EdgeBlocks &edges(int n_threads) const;
 
   // Counts a marking of these nodes; true if it is not the first, or if clusters were made before: then they pay.
   bool pays_for_clusters() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
@@ -49,6 +56,9 @@ class Mesh {
   mutable std::mutex clusters_mutex_;
   mutable Clusters clusters_;
   mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
+  mutable std::mutex edges_mutex_;
+  mutable EdgeBlocks edges_;
+  mutable std::atomic<bool> has_edges_{false};
 };
 
 }  // namespace riis
