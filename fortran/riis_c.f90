@@ -246,6 +246,17 @@ module riis_c
                                          !! neighbour, and that its proof found.
   end type riis_mark_stats
 
+  !> Edges of the mesh that cross the surface between two unmarked nodes. Written by riis_find_leaks.
+  type, bind(c) :: riis_leaks
+    integer(c_int64_t) :: n_edges            !< Edges that leak. Where it is 0, the node ids are -1 and the other fields but
+                                             !! seconds 0.
+    integer(c_int64_t) :: longest_node_id(2) !< The nodes of the longest edge, from 0, ascending.
+    real(c_double) :: longest_length         !< Its length, mesh units.
+    real(c_double) :: longest_middle(3)      !< Its middle.
+    real(c_double) :: half_thickness         !< The smallest half thickness at which each edge has a node within it.
+    real(c_double) :: seconds                !< Wall time.
+  end type riis_leaks
+
   ! -------------------------------------------------------------------------------------------------------------------
   ! What a log function looks like
   ! -------------------------------------------------------------------------------------------------------------------
@@ -782,6 +793,38 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_mark_result_stats
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Leaks
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   options      left out: all defaults
+    !!   struct_size  c_sizeof(leaks)
+    function riis_find_leaks(surface, mesh, options, result, leaks, struct_size) result(status) &
+        bind(c, name='riis_find_leaks')
+      import :: c_int64_t, c_ptr, riis_leaks, riis_mark_options, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      type(c_ptr), value :: result
+      type(riis_leaks), intent(inout) :: leaks
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_leaks
+
+    !>   node_id   integer(c_int64_t), (2, n_edges), ascending, from 0
+    !!   length    real(c_double), (n_edges)
+    !!   distance  real(c_double), (n_edges)
+    function riis_mark_result_leaking_edges(result, n_edges, node_id, length, distance) result(status) &
+        bind(c, name='riis_mark_result_leaking_edges')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      integer(c_int64_t), intent(inout), optional :: n_edges
+      type(c_ptr), intent(inout), optional :: node_id, length, distance
+      integer(riis_status) :: status
+    end function riis_mark_result_leaking_edges
   end interface
 
   ! The C library's strlen, for riis_c_text.
