@@ -302,6 +302,8 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
   SIGNATURE(riis_vtk_mesh_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
+  SIGNATURE(riis_vtk_mesh_long_edges, int32_t,
+            (const riis_vtk_mesh *, const riis_surface *, double, int32_t, int64_t *, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
   SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, riis_vtk_surface **));
