@@ -51,7 +51,7 @@ module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
-  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, riis_c_text_length, &
+  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_leaks, riis_c_text, riis_c_text_length, &
     riis_last_error, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
@@ -68,10 +68,11 @@ module riis
   use riis_adjacencies, only: riis_adjacency
   use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_mark_result, riis_mark_nodes
+  use riis_leaking, only: riis_find_leaks
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
-    riis_mark_result, riis_mark_nodes, riis_mark_stats
+    riis_mark_result, riis_mark_nodes, riis_mark_stats, riis_find_leaks, riis_leaks
   public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
   public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
     RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &

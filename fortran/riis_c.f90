@@ -257,6 +257,20 @@ module riis_c
                                          !! proof found
   end type riis_mark_stats
 
+  !> An edge of the mesh leaks when it crosses the surface and neither of its nodes is marked: flow passes along it. An
+  !! edge that crosses the surface and is at most two half thicknesses long always has a marked node.
+  type, bind(c) :: riis_leaks
+    integer(c_int64_t) :: n_edges            !< edges that leak. Where it is 0, the node ids are -1 and the other fields
+                                             !! but seconds 0
+    integer(c_int64_t) :: longest_node_id(2) !< the nodes of the longest edge, ascending; of equally long edges the one
+                                             !! that is listed first
+    real(c_double) :: longest_length         !< its length, mesh units
+    real(c_double) :: longest_middle(3)      !< its middle
+    real(c_double) :: half_thickness         !< the smallest half thickness at which each edge has a node within it, by
+                                             !! these triangles
+    real(c_double) :: seconds                !< wall time of riis_find_leaks
+  end type riis_leaks
+
   ! -------------------------------------------------------------------------------------------------------------------
   ! What a log function looks like
   ! -------------------------------------------------------------------------------------------------------------------
@@ -795,6 +809,38 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_mark_result_stats
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Leaks
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   options      left out: all defaults
+    !!   struct_size  c_sizeof(leaks)
+    function riis_find_leaks(surface, mesh, options, result, leaks, struct_size) result(status) &
+        bind(c, name='riis_find_leaks')
+      import :: c_int64_t, c_ptr, riis_leaks, riis_mark_options, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      type(c_ptr), value :: result
+      type(riis_leaks), intent(inout) :: leaks
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_leaks
+
+    !>   node_id   integer(c_int64_t), (2, n_edges), from 0, the lower one first
+    !!   length    real(c_double), (n_edges)
+    !!   distance  real(c_double), (n_edges)
+    function riis_mark_result_leaking_edges(result, n_edges, node_id, length, distance) result(status) &
+        bind(c, name='riis_mark_result_leaking_edges')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      integer(c_int64_t), intent(inout), optional :: n_edges
+      type(c_ptr), intent(inout), optional :: node_id, length, distance
+      integer(riis_status) :: status
+    end function riis_mark_result_leaking_edges
   end interface
 
   ! The C library's strlen, for riis_c_text.

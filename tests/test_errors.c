@@ -102,6 +102,11 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("result", riis_mark_result_dense(NULL, 4, 1e30, NULL, NULL, NULL, NULL));
   NULL_IS_NAMED("result", riis_mark_result_stats(NULL, NULL, 56));
   NULL_IS_NAMED("stats", riis_mark_result_stats(result, NULL, 56));
+  NULL_IS_NAMED("surface", riis_find_leaks(NULL, mesh, NULL, result, NULL, 72));
+  NULL_IS_NAMED("mesh", riis_find_leaks(surface, NULL, NULL, result, NULL, 72));
+  NULL_IS_NAMED("result", riis_find_leaks(surface, mesh, NULL, NULL, NULL, 72));
+  NULL_IS_NAMED("leaks", riis_find_leaks(surface, mesh, NULL, result, NULL, 72));
+  NULL_IS_NAMED("result", riis_mark_result_leaking_edges(NULL, &n, NULL, NULL, NULL));
   /* Destroying takes NULL, a NULL handle, and a handle, and leaves NULL. */
   riis_valve_destroy(NULL);
   riis_surface_destroy(NULL);
@@ -135,6 +140,10 @@ static void swapped_handles_are_refused(void **state) {
   IS_OF_ANOTHER_KIND("surface", riis_mark_nodes(no_surface, no_mesh, NULL, result));
   IS_OF_ANOTHER_KIND("mesh", riis_mark_nodes(surface, no_mesh, NULL, result));
   IS_OF_ANOTHER_KIND("result", riis_mark_nodes(surface, mesh, NULL, no_result));
+  IS_OF_ANOTHER_KIND("surface", riis_find_leaks(no_surface, no_mesh, NULL, result, NULL, 72));
+  IS_OF_ANOTHER_KIND("mesh", riis_find_leaks(surface, no_mesh, NULL, result, NULL, 72));
+  IS_OF_ANOTHER_KIND("result", riis_find_leaks(surface, mesh, NULL, no_result, NULL, 72));
+  IS_OF_ANOTHER_KIND("result", riis_mark_result_leaking_edges(no_result, NULL, NULL, NULL, NULL));
   IS_OF_ANOTHER_KIND("valve", riis_surface_create(no_valve, NULL, &no_surface));
   IS_OF_ANOTHER_KIND("valve", riis_valve_set_scalar(no_valve, "xq", 0));
   IS_OF_ANOTHER_KIND("surface", riis_surface_update(no_surface, valve, NULL));

@@ -675,6 +675,58 @@ typedef struct riis_mark_stats {
 RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats,
                                             int64_t struct_size);
 
+/* -------------------------------------------------------------------------------------------------------- *
+ * Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md)
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* An edge of the mesh leaks when it crosses the surface and neither of its nodes is marked: flow passes along
+ * it. An edge that crosses the surface and is at most two half thicknesses long always has a marked node. */
+typedef struct riis_leaks {
+  int64_t n_edges;            /* edges that leak. Where it is 0, the node ids are -1 and the other fields but
+                                 seconds 0 */
+  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending; of equally long edges the one that
+                                 is listed first */
+  double longest_length;      /* its length, mesh units */
+  double longest_middle[3];   /* its middle */
+  double half_thickness;      /* the smallest half thickness at which each edge has a node within it, by these
+                                 triangles */
+  double seconds;             /* wall time of riis_find_leaks */
+} riis_leaks;
+
+/* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
+ * An edge crosses a triangle when they have a point in common, touching included; that is decided exactly for
+ * the coordinates in double precision (those below 1e-90 count as 0), so nothing slips through between
+ * triangles that share an edge or a vertex. A column that one of two rows lacks is an edge all the same, each
+ * edge counts once, and edges to ghosts are not looked at: an edge between two ranks is seen by neither. Gaps
+ * of the surface itself, such as those between leaflets that do not touch, are not found.
+ *   surface, mesh   those of the marking; read. The mesh must have an adjacency. The first call for a mesh,
+ *                   and the first after its coordinates or adjacency changed, goes through all edges; others
+ *                   look only at long ones near the surface
+ *   options         those of the marking, NULL for defaults. node_mask: an edge to a node that is left out is
+ *                   no path
+ *   result          of riis_mark_nodes; its edges are replaced, all else stays
+ *   leaks           what was found
+ * A marking of the same triangles with leaks.half_thickness leaves none of the edges open, whatever its
+ * search but RIIS_SEARCH_PAPER. The triangles of a valve follow the half thickness: with another one they
+ * move by up to tolerance * half_thickness, so look again after riis_surface_update.
+ * Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the result was never marked with, or was
+ * marked with another number of nodes or another half thickness; RIIS_INVALID_MESH as riis_mark_nodes. The
+ * result is then as it was. */
+RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
+                                     const riis_mark_options *options, riis_mark_result *result,
+                                     riis_leaks *leaks, int64_t struct_size);
+
+/* The edges that the last riis_find_leaks with the result found, ascending by their first node, then by their
+ * second. Any pointer may be NULL; with n_edges = 0 the arrays are NULL. Owned by the result, valid until the
+ * next riis_find_leaks or riis_mark_nodes with it, which leaves none, or its destruction.
+ *   node_id   (2, n_edges), the lower one first
+ *   length    (n_edges)
+ *   distance  (n_edges): the smaller of its two nodes' distances, the half thickness from which on the edge
+ *             is closed */
+RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64_t *n_edges,
+                                                    const int64_t **node_id, const double **length,
+                                                    const double **distance);
+
 #ifdef __cplusplus
 }
 #endif

@@ -45,6 +45,21 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
  * Errors: RIIS_INVALID_ARGUMENT for n_threads. */
 RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads, riis_adjacency **adjacency);
 
+/* Makes the part of that adjacency that riis_find_leaks needs, in one pass over the cells, which takes less time than all rows do:
+ * the edges that are longer than a length and whose bounding box meets that of the surface. It is for riis_find_leaks alone: a
+ * search that walks along it stays where it started.
+ *   surface           read
+ *   longer_than       twice the half thickness that was marked with, since shorter edges do not leak; 0 for all edges near the
+ *                     surface, which a marking by RIIS_SEARCH_PAPER or by other distances than the triangles' needs. Edges up to
+ *                     a billionth shorter are taken as well
+ *   n_threads         1 to 1024, or 0: the processors the calling thread may use
+ *   n_cells_left_out  how many cells of volume there are whose edges are not known here: polyhedra, prisms of more sides, cells
+ *                     of higher order; NULL if not wanted
+ *   adjacency         for riis_adjacency_destroy; it borrows nothing
+ * Errors: RIIS_INVALID_ARGUMENT for longer_than below 0 or not finite, or n_threads. */
+RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface, double longer_than,
+                                              int32_t n_threads, int64_t *n_cells_left_out, riis_adjacency **adjacency);
+
 /* Adds, or replaces, the point arrays of a marking: riis_marked (UInt8, 0 or 1), riis_distance (Float64, far_distance beyond
  * the limit), riis_leaflet (Int32, -1 beyond the limit). far_distance as in riis_mark_result_dense.
  * Errors: RIIS_INVALID_ARGUMENT if the result is not of a mesh with as many nodes. */

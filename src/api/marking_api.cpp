@@ -3,6 +3,7 @@
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"
+#include "marking/leaks.hpp"
 #include "marking/mark_nodes.hpp"
 
 using riis::guarded;
@@ -12,7 +13,8 @@ using riis::require_handle;
 namespace {
 
 // Sizes of the first release.
-constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64;
+constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
+                      leaks_size = 72;
 
 const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0,
                                         RIIS_INSTRUCTIONS_AUTO,    0};
@@ -61,6 +63,37 @@ void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **
   riis::put(distance, empty ? nullptr : list.distance.data());
   riis::put(triangle_id, empty ? nullptr : list.triangle_id.data());
   riis::put(leaflet_id, empty ? nullptr : list.leaflet_id.data());
+}
+
+// The surface and the mesh are asked for before the result is, and all of them before the options.
+riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *result,
+                                    const riis_mark_options *options, std::int32_t &search) {
+  const riis::Surface &content = riis::content_of(surface);
+  require_handle(mesh, "mesh");
+  require_handle(result, "result");
+  const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
+  const riis::SearchRequest request{content,
+                                    mesh->mesh,
+                                    limit_of(whole, content.half_thickness()),
+                                    whole.node_mask,
+                                    riis::threads_asked_for(whole.n_threads, "options.n_threads"),
+                                    instructions_asked_for(whole.instructions)};
+  check_search(whole.search);
+  riis::check_reserved("options.reserved", whole.reserved);
+  search = whole.search;
+  return request;
+}
+
+// Leaks are those of a marking with this surface and mesh, as far as can be told.
+void check_is_of_marking(const riis::SearchRequest &request, const riis::MarkResult &result) {
+  if (!request.mesh.adjacency().has_value())
+    riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges may leak: see riis_mesh_set_adjacency");
+  if (result.stats.n_nodes == 0)
+    riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
+  if (result.stats.n_nodes != request.mesh.nodes().n)
+    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ", request.mesh.nodes().n);
+  if (result.half_thickness != request.surface.half_thickness())
+    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a surface with the half thickness ", result.half_thickness, ", surface has ", request.surface.half_thickness(), ": mark the nodes again");
 }
 
 }  // namespace
@@ -175,21 +208,11 @@ riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_si
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_mark_result *result) {
   return guarded([&] {
-    const riis::Surface &content = riis::content_of(surface);
-    require_handle(mesh, "mesh");
-    require_handle(result, "result");
-    const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
-    const riis::SearchRequest request{content,
-                                      mesh->mesh,
-                                      limit_of(whole, content.half_thickness()),
-                                      whole.node_mask,
-                                      riis::threads_asked_for(whole.n_threads, "options.n_threads"),
-                                      instructions_asked_for(whole.instructions)};
-    check_search(whole.search);
-    riis::check_reserved("options.reserved", whole.reserved);
-    riis::mark_nodes(request, whole.search, result->result);
+    std::int32_t search = RIIS_SEARCH_AUTO;
+    const riis::SearchRequest request = checked_request(surface, mesh, result, options, search);
+    riis::mark_nodes(request, search, result->result);
     riis::check_proportions(
-        {mesh->mesh.nodes().n, mesh->mesh.bounds(), content.scene().bounds(), content.half_thickness()},
+        {mesh->mesh.nodes().n, mesh->mesh.bounds(), request.surface.scene().bounds(), request.surface.half_thickness()},
         surface->number, mesh->mesh.warned());
   });
 }
@@ -226,6 +249,30 @@ riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_sta
   return guarded([&] {
     const riis_mark_stats &of_last_marking = require_handle(result, "result")->result.stats;
     riis::write_struct<stats_size>(stats, struct_size, "stats", of_last_marking);
+  });
+}
+
+riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
+                            riis_mark_result *result, riis_leaks *leaks, int64_t struct_size) {
+  return guarded([&] {
+    std::int32_t search = RIIS_SEARCH_AUTO;
+    const riis::SearchRequest request = checked_request(surface, mesh, result, options, search);
+    riis::check_struct_size<leaks_size, riis_leaks>(struct_size, "leaks");
+    require(leaks, "leaks");
+    check_is_of_marking(request, result->result);
+    riis::write_struct<leaks_size>(leaks, struct_size, "leaks", riis::find_leaks(request, result->result));
+  });
+}
+
+riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64_t *n_edges, const int64_t **node_id,
+                                           const double **length, const double **distance) {
+  return guarded([&] {
+    const riis::LeakingEdges &edges = require_handle(result, "result")->result.leaking;
+    const bool empty = edges.length.empty();
+    riis::put(n_edges, static_cast<std::int64_t>(edges.length.size()));
+    riis::put(node_id, empty ? nullptr : edges.node_id.data());
+    riis::put(length, empty ? nullptr : edges.length.data());
+    riis::put(distance, empty ? nullptr : edges.distance.data());
   });
 }
 }

@@ -26,6 +26,14 @@ struct Adjacency {
       if (j < n_rows && j != i) visit(j);
     }
   }
+
+  // Whether node j is in row i.
+  bool has_neighbor(std::int64_t i, std::int64_t j) const {
+    const std::int64_t end = offsets[i + 1] - base;
+    std::int64_t k = offsets[i] - base;
+    while (k < end && columns[k] - base != j) ++k;
+    return k < end;
+  }
 };
 
 // Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_MESH, naming the field or the row, and the value.

@@ -76,6 +76,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult
                result.order_scratch, result.within, result.marked);
   result.limit_is_wider = limit_is_wider;
   result.distance_limit = request.distance_limit;
+  result.half_thickness = request.surface.half_thickness();
+  result.leaking = {};
   result.n_threads = request.n_threads;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result.stats = {request.mesh.nodes().n,

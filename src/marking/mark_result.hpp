@@ -4,6 +4,9 @@
 
 #include <riis/riis.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "marking/cluster_search.hpp"
 #include "marking/found_nodes.hpp"
 #include "marking/neighbor_search.hpp"
@@ -12,13 +15,21 @@
 
 namespace riis {
 
+// Edges between two unmarked nodes that cross the surface, ascending.
+struct LeakingEdges {
+  std::vector<std::int64_t> node_id;  // (2, n)
+  std::vector<double> length, distance;
+};
+
 struct MarkResult {
   NodeList within;  // the distance limit
   NodeList marked;  // only used while the limit is wider than the half thickness; otherwise `within` is it
   bool limit_is_wider = false;
   double distance_limit = 0;
+  double half_thickness = 0;
   int n_threads = 1;  // as the caller wanted
   riis_mark_stats stats{};
+  LeakingEdges leaking;  // of the last marking, after a search for them
 
   // Memory for the next marking.
   FoundNodes found;

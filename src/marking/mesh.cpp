@@ -41,4 +41,14 @@ const Clusters &Mesh::clusters(int n_threads) const {
   return clusters_;
 }
 
+const EdgeBlocks &Mesh::edges(int n_threads) const {
+  if (has_edges_.load(std::memory_order_acquire)) return edges_;
+  const std::lock_guard<std::mutex> lock(edges_mutex_);
+  if (!has_edges_.load(std::memory_order_relaxed)) {
+    edges_ = edge_blocks(nodes_, *adjacency_, n_threads);
+    has_edges_.store(true, std::memory_order_release);
+  }
+  return edges_;
+}
+
 }  // namespace riis

@@ -14,6 +14,7 @@
 #include "marking/clusters.hpp"
 #include "marking/node_balls.hpp"
 #include "marking/proportions.hpp"
+#include "marking/edges.hpp"
 
 namespace riis {
 
@@ -30,16 +31,22 @@ class Mesh {
   void forget_places() {
     has_balls_.store(false, std::memory_order_relaxed);
     has_clusters_.store(false, std::memory_order_relaxed);
+    has_edges_.store(false, std::memory_order_relaxed);
   }
 
   // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
   void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
-  void set_adjacency(const std::optional<Adjacency> &adjacency) { adjacency_ = adjacency; }
+  void set_adjacency(const std::optional<Adjacency> &adjacency) {
+    adjacency_ = adjacency;
+    has_edges_.store(false, std::memory_order_relaxed);
+  }
 
   // The nodes in balls of near ones. Several threads may call it at once.
   const NodeBalls &balls(int n_threads) const;
   // The same in clusters, for at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
+  // Where the long edges are; the mesh has an adjacency.
+  const EdgeBlocks &edges(int n_threads) const;
 
   // Records a marking of these nodes. Returns true if one was recorded before, or if clusters were made: then clusters pay.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
@@ -58,6 +65,9 @@ class Mesh {
   mutable Clusters clusters_;
   mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
   mutable Warned warned_;
+  mutable std::mutex edges_mutex_;
+  mutable EdgeBlocks edges_;
+  mutable std::atomic<bool> has_edges_{false};
 };
 
 }  // namespace riis

@@ -250,4 +250,30 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   if (collected.is_out_of_memory) throw std::bad_alloc();
 }
 
+void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const {
+  Bounds segment;
+  segment.add(a);
+  segment.add(b);
+  if (!overlap(segment, bounds_)) return;
+  const TriangleGroups &all = implementation_->groups;
+  const Vec3 from = all.frame(a), to = all.frame(b), middle = 0.5 * (from + to);
+  const double radius = 0.5 * distance(from, to);
+  const double largest = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z), radius});
+  if (!(largest <= far_away)) {  // also where the frame's units overflow
+    for (std::size_t i = 0; i < all.bounds.size(); ++i) found.push_back(static_cast<std::int32_t>(i));
+  } else {
+    const float point[3] = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
+    collect_groups(point, round_up(radius + 0x1p-22 * largest), found);
+  }
+  // The frame's coordinates round, but in the same order as the true ones: boxes that have a point in common keep it.
+  Bounds framed;
+  framed.add(from);
+  framed.add(to);
+  const auto is_beside = [&](std::int32_t group) {
+    const GroupBounds &box = all.bounds[static_cast<std::size_t>(group)];
+    return !overlap(framed, {{box.lower[0], box.lower[1], box.lower[2]}, {box.upper[0], box.upper[1], box.upper[2]}});
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), is_beside), found.end());
+}
+
 }  // namespace riis

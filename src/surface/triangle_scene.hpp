@@ -41,12 +41,27 @@ class TriangleScene {
   // the point's coordinates are below 4e6.
   void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
 
+  // Calls visit(triangle) for triangles, by their positions in the set, among which are all that meet the segment from a to b.
+  // `found` is room. Coordinates are up to max_coordinate.
+  template <class Visit>
+  void for_each_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found, const Visit &visit) const {
+    found.clear();
+    collect_along(a, b, found);
+    const TriangleGroups &in = groups();
+    for (const std::int32_t group : found)
+      for (int i = 0; i < in.bounds[static_cast<std::size_t>(group)].n; ++i)
+        visit(in.bounds[static_cast<std::size_t>(group)].triangle[i]);
+  }
+
   // How far a distance, as it is computed, may be off, beyond what is in proportion to it and to p: the triangles' coordinates round.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public for Embree's callbacks
 
  private:
+  // Adds at least the groups that have a triangle which meets the segment.
+  void collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const;
+
   Bounds bounds_{};
   double rounding_ = 0;  // of any distance to any point of the surface, beyond what is relative to the distance
   std::unique_ptr<Implementation> implementation_;

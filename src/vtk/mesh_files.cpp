@@ -4,6 +4,8 @@
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -87,10 +89,19 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-riis_adjacency *adjacency_without_edges(std::int64_t n_nodes, std::int32_t n_threads) {
+// Nodes that edges join are to the core as cells that faces join.
+riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
+                                   std::int32_t n_threads) {
   riis_faces faces;
   check_core(riis_faces_init(&faces, sizeof faces));
   faces.n_cells = n_nodes;
+  faces.n_faces = static_cast<std::int64_t>(edges.size() / 2);
+  if (!edges.empty()) {
+    faces.owner = edges.data();
+    faces.neighbor = edges.data() + 1;
+  }
+  faces.stride = 2;
+  faces.id_bits = 64;
   faces.n_threads = n_threads;
   riis_adjacency *made = nullptr;
   check_adjacency(riis_adjacency_create_from_faces(&faces, &made), "faces.");
@@ -99,7 +110,7 @@ riis_adjacency *adjacency_without_edges(std::int64_t n_nodes, std::int32_t n_thr
 
 riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) {
   const VolumeCells volumes = volume_cells_of(grid);
-  if (volumes.node_ids.empty()) return adjacency_without_edges(grid->GetNumberOfPoints(), n_threads);
+  if (volumes.node_ids.empty()) return adjacency_of_edges(grid->GetNumberOfPoints(), {}, n_threads);
   riis_cells cells;
   check_core(riis_cells_init(&cells, sizeof cells));
   cells.n_nodes = grid->GetNumberOfPoints();
@@ -111,6 +122,17 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   riis_adjacency *made = nullptr;
   check_adjacency(riis_adjacency_create_from_cells(&cells, &made), "cells.");
   return made;
+}
+
+void check_length(double longer_than) {
+  if (longer_than >= 0 && std::isfinite(longer_than)) return;
+  char text[32] = {};
+  std::to_chars(text, text + sizeof text - 1, longer_than);
+  fail(RIIS_INVALID_ARGUMENT, std::string("longer_than is ") + text + "; it must be finite and at least 0");
+}
+
+const double *points_of(vtkUnstructuredGrid *grid) {
+  return vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
 }
 
 }  // namespace
@@ -143,7 +165,7 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
     vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
     if (n_nodes) *n_nodes = grid->GetNumberOfPoints();
     if (n_cells) *n_cells = grid->GetNumberOfCells();
-    if (xyz) *xyz = vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
+    if (xyz) *xyz = points_of(grid);
   });
 }
 
@@ -152,6 +174,22 @@ RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t 
     require(mesh, "mesh");
     require(adjacency, "adjacency");
     *adjacency = adjacency_of(mesh->grid, n_threads);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
+                                              double longer_than, int32_t n_threads, int64_t *n_cells_left_out,
+                                              riis_adjacency **adjacency) {
+  return guarded([&](const CaughtOutput &) {
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    require(surface, "surface");
+    check_length(longer_than);
+    require(adjacency, "adjacency");
+    riis_surface_info info;
+    check_core(riis_surface_get_info(surface, &info, sizeof info));
+    const LongEdges edges = long_edges_of(grid, points_of(grid), longer_than, info.lower, info.upper);
+    *adjacency = adjacency_of_edges(grid->GetNumberOfPoints(), edges.node_ids, n_threads);
+    if (n_cells_left_out) *n_cells_left_out = edges.n_cells_left_out;
   });
 }
 

@@ -17,4 +17,14 @@ struct VolumeCells {
 // Tetrahedra, pyramids, wedges, hexahedra, and voxels as hexahedra; no other cells.
 VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
 
+// The edges of the same cells, as pairs of nodes, edges of several cells several times.
+struct LongEdges {
+  std::vector<std::int64_t> node_ids;  // (2, n)
+  std::int64_t n_cells_left_out = 0;   // cells of volume of other kinds
+};
+
+// Edges longer than a length whose bounding box meets the box from lower to upper. The grid's points are xyz(3, n).
+LongEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
+                        const double *upper);
+
 }  // namespace riis::vtk

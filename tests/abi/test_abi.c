@@ -166,6 +166,14 @@ static void test_structs(void **state) {
   FIELD(riis_mark_stats, instructions, 52, 4);
   FIELD(riis_mark_stats, n_unreached, 56, 8);
 
+  SIZE(riis_leaks, 72);
+  FIELD(riis_leaks, n_edges, 0, 8);
+  FIELD(riis_leaks, longest_node_id, 8, 16);
+  FIELD(riis_leaks, longest_length, 24, 8);
+  FIELD(riis_leaks, longest_middle, 32, 24);
+  FIELD(riis_leaks, half_thickness, 56, 8);
+  FIELD(riis_leaks, seconds, 64, 8);
+
   SIZE(riis_vtk_picture_options, 48);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, view, 8, 4);
@@ -286,10 +294,16 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_mark_result_dense, int32_t,
             (const riis_mark_result *, int64_t, double, uint8_t *, double *, int64_t *, int32_t *));
   SIGNATURE(riis_mark_result_stats, int32_t, (const riis_mark_result *, riis_mark_stats *, int64_t));
+  SIGNATURE(riis_find_leaks, int32_t,
+            (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *, riis_leaks *, int64_t));
+  SIGNATURE(riis_mark_result_leaking_edges, int32_t,
+            (const riis_mark_result *, int64_t *, const int64_t **, const double **, const double **));
   SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
   SIGNATURE(riis_vtk_mesh_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
+  SIGNATURE(riis_vtk_mesh_long_edges, int32_t,
+            (const riis_vtk_mesh *, const riis_surface *, double, int32_t, int64_t *, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
   SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t,
             (riis_vtk_mesh *, const riis_mark_result *, double, const char *));

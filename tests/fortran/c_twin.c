@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static riis_valve *valve;
-static riis_surface *surface, *plate, *mitral, *opening, *patches;
+static riis_valve *valve, *thin_valve;
+static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin;
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
-static riis_mark_result *result;
+static riis_mark_result *result, *leaking;
 static void *memory[24];
 static int n_memory;
 
@@ -265,6 +265,27 @@ static riis_status walk(const riis_adjacency *along, int32_t search, const uint8
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
+/* Along the tetrahedra, marked thinly. */
+static riis_status find_leaks(twin_leaks *leaks) {
+  riis_surface_options surface_options;
+  riis_mark_options options;
+  riis_csr csr;
+  TRY(riis_surface_options_init(&surface_options, sizeof surface_options));
+  surface_options.scale = 10;
+  surface_options.half_thickness = 0.3;
+  TRY(riis_valve_create("aortic", &thin_valve));
+  TRY(riis_surface_create(thin_valve, &surface_options, &thin));
+  TRY(riis_adjacency_csr(of_cells, &csr, sizeof csr));
+  TRY(riis_mesh_set_adjacency(mesh, &csr));
+  TRY(riis_mark_result_create(&leaking));
+  TRY(riis_mark_nodes(thin, mesh, NULL, leaking));
+  TRY(riis_mark_options_init(&options, sizeof options));
+  options.n_threads = 2;
+  TRY(riis_find_leaks(thin, mesh, &options, leaking, &leaks->sum, sizeof leaks->sum));
+  TRY(riis_mark_result_leaking_edges(leaking, &leaks->n, &leaks->node_id, &leaks->length, &leaks->distance));
+  return riis_mesh_set_adjacency(mesh, NULL);
+}
+
 static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
   const int64_t n_nodes = per_side * per_side * per_side;
   const uint8_t *node_mask = mask_every_seventh(n_nodes);
@@ -275,7 +296,8 @@ static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
   TRY(walk(of_cells, RIIS_SEARCH_NEIGHBOR, node_mask, &numbers->cells.csr, &numbers->cells.stats));
   TRY(walk(of_faces, RIIS_SEARCH_NEIGHBOR, node_mask, &numbers->faces.csr, &numbers->faces.stats));
   TRY(walk(of_grid, RIIS_SEARCH_NEIGHBOR, node_mask, &numbers->grid.csr, &numbers->grid.stats));
-  return walk(of_grid, RIIS_SEARCH_PAPER, node_mask, &csr, &numbers->paper);
+  TRY(walk(of_grid, RIIS_SEARCH_PAPER, node_mask, &csr, &numbers->paper));
+  return find_leaks(&numbers->leaks);
 }
 
 riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers) {
@@ -291,6 +313,9 @@ riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers)
 }
 
 void twin_end(void) {
+  riis_mark_result_destroy(&leaking);
+  riis_surface_destroy(&thin);
+  riis_valve_destroy(&thin_valve);
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&of_grid);

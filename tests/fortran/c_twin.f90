@@ -5,7 +5,7 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_walk, twin_numbers, twin_run, twin_end, twin_layout, &
+  public :: twin_list, twin_surface, twin_walk, twin_leaks, twin_numbers, twin_run, twin_end, twin_layout, &
     twin_n_layouts, twin_auto, twin_far_distance
 
   type, bind(c) :: twin_list
@@ -24,6 +24,12 @@ module c_twin
     type(riis_mark_stats) :: stats
   end type twin_walk
 
+  type, bind(c) :: twin_leaks
+    type(riis_leaks) :: sum
+    integer(c_int64_t) :: n
+    type(c_ptr) :: node_id, length, distance
+  end type twin_leaks
+
   type, bind(c) :: twin_numbers
     integer(c_int64_t) :: n_parameters
     type(c_ptr) :: parameters
@@ -35,6 +41,7 @@ module c_twin
     type(riis_mark_stats) :: stats
     type(twin_walk) :: cells, faces, grid
     type(riis_mark_stats) :: paper
+    type(twin_leaks) :: leaks
   end type twin_numbers
 
   interface

@@ -28,6 +28,14 @@ typedef struct twin_walk {
   riis_mark_stats stats;
 } twin_walk;
 
+/* Edges that leak, listed. */
+typedef struct twin_leaks {
+  riis_leaks sum;
+  int64_t n;
+  const int64_t *node_id;
+  const double *length, *distance;
+} twin_leaks;
+
 /* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
 typedef struct twin_numbers {
   int64_t n_parameters;
@@ -46,6 +54,7 @@ typedef struct twin_numbers {
   riis_mark_stats stats;
   twin_walk cells, faces, grid; /* RIIS_SEARCH_NEIGHBOR */
   riis_mark_stats paper;        /* RIIS_SEARCH_PAPER along the grid */
+  twin_leaks leaks;             /* of a thin aortic valve, along the tetrahedra */
 } twin_numbers;
 
 /* Makes the calls that test_calls.f90 makes, from C, on its grid of per_side^3 nodes. Returns the first status that is

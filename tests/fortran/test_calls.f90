@@ -597,12 +597,59 @@ contains
     call mark_along(RIIS_SEARCH_AUTO, stats)
     call check(stats%search /= RIIS_SEARCH_NEIGHBOR .and. stats%complete == 1, 'the choice needs no adjacency')
 
+    call test_leaks(of_cells)
     call riis_adjacency_destroy(of_cells)
     call riis_adjacency_destroy(of_faces)
     call riis_adjacency_destroy(of_grid)
     call check(.not. (c_associated(of_cells) .or. c_associated(of_faces) .or. c_associated(of_grid)), &
       'destroyed handles are null')
   end subroutine test_adjacency
+
+  ! Along tetrahedra, marked thinly.
+  subroutine test_leaks(of_cells)
+    type(c_ptr), intent(in) :: of_cells
+    type(riis_surface_options) :: surface_options
+    type(riis_mark_options) :: options
+    type(riis_leaks) :: leaks
+    type(twin_leaks) :: list
+    type(c_ptr) :: thin, thin_valve, leaking
+
+    thin = c_null_ptr
+    thin_valve = c_null_ptr
+    leaking = c_null_ptr
+    call check_ok(riis_surface_options_init(surface_options, c_sizeof(surface_options)), 'default surface options')
+    surface_options%scale = 10
+    surface_options%half_thickness = 0.3d0
+    call check_ok(riis_valve_create(riis_c_string('aortic'), thin_valve), 'create a valve')
+    call check_ok(riis_surface_create(thin_valve, surface_options, thin), 'create a thin surface')
+    call check_ok(riis_mark_result_create(leaking), 'create a result')
+    call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
+    options%n_threads = 2
+    leaks%n_edges = -7
+    call check_ok(riis_mesh_set_adjacency(mesh), 'take the adjacency away')
+    call check_refused(riis_find_leaks(thin, mesh, options, leaking, leaks, c_sizeof(leaks)), RIIS_INVALID_ARGUMENT, &
+      'mesh has no adjacency')
+    call set_adjacency(of_cells)
+    call check_refused(riis_find_leaks(thin, mesh, options, leaking, leaks, c_sizeof(leaks)), RIIS_INVALID_ARGUMENT, &
+      'never marked')
+    call check(leaks%n_edges == -7, 'refused calls write nothing')
+    call check_ok(riis_mark_nodes(thin, mesh, result=leaking), 'mark with a thin surface')
+    call check_ok(riis_find_leaks(thin, mesh, options, leaking, leaks, c_sizeof(leaks)), 'find leaks')
+    list%n = 0
+    call check_ok(riis_mark_result_leaking_edges(leaking, list%n, list%node_id, list%length, list%distance), &
+      'the edges that leak')
+    call check(list%n > 0 .and. list%n == twin%leaks%n .and. leaks%n_edges == list%n .and. &
+      all(leaks%longest_node_id == twin%leaks%sum%longest_node_id) .and. leaks%seconds > 0, 'as many leaks as from C')
+    call check(all(transfer([leaks%longest_length, leaks%longest_middle, leaks%half_thickness], [0_c_int64_t]) == &
+      transfer([twin%leaks%sum%longest_length, twin%leaks%sum%longest_middle, twin%leaks%sum%half_thickness], &
+      [0_c_int64_t])), 'the longest leak')
+    call check_same_bytes(list%node_id, twin%leaks%node_id, 16 * list%n, 'nodes of edges that leak')
+    call check_same_bytes(list%length, twin%leaks%length, 8 * list%n, 'their lengths')
+    call check_same_bytes(list%distance, twin%leaks%distance, 8 * list%n, 'their distances')
+    call riis_mark_result_destroy(leaking)
+    call riis_surface_destroy(thin)
+    call riis_valve_destroy(thin_valve)
+  end subroutine test_leaks
 
   ! Every cube of the grid as six tetrahedra, each along a path from its first corner to its last.
   subroutine make_tetrahedra(adjacency)

@@ -269,6 +269,12 @@ C     Those that the library makes.
       CALL RIISF_MESH_USE_ADJACENCY(MESH, ADJ, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'adjacency is NULL')
 
+C     Leaks.
+      CALL RIISF_ADJACENCY_FROM_GRID(M, M, M, 1, ADJ, STAT)
+      CALL OK(STAT)
+      CALL LEAKS(VALVE, MESH, ADJ)
+      CALL RIISF_ADJACENCY_DESTROY(ADJ)
+
 C     The valve moves, and all goes.
       VALUES(1) = 1D0
       CALL RIISF_VALVE_SET(VALVE, 'opening', 1, VALUES, STAT)
@@ -350,6 +356,55 @@ C     Marks with an adjacency, then destroys it.
       CALL OK(STAT)
       CALL RIISF_ADJACENCY_DESTROY(ADJ)
       IF (ADJ .NE. 0) CALL FAILED('a destroyed adjacency')
+      END
+
+C     A thin valve, and edges that cross it between unmarked nodes.
+      SUBROUTINE LEAKS(VALVE, MESH, ADJ)
+      INTEGER*8 VALVE, MESH, ADJ, SURF, RES, NEDGES, N3, EDGE3(2,5000)
+      INTEGER STAT, N, I, EDGE(2,5000)
+      DOUBLE PRECISION LONG, MIDDLE(3), CLOSED, AXIS(3), ZERO(3)
+      DATA AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
+      SAVE EDGE, EDGE3
+      INCLUDE 'riisf.h'
+      SURF = 0
+      RES = 0
+      CALL RIISF_SURFACE_CREATE(VALVE, 0.02D0, 0.05D0, 1D0, AXIS, 0D0,
+     &  ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 1,
+     &  RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_FIND_LEAKS(SURF, MESH, 1, RES, NEDGES, LONG, MIDDLE,
+     &  CLOSED, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'mesh has no adjacency')
+      CALL RIISF_MESH_USE_ADJACENCY(MESH, ADJ, STAT)
+      CALL OK(STAT)
+      CALL RIISF_FIND_LEAKS(SURF, MESH, 1, RES, NEDGES, LONG, MIDDLE,
+     &  CLOSED, STAT)
+      CALL OK(STAT)
+      IF (NEDGES .LT. 10 .OR. LONG .LT. 0.139D0 .OR. CLOSED .LE. 0.02D0
+     &  .OR. ABS(MIDDLE(3)) .GT. 1.4D0) CALL FAILED('leaks')
+      N = 0
+      CALL RIISF_LEAKING_EDGES(RES, 5, N, EDGE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'edges that leak: ')
+      IF (N .NE. NEDGES) CALL FAILED('the number of leaks')
+      CALL RIISF_LEAKING_EDGES(RES, 5000, N, EDGE, STAT)
+      CALL OK(STAT)
+      CALL RIISF_LEAKING_EDGES_64(RES, INT(5, 8), N3, EDGE3, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'edges that leak: ')
+      CALL RIISF_LEAKING_EDGES_64(RES, INT(5000, 8), N3, EDGE3, STAT)
+      CALL OK(STAT)
+      IF (N .NE. NEDGES .OR. N3 .NE. N) CALL FAILED('as many leaks')
+      DO 10 I = 1, N
+        IF (EDGE(1,I) .LT. 1 .OR. EDGE(1,I) .GE. EDGE(2,I))
+     &    CALL FAILED('the nodes of an edge')
+        IF (EDGE3(1,I) .NE. EDGE(1,I) .OR. EDGE3(2,I) .NE. EDGE(2,I))
+     &    CALL FAILED('the same edges')
+   10 CONTINUE
+      CALL RIISF_MESH_CLEAR_ADJACENCY(MESH, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_RESULT_DESTROY(RES)
+      CALL RIISF_SURFACE_DESTROY(SURF)
       END
 
 C     The rows, cells and faces between neighbours of a box of M**3

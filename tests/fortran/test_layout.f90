@@ -21,6 +21,7 @@ program test_layout
   type(riis_mark_options), target :: mo
   type(riis_mark_stats), target :: ms
   integer :: n_compared = 0
+  type(riis_leaks), target :: lk
 
   call compare('riis_patches', c_sizeof(pa), c_loc(pa), [at(c_loc(pa%struct_size)), at(c_loc(pa%n_curves)), &
     at(c_loc(pa%degree)), at(c_loc(pa%control)), at(c_loc(pa%n_patches)), at(c_loc(pa%curve_id)), &
@@ -62,6 +63,8 @@ program test_layout
   call compare('riis_mark_stats', c_sizeof(ms), c_loc(ms), [at(c_loc(ms%n_nodes)), at(c_loc(ms%n_marked)), &
     at(c_loc(ms%n_within_limit)), at(c_loc(ms%n_queries)), at(c_loc(ms%seconds)), at(c_loc(ms%search)), &
     at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%instructions)), at(c_loc(ms%n_unreached))])
+  call compare('riis_leaks', c_sizeof(lk), c_loc(lk), [at(c_loc(lk%n_edges)), at(c_loc(lk%longest_node_id)), &
+    at(c_loc(lk%longest_length)), at(c_loc(lk%longest_middle)), at(c_loc(lk%half_thickness)), at(c_loc(lk%seconds))])
 
   call check(n_compared == twin_n_layouts(), 'every struct of riis.h is compared')
 

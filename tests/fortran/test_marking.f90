@@ -18,6 +18,7 @@ program test_marking
   call test_nothing_marked()
   call test_masks()
   call test_dense()
+  call test_leaks()
   call test_errors()
   call test_assignment()
   call test_threads()
@@ -184,6 +185,68 @@ contains
     call check(all(mark == 5) .and. all(number == 5), 'refused calls write nothing')
     call result%destroy()
   end subroutine test_dense
+
+  ! Of the box along its six neighbours, by a thin valve; against riis_c.
+  subroutine test_leaks()
+    type(riis_surface) :: thin
+    type(riis_mesh) :: joined
+    type(riis_adjacency) :: adjacency
+    type(riis_mark_result) :: result
+    type(riis_leaks) :: leaks, masked
+    integer(int64), pointer :: node_id(:, :)
+    real(c_double), pointer :: length(:), distance(:)
+    logical :: mask(n_nodes)
+    integer :: i, worst
+    call thin%create(valve, half_thickness=0.02d0)
+    call joined%create(xyz)
+    call riis_mark_nodes(thin, joined, result)
+    leaks%n_edges = -7
+    call riis_find_leaks(thin, joined, result, leaks, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'mesh has no adjacency')
+    call adjacency%create_from_grid(per_side, per_side, per_side)
+    call joined%set_adjacency(adjacency)
+    call riis_find_leaks(surface, joined, result, leaks, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'half thickness')
+    call riis_find_leaks(thin, joined, result, leaks, n_threads=-1, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -1')
+    call check(leaks%n_edges == -7, 'refused calls write nothing')
+    call result%leaking_edges(node_id, length, distance)
+    call check(size(node_id) == 0 .and. size(length) == 0 .and. size(distance) == 0, 'nothing was found yet')
+
+    call riis_find_leaks(thin, joined, result, leaks, n_threads=2_int64)
+    call result%leaking_edges(node_id, length, distance)
+    call check(leaks%n_edges > 10 .and. size(node_id, 2) == leaks%n_edges .and. size(node_id, 1) == 2, 'edges that leak')
+    call check(all(node_id(1, :) < node_id(2, :)) .and. all(distance > 0.02d0) .and. all(length > 0.04d0), 'both ends')
+    do i = 1, size(length)
+      if (abs(norm2(xyz(:, node_id(1, i) + 1) - xyz(:, node_id(2, i) + 1)) - length(i)) > 1d-12) exit
+    end do
+    call check(i > size(length), 'their lengths')
+    worst = maxloc(length, 1)
+    call check(all(leaks%longest_node_id == node_id(:, worst)) .and. all(same([leaks%longest_length], [length(worst)])) &
+      .and. all(same([leaks%half_thickness], [maxval(distance)])), 'the longest, and what closes all')
+    call check(norm2(leaks%longest_middle - 0.5d0 * (xyz(:, node_id(1, worst) + 1) + xyz(:, node_id(2, worst) + 1))) < &
+      1d-14, 'its middle')
+
+    mask = .true.
+    mask(node_id(1, :) + 1) = .false.
+    call riis_find_leaks(thin, joined, result, masked, mask)
+    call check(masked%n_edges == 0 .and. all(masked%longest_node_id == -1), 'masked out')
+    call riis_find_leaks(thin, joined, result, masked, merge(1_int8, 0_int8, mask), 1)
+    call check(masked%n_edges == 0, 'masked out by bytes')
+    call riis_find_leaks(thin, joined, result, masked, merge(5, 0, mask))
+    call check(masked%n_edges == 0, 'masked out by integers')
+    call riis_find_leaks(thin, joined, result, masked, mask(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of node_mask is 9260')
+    call result%destroy()
+    call riis_find_leaks(thin, joined, result, masked, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%leaking_edges(node_id, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check(size(node_id) == 0, 'no edges to point to')
+    call joined%destroy()
+    call adjacency%destroy()
+    call thin%destroy()
+  end subroutine test_leaks
 
   ! Options out of range, and handles that there are not.
   subroutine test_errors()

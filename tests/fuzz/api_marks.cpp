@@ -241,4 +241,71 @@ void read_marks(Input &in, State &state) {
          slot.distance_limit);
 }
 
+namespace {
+
+struct EdgeList {
+  std::int64_t n = -9;
+  const std::int64_t *node_id = nullptr;
+  const double *length = nullptr, *distance = nullptr;
+};
+
+EdgeList leaking_of(const riis_mark_result *result) {
+  EdgeList l;
+  EXPECT_OK(riis_mark_result_leaking_edges(result, &l.n, &l.node_id, &l.length, &l.distance));
+  EXPECT((l.n == 0) == (l.node_id == nullptr) && l.n >= 0, "%lld edges", static_cast<long long>(l.n));
+  return l;
+}
+
+// Ascending, between unmarked nodes, as the sum says. That these are all edges that leak, test_leaks.c checks.
+void check_leaks(const riis_mark_result *result, std::int64_t n_nodes, const riis_leaks &leaks) {
+  const EdgeList list = leaking_of(result);
+  const std::vector<Found> marked = copy_of(marked_of(result));
+  const auto is_marked = [&](std::int64_t node) {
+    return std::any_of(marked.begin(), marked.end(), [&](const Found &one) { return one.node == node; });
+  };
+  double longest = 0, farthest = 0;
+  for (std::int64_t i = 0; i < list.n; ++i) {
+    const std::int64_t *edge = list.node_id + 2 * i, a = edge[0], b = edge[1];
+    EXPECT(a >= 0 && a < b && b < n_nodes, "edge %lld %lld", static_cast<long long>(a), static_cast<long long>(b));
+    EXPECT(i == 0 || edge[-2] < a || (edge[-2] == a && edge[-1] < b), "not ascending at %lld",
+           static_cast<long long>(i));
+    EXPECT(!is_marked(a) && !is_marked(b), "a marked node of edge %lld %lld", static_cast<long long>(a),
+           static_cast<long long>(b));
+    longest = std::max(longest, list.length[i]);
+    farthest = std::max(farthest, list.distance[i]);
+  }
+  EXPECT(leaks.n_edges == list.n && leaks.longest_length == longest && leaks.half_thickness == farthest &&
+             leaks.seconds >= 0 && (list.n > 0 || leaks.longest_node_id[0] == -1),
+         "%lld edges", static_cast<long long>(leaks.n_edges));
+}
+
+}  // namespace
+
+void find_leaks(Input &in, State &state) {
+  ResultSlot &slot = slot_of(in, state);
+  riis_surface *surface_slot = state.surfaces[in.slot()];
+  const MeshSlot &mesh_slot = state.meshes[in.slot()];
+  const Given<riis_surface> surface = given(in, state, State::surface, surface_slot);
+  const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
+  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  riis_mark_options options = initialised(in, riis_mark_options_init);
+  options.n_threads = in.n_threads();
+  riis_leaks leaks;
+  std::memset(static_cast<void *>(&leaks), 0x5a, sizeof leaks);
+  const std::int64_t n_before = slot.handle ? leaking_of(slot.handle).n : -1;
+  const std::int64_t size = in.mostly<std::int64_t>(sizeof leaks);
+  const riis_status status = call(in, [&] {
+    return riis_find_leaks(surface.handle, mesh.handle, in.one_in(2) ? &options : nullptr, result.handle,
+                           mostly(in, &leaks), size);
+  });
+  if (!(surface.is_right && mesh.is_right && result.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (status != RIIS_OK) {
+    EXPECT(leaks.n_edges == 0x5a5a5a5a5a5a5a5a, "refused leaks were written");
+    EXPECT(!slot.handle || leaking_of(slot.handle).n == n_before, "a refused call changed the edges");
+    return;
+  }
+  EXPECT(mesh_slot.adjacency, "leaks without an adjacency");
+  check_leaks(slot.handle, mesh_slot.nodes->n, leaks);
+}
+
 }  // namespace fuzz

@@ -105,6 +105,7 @@ void make_adjacency_of_faces(Input &in, State &state);
 void make_adjacency_of_grid(Input &in, State &state);
 void mark(Input &in, State &state);
 void read_marks(Input &in, State &state);
+void find_leaks(Input &in, State &state);
 void destroy_something(Input &in, State &state);
 
 // Closest triangle by a loop over all, and its distance; the position is -1 where none is within the limit.

@@ -57,6 +57,10 @@ static inline uint64_t add_result(uint64_t digest, const riis_mark_result *resul
   const riis_mark_stats stats = stats_of(result);
   const int64_t numbers[] = {stats.n_nodes, stats.n_marked, stats.n_within_limit, stats.search, stats.complete};
   digest = add_bytes(digest, numbers, sizeof numbers);
+  int64_t n_edges = 0;
+  const int64_t *edges = NULL;
+  CHECK_OK(riis_mark_result_leaking_edges(result, &n_edges, &edges, NULL, NULL));
+  if (n_edges > 0) digest = add_bytes(digest, edges, (size_t)n_edges * 16);
   return add_list(add_list(digest, marked_in(result)), within_in(result));
 }
 

@@ -17,6 +17,7 @@
 #include "distance/sample_set.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/coons.hpp"
+#include "geometry/crossing.hpp"
 #include "geometry/curve.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
@@ -184,6 +185,10 @@ double kernel_point_triangle(const double *p, const double *abc, double *point, 
   put(on.point, point);
   std::copy(on.barycentric.begin(), on.barycentric.end(), barycentric);
   return on.distance_sq;
+}
+
+int segment_triangle_meet(const double *a, const double *b, const double *abc) {
+  return segment_meets_triangle(vec(a), vec(b), {vec(abc), vec(abc + 3), vec(abc + 6)});
 }
 
 riis_status aortic_patches(const char *name, double value, patch_set *set) {

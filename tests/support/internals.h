@@ -54,6 +54,9 @@ double quad_split_error(const double *p00, const double *p10, const double *p11,
 /* The decision kernel: returns the squared distance. */
 double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric);
 
+/* Whether the segment from a to b and the triangle have a point in common. */
+int segment_triangle_meet(const double *a, const double *b, const double *abc);
+
 /* The aortic valve's curves and patches at its default parameters, changed by one (name may be NULL). */
 typedef struct patch_set {
   int64_t n_curves, n_patches, n_images;

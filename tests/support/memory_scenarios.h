@@ -331,6 +331,27 @@ static riis_status dense(world *w) {
   return riis_mark_result_dense(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL);
 }
 
+/* So thin that edges cross it between unmarked nodes. */
+static void thin_and_marked(world *w) {
+  ready_to_mark(w);
+  riis_surface_options thin = coarse;
+  thin.half_thickness = 0.01;
+  thin.tolerance = 1;
+  CHECK_OK(riis_surface_update(w->surface, w->valve, &thin));
+  CHECK_OK(mark(w));
+}
+static riis_status find_leaks(world *w) {
+  const riis_mark_options options = options_of(w, RIIS_AUTO);
+  riis_leaks leaks;
+  const riis_status status = riis_find_leaks(w->surface, w->mesh, &options, w->result, &leaks, sizeof leaks);
+  if (!status) assert_true(leaks.n_edges > 10);
+  return status;
+}
+static void leaks_found(world *w) {
+  thin_and_marked(w);
+  CHECK_OK(find_leaks(w));
+}
+
 /* Not of what the call only reads, and then is called with again: that takes most of the time. */
 static uint64_t digest_of(const world *w) {
   uint64_t digest = UINT64_C(0xcbf29ce484222325);
@@ -423,6 +444,9 @@ static const scenario scenarios[] = {
     {"marking of nodes that moved", marked_and_moved, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
     {"marking again by clusters", marked_often, mark, 1, RIIS_SEARCH_CLUSTERS, ALLOCATES_NONE},
     {"marking of nodes that moved, by clusters", marked_and_moved, mark, 1, RIIS_SEARCH_CLUSTERS, ALLOCATES_NONE},
+    {"leaks, 1 thread", thin_and_marked, find_leaks, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
+    {"leaks, 4 threads", thin_and_marked, find_leaks, 4, RIIS_SEARCH_EXHAUSTIVE, ON_WORKERS},
+    {"leaks again", leaks_found, find_leaks, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
     {"dense arrays, 1 thread", marked_before, dense, 1, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
     {"dense arrays, 4 threads", marked_before, dense, 4, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The adjacency of meshes from files against the edges that VTK's own cells have. */
+#include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -93,6 +94,80 @@ static void test_every_cell(void **state) {
     assert_true(shim_read_edges(scratch_path("zoo.vtu"), volume_types[t], NULL) >= 3 * 6);
   }
   expect_adjacency("zoo.vtu", n_shim_zoo, 100);
+}
+
+/* One triangle, whose bounds are a box. */
+static riis_surface *surface_in(const double lower[3], const double upper[3]) {
+  const double xyz[9] = {lower[0], lower[1], lower[2], upper[0], upper[1], lower[2], upper[0], lower[1], upper[2]};
+  const int32_t ids[3] = {0, 1, 2};
+  riis_surface_arrays arrays;
+  riis_surface *surface = NULL;
+  expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
+  arrays.n_vertices = 3, arrays.n_faces = 1, arrays.stride = 3, arrays.vertex_ids = ids;
+  arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
+  expect_fine(riis_surface_create_from_arrays(&arrays, NULL, &surface));
+  return surface;
+}
+
+/* Of the pairs that VTK joins, those that are long enough and beside no side of the box. */
+static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
+                              double longer_than, int64_t n_left_out) {
+  uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
+  int64_t n_all = join_by_vtk(scratch_path(name), n_nodes, are_joined), n = 0, n_out = -1;
+  const double *xyz = NULL;
+  riis_vtk_mesh *mesh = read_mesh(name);
+  riis_surface *surface = surface_in(lower, upper);
+  expect_fine(riis_vtk_mesh_nodes(mesh, NULL, NULL, &xyz));
+  for (int64_t i = 0; i < n_nodes * n_nodes; ++i) {
+    const double *a = xyz + 3 * (i / n_nodes), *b = xyz + 3 * (i % n_nodes);
+    double square = 0;
+    for (int c = 0; c < 3; ++c) {
+      square += (a[c] - b[c]) * (a[c] - b[c]);
+      are_joined[i] &= !(a[c] < lower[c] && b[c] < lower[c]) && !(a[c] > upper[c] && b[c] > upper[c]);
+    }
+    are_joined[i] &= sqrt(square) > longer_than * (1 - 1e-9);
+    n += are_joined[i];
+  }
+  for (int32_t n_threads = 0; n_threads <= 2; ++n_threads) {
+    riis_adjacency *adjacency = NULL;
+    expect_fine(riis_vtk_mesh_long_edges(mesh, surface, longer_than, n_threads, n_threads ? &n_out : NULL, &adjacency));
+    assert_int_equal(expect_rows(adjacency, n_nodes, are_joined), n);
+    riis_adjacency_destroy(&adjacency);
+  }
+  assert_int_equal(n_out, n_left_out);
+  assert_true(n > 0 && n < n_all);
+  riis_surface_destroy(&surface);
+  riis_vtk_mesh_destroy(&mesh);
+  free(are_joined);
+}
+
+static void test_long_edges(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}, inner[3] = {0.3, 0.2, 0.1}, outer[3] = {0.8, 0.9, 0.6};
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
+  expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
+  expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
+  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0); /* within a billionth */
+  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
+  expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 3 * 3);
+}
+
+static void test_long_edges_refused(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  riis_vtk_mesh *mesh = read_mesh("box.vtu");
+  riis_surface *surface = surface_in(lower, upper);
+  riis_adjacency *adjacency = NULL;
+  const double bad[3] = {-1, NAN, INFINITY};
+  const char *const texts[3] = {"longer_than is -1;", "longer_than is nan;", "longer_than is inf;"};
+  for (int i = 0; i < 3; ++i)
+    expect_refused(riis_vtk_mesh_long_edges(mesh, surface, bad[i], 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+                   texts[i]);
+  expect_refused(riis_vtk_mesh_long_edges(mesh, surface, 0, -1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+                 "n_threads is -1");
+  assert_null(adjacency);
+  riis_surface_destroy(&surface);
+  riis_vtk_mesh_destroy(&mesh);
 }
 
 /* A quad's diagonals are no edges, and a voxel's nodes run another way than a hexahedron's. */
@@ -192,8 +267,9 @@ static void test_threads(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tetrahedra), cmocka_unit_test(test_every_cell), cmocka_unit_test(test_voxel),
-      cmocka_unit_test(test_no_volume),  cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_tetrahedra),         cmocka_unit_test(test_every_cell), cmocka_unit_test(test_voxel),
+      cmocka_unit_test(test_no_volume),          cmocka_unit_test(test_threads),    cmocka_unit_test(test_long_edges),
+      cmocka_unit_test(test_long_edges_refused),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

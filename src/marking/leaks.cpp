@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/leaks.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <tuple>
+
+#include "geometry/crossing.hpp"
+#include "marking/distances.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+struct Edge {
+  std::int64_t a, b;  // a < b
+  double length;
+
+  bool operator<(const Edge &other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
+  bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
+};
+
+// An edge up to here that meets the surface has a node within the half thickness, also as distances are computed: half of it is at
+// most its half, and rounding is counted more than once. Where the marks do not follow the distances to the triangles, or some may be
+// missing, no edge is short.
+double length_that_cannot_leak(const Surface &surface, const MarkResult &result) {
+  if (surface.other_distance() || !result.stats.complete) return -1;
+  return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
+}
+
+// What one thread needs.
+struct alignas(64) Finder {
+  const SearchRequest *request = nullptr;
+  const std::vector<std::int64_t> *marked = nullptr;
+  double too_short = 0;
+  std::vector<std::int32_t> room;
+  std::vector<Edge> found;
+
+  bool is_open(std::int64_t node) const {
+    return !request->is_masked_out(node) && !std::binary_search(marked->begin(), marked->end(), node);
+  }
+
+  bool crosses(Vec3 p, Vec3 q) {
+    const TriangleScene &scene = request->surface.scene();
+    const double *corners = scene.groups().corners.data();
+    bool crosses = false;
+    scene.for_each_along(p, q, room, [&](std::int32_t triangle) {
+      const double *c = corners + 9 * static_cast<std::ptrdiff_t>(triangle);
+      crosses = crosses || segment_meets_triangle(p, q, {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}});
+    });
+    return crosses;
+  }
+
+  void search_row(std::int64_t i) {
+    const StridedPoints &nodes = request->mesh.nodes();
+    const Adjacency &adjacency = *request->mesh.adjacency();
+    if (!is_open(i)) return;
+    const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+    adjacency.for_each_neighbor(i, [&](std::int64_t j) {
+      if (j < i && adjacency.has_neighbor(j, i)) return;  // found in that row
+      const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
+      const double length = distance(p, q);
+      if (length <= too_short || !is_open(j)) return;
+      // From the same end whichever row it is in.
+      if (crosses(i < j ? p : q, i < j ? q : p)) found.push_back({std::min(i, j), std::max(i, j), length});
+    });
+  }
+};
+
+std::vector<Edge> leaking_edges(const SearchRequest &request, const MarkResult &result) {
+  constexpr std::int64_t blocks_per_task = 16;
+  std::vector<Edge> found;
+  const double too_short = length_that_cannot_leak(request.surface, result);
+  const EdgeBlocks &edges = request.mesh.edges(request.n_threads);
+  if (edges.longest <= too_short) return found;
+  std::vector<Finder> finders(static_cast<std::size_t>(request.n_threads));
+  for (Finder &finder : finders) {
+    finder.request = &request;
+    finder.marked = &result.marked_nodes().node_id;
+    finder.too_short = too_short;
+  }
+  const auto n_blocks = static_cast<std::int64_t>(edges.blocks.size());
+  const std::int64_t n_nodes = request.mesh.nodes().n;
+  const auto search = [&](const Range &range, int thread) {
+    for (std::int64_t k = range.begin; k < range.end; ++k) {
+      const EdgeBlocks::Block &block = edges.blocks[static_cast<std::size_t>(k)];
+      if (block.longest <= too_short || !overlap(block.bounds, request.surface.scene().bounds())) continue;
+      const std::int64_t begin = k * EdgeBlocks::rows_per_block;
+      const std::int64_t end = std::min(begin + EdgeBlocks::rows_per_block, n_nodes);
+      for (std::int64_t i = begin; i < end; ++i) finders[static_cast<std::size_t>(thread)].search_row(i);
+    }
+  };
+  parallel_for_ranges(n_blocks, blocks_per_task, request.n_threads, search);
+  for (const Finder &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());  // columns may be repeated
+  return found;
+}
+
+// The distance of the nearer node, with the marking's bits.
+double closing_distance(const SearchRequest &request, const Edge &edge) {
+  const StridedPoints &nodes = request.mesh.nodes();
+  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return std::sqrt(std::min(distances.closest(nodes[edge.a], infinity).distance_sq,
+                              distances.closest(nodes[edge.b], infinity).distance_sq));
+  });
+}
+
+LeakingEdges listed(const SearchRequest &request, const std::vector<Edge> &edges) {
+  constexpr std::int64_t edges_per_task = 64;
+  LeakingEdges list;
+  list.node_id.resize(2 * edges.size());
+  list.length.resize(edges.size());
+  list.distance.resize(edges.size());
+  parallel_for_ranges(
+      static_cast<std::int64_t>(edges.size()), edges_per_task, request.n_threads, [&](const Range &range, int) {
+        for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
+          list.node_id[2 * i] = edges[i].a;
+          list.node_id[2 * i + 1] = edges[i].b;
+          list.length[i] = edges[i].length;
+          list.distance[i] = closing_distance(request, edges[i]);
+        }
+      });
+  return list;
+}
+
+riis_leaks summary_of(const StridedPoints &nodes, const LeakingEdges &list) {
+  riis_leaks leaks{static_cast<std::int64_t>(list.length.size()), {-1, -1}, 0, {0, 0, 0}, 0, 0};
+  if (list.length.empty()) return leaks;
+  const auto longest =
+      static_cast<std::size_t>(std::max_element(list.length.begin(), list.length.end()) - list.length.begin());
+  const std::int64_t a = list.node_id[2 * longest], b = list.node_id[2 * longest + 1];
+  const Vec3 middle = mix(nodes[a], nodes[b], 0.5);
+  leaks.longest_node_id[0] = a;
+  leaks.longest_node_id[1] = b;
+  leaks.longest_length = list.length[longest];
+  leaks.longest_middle[0] = middle.x;
+  leaks.longest_middle[1] = middle.y;
+  leaks.longest_middle[2] = middle.z;
+  leaks.half_thickness = *std::max_element(list.distance.begin(), list.distance.end());
+  return leaks;
+}
+
+}  // namespace
+
+riis_leaks find_leaks(const SearchRequest &request, MarkResult &result) {
+  const auto start = std::chrono::steady_clock::now();
+  LeakingEdges list = listed(request, leaking_edges(request, result));
+  riis_leaks leaks = summary_of(request.mesh.nodes(), list);
+  result.leaking = std::move(list);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  leaks.seconds = elapsed.count();
+  return leaks;
+}
+
+}  // namespace riis

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Whether a segment meets a triangle, against whole numbers: in general position, through corners, sides and planes, off them by
+ * less than doubles resolve, in planes, in every unit. */
+#include "crossing_oracle.h"
+#include "internals.h"
+#include "test_support.h"
+
+static random_source rng;
+
+static int64_t whole(int64_t largest) { return (int64_t)(random_bits(&rng) % (uint64_t)(2 * largest + 1)) - largest; }
+
+typedef struct {
+  int64_t a[3], b[3], abc[9];
+} sample;
+
+/* The answer for one order of ends and corners, in a unit of 2^exponent. */
+static int answer(const sample *s, int exponent, int swapped, int turned) {
+  double a[3], b[3], abc[9];
+  for (int i = 0; i < 3; ++i) {
+    a[i] = ldexp((double)s->a[i], exponent);
+    b[i] = ldexp((double)s->b[i], exponent);
+    for (int k = 0; k < 3; ++k) {
+      const int from = turned < 3 ? (k + turned) % 3 : (turned - k) % 3;
+      abc[3 * k + i] = ldexp((double)s->abc[3 * from + i], exponent);
+    }
+  }
+  return swapped ? segment_triangle_meet(b, a, abc) : segment_triangle_meet(a, b, abc);
+}
+
+/* Every order of ends and corners gives the oracle's answer. */
+static int check(const sample *s, int exponent) {
+  const int expected = oracle_segment_meets_triangle(s->a, s->b, s->abc);
+  for (int i = 0; i < 12; ++i)
+    if (answer(s, exponent, i % 2, i / 2) != expected)
+      fail_msg("%d instead of %d in order %d, unit 2^%d", !expected, expected, i, exponent);
+  return expected;
+}
+
+static void random_triangle(sample *s, int64_t largest) {
+  do
+    for (int i = 0; i < 9; ++i) s->abc[i] = whole(largest);
+  while (!has_area(s->abc));
+}
+
+/* From units in which coordinates are barely above what counts as 0 to those in which they reach 1e60. */
+static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
+
+static void small_numbers_meet_in_every_way(void **state) {
+  (void)state;
+  int n_met = 0, n_in_plane = 0;
+  const int n = 200000;
+  for (int trial = 0; trial < n; ++trial) {
+    sample s;
+    random_triangle(&s, 3);
+    for (int i = 0; i < 3; ++i) s.a[i] = whole(3), s.b[i] = whole(3);
+    if (trial % 4 == 0) s.a[2] = s.b[2] = s.abc[2] = s.abc[5] = s.abc[8] = whole(3);
+    if (!has_area(s.abc)) continue;
+    n_met += check(&s, random_exponent(3));
+    const wide3 normal = wide_cross(wide_difference(s.abc + 3, s.abc), wide_difference(s.abc + 6, s.abc));
+    n_in_plane +=
+        wide_dot(normal, wide_difference(s.a, s.abc)) == 0 && wide_dot(normal, wide_difference(s.b, s.abc)) == 0;
+  }
+  assert_true(n_met > n / 10 && n_met < n * 9 / 10 && n_in_plane > n / 10);
+}
+
+/* A point of the triangle, to whole numbers, at a corner, on a side or inside; then a segment through it, off by 0 or 1. */
+static void numbers_of_38_bits_are_told_apart(void **state) {
+  (void)state;
+  int n_met = 0;
+  const int n = 300000;
+  for (int trial = 0; trial < n; ++trial) {
+    const int64_t largest = (int64_t)1 << (8 + random_bits(&rng) % 29);
+    sample s;
+    random_triangle(&s, largest);
+    const int64_t steps = (int64_t)1 << (random_bits(&rng) % 8);
+    int64_t of_b = 0, of_c = 0;
+    if (trial % 4 > 0) of_b = (int64_t)(random_bits(&rng) % (uint64_t)(steps + 1));
+    if (trial % 4 > 1)
+      of_c = trial % 4 == 2 ? steps - of_b : (int64_t)(random_bits(&rng) % (uint64_t)(steps - of_b + 1));
+    for (int i = 0; i < 3; ++i) {
+      const int64_t along = whole(largest), off = trial % 3 ? 0 : whole(1);
+      const int64_t at = s.abc[i] + (of_b * (s.abc[3 + i] - s.abc[i]) + of_c * (s.abc[6 + i] - s.abc[i])) / steps;
+      s.a[i] = at - along * (1 + trial % 2) + off;
+      s.b[i] = at + along;
+    }
+    n_met += check(&s, trial % 5 ? 0 : random_exponent(40));
+  }
+  assert_true(n_met > n / 5 && n_met < n * 4 / 5);
+}
+
+/* A fan round a corner has no hole: what is through a point of its inside meets one triangle or more. */
+static void a_fan_has_no_hole(void **state) {
+  (void)state;
+  enum { n_sides = 7 };
+  for (int trial = 0; trial < 20000; ++trial) {
+    double corners[n_sides][3], centre[3] = {0, 0, 0}, a[3], b[3];
+    for (int k = 0; k < n_sides; ++k) {
+      const double angle = (k + random_between(&rng, -0.3, 0.3)) * 2 * 3.141592653589793 / n_sides;
+      corners[k][0] = cos(angle), corners[k][1] = sin(angle), corners[k][2] = random_between(&rng, -0.1, 0.1);
+    }
+    for (int i = 0; i < 3; ++i) centre[i] = random_between(&rng, -0.01, 0.01);
+    /* Above and below the centre, or a point of a spoke, to rounding. */
+    const int spoke = trial % n_sides;
+    const double share = trial % 3 ? 0 : random_between(&rng, 0, 0.3), tilt = random_between(&rng, -0.1, 0.1);
+    for (int i = 0; i < 3; ++i) {
+      const double at = centre[i] + share * (corners[spoke][i] - centre[i]), along = i == 2 ? 1 : i == 1 ? tilt : 0;
+      a[i] = at - along;
+      b[i] = at + along * 0.7;
+    }
+    int n_met = 0;
+    for (int k = 0; k < n_sides; ++k) {
+      double abc[9];
+      memcpy(abc, centre, sizeof centre);
+      memcpy(abc + 3, corners[k], sizeof centre);
+      memcpy(abc + 6, corners[(k + 1) % n_sides], sizeof centre);
+      n_met += segment_triangle_meet(a, b, abc);
+    }
+    assert_true(n_met >= 1);
+  }
+}
+
+/* As the header says of coordinates below 1e-90. */
+static void negligible_coordinates_count_as_0(void **state) {
+  (void)state;
+  const double abc[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  const double above[3] = {0, 0, 1e-91}, higher[3] = {0, 0, 1}, touching[3] = {0, 1, 9e-91}, off[3] = {0, 1, 2e-90};
+  assert_true(segment_triangle_meet(above, higher, abc));
+  assert_true(segment_triangle_meet(touching, higher, abc));
+  assert_false(segment_triangle_meet(off, higher, abc));
+}
+
+int main(void) {
+  rng = random_start("test_crossing");
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(small_numbers_meet_in_every_way),
+      cmocka_unit_test(numbers_of_38_bits_are_told_apart),
+      cmocka_unit_test(a_fan_has_no_hole),
+      cmocka_unit_test(negligible_coordinates_count_as_0),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,616 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Edges that cross the surface between unmarked nodes, against a loop over all edges and all triangles: in whole numbers for
+ * random surfaces, in extended precision for valves. RIIS_TEST_LONG=1 tries a thousand times as many. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "crossing_oracle.h"
+#include "handles.h"
+#include "oracle.h"
+#include "searches.h"
+
+static random_source rng;
+
+static int64_t random_integer(int64_t low, int64_t high) {
+  return low + (int64_t)(random_bits(&rng) % (uint64_t)(high - low + 1));
+}
+static int one_in(int64_t n) { return random_integer(1, n) == 1; }
+
+typedef struct leak_list {
+  riis_leaks sum;
+  const int64_t *node_id;
+  const double *length, *distance;
+} leak_list;
+
+static leak_list leaks_of(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
+                          riis_mark_result *result) {
+  leak_list list;
+  int64_t n = -1;
+  memset(&list, 0x5a, sizeof list);
+  CHECK_OK(riis_find_leaks(surface, mesh, options, result, &list.sum, sizeof list.sum));
+  CHECK_OK(riis_mark_result_leaking_edges(result, &n, &list.node_id, &list.length, &list.distance));
+  assert_int_equal(n, list.sum.n_edges);
+  assert_true(list.sum.seconds >= 0);
+  if (n == 0) assert_true(!list.node_id && !list.length && !list.distance);
+  return list;
+}
+
+static riis_mesh *mesh_with_rows(const test_mesh *nodes, int64_t n_all) {
+  riis_mesh *mesh = NULL;
+  riis_csr csr;
+  CHECK_OK(riis_mesh_create(nodes->n, nodes->xyz, nodes->xyz + 1, nodes->xyz + 2, 3, &mesh));
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = nodes->n;
+  csr.n_all = n_all;
+  csr.offsets = nodes->offsets;
+  csr.columns = nodes->columns;
+  csr.offset_bits = csr.column_bits = 64;
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  return mesh;
+}
+
+/* --- Whole numbers ---------------------------------------------------------------------------------------------------- */
+
+enum { max_nodes = 60, max_triangles = 48, max_columns = 12 * max_nodes };
+
+/* Coordinates are these numbers times 2^exponent. */
+typedef struct whole_case {
+  int64_t n_nodes, n_vertices, n_triangles;
+  int64_t node[3 * max_nodes], vertex[9 * max_triangles];
+  int32_t ids[3 * max_triangles];
+  int64_t offsets[max_nodes + 1], columns[max_columns];
+  uint8_t mask[max_nodes];
+  int is_masked, exponent;
+  double half_thickness;
+} whole_case;
+
+static int64_t whole(int64_t largest) { return random_integer(-largest, largest); }
+
+/* Triangles by themselves, or a sheet of them that share corners. */
+static void random_triangles(whole_case *c, int64_t largest) {
+  int64_t m = 0;
+  const int is_sheet = one_in(2), side = (int)random_integer(1, 4);
+  if (is_sheet) {
+    c->n_vertices = (side + 1) * (side + 1);
+    for (int64_t i = 0; i < c->n_vertices; ++i) {
+      c->vertex[3 * i] = largest * (2 * (i % (side + 1)) - side) / side;
+      c->vertex[3 * i + 1] = largest * (2 * (i / (side + 1)) - side) / side;
+      c->vertex[3 * i + 2] = one_in(2) ? 0 : whole(largest);
+    }
+    for (int32_t i = 0; i < side * side; ++i) {
+      const int32_t at = i % side + (side + 1) * (i / side), corners[4] = {at, at + 1, at + side + 2, at + side + 1};
+      static const int order[6] = {0, 1, 2, 0, 2, 3};
+      for (int k = 0; k < 6; ++k) c->ids[m++] = corners[order[k]];
+    }
+  } else {
+    c->n_vertices = 3 * random_integer(1, max_triangles);
+    for (; m < c->n_vertices; ++m) c->ids[m] = (int32_t)m;
+    for (int64_t i = 0; i < 3 * c->n_vertices; ++i) c->vertex[i] = whole(largest);
+  }
+  c->n_triangles = m / 3;
+}
+
+static void corners_of(const whole_case *c, int64_t triangle, int64_t *abc) {
+  for (int k = 0; k < 9; ++k) abc[k] = c->vertex[3 * c->ids[3 * triangle + k / 3] + k % 3];
+}
+
+static void drop_flat_triangles(whole_case *c) {
+  int64_t n = 0, abc[9];
+  for (int64_t i = 0; i < c->n_triangles; ++i) {
+    corners_of(c, i, abc);
+    if (!has_area(abc)) continue;
+    memmove(c->ids + 3 * n++, c->ids + 3 * i, 3 * sizeof *c->ids);
+  }
+  c->n_triangles = n;
+}
+
+static void random_rows(whole_case *c) {
+  int64_t n = 0;
+  for (int64_t i = 0; i < c->n_nodes; ++i) {
+    c->offsets[i] = n;
+    for (int64_t k = random_integer(0, 11); k > 0; --k) /* itself, repetitions and ghosts among them */
+      c->columns[n++] = one_in(12) ? c->n_nodes + 3 : random_integer(0, c->n_nodes - 1);
+  }
+  c->offsets[c->n_nodes] = n;
+}
+
+static void make_case(whole_case *c) {
+  static const int64_t sizes[] = {3, 8, 1000, (int64_t)1 << 27};
+  const int64_t largest = sizes[random_integer(0, 3)];
+  do {
+    random_triangles(c, largest);
+    drop_flat_triangles(c);
+  } while (c->n_triangles == 0);
+  /* Now and then a mesh that is millions of times as large as the surface. */
+  const int is_huge = largest == 3 && one_in(4);
+  c->n_nodes = random_integer(2, max_nodes);
+  for (int64_t i = 0; i < 3 * c->n_nodes; ++i)
+    c->node[i] = whole(is_huge && one_in(2) ? (int64_t)1 << 36 : 2 * largest);
+  random_rows(c);
+  c->is_masked = one_in(3);
+  for (int64_t i = 0; i < c->n_nodes; ++i) c->mask[i] = !one_in(4);
+  c->exponent = (int)random_integer(-120, 120);
+  c->half_thickness = ldexp((double)largest * pow(10, random_between(&rng, -3, 0)), c->exponent);
+}
+
+static double *scaled(const int64_t *whole_numbers, int64_t n, int exponent) {
+  double *made = malloc((size_t)n * sizeof *made);
+  for (int64_t i = 0; i < n; ++i) made[i] = ldexp((double)whole_numbers[i], exponent);
+  return made;
+}
+
+static riis_surface *surface_of_case(const whole_case *c, double half_thickness) {
+  double *xyz = scaled(c->vertex, 3 * c->n_vertices, c->exponent);
+  riis_surface_arrays arrays = triangle_arrays(c->n_vertices, xyz, c->n_triangles, c->ids);
+  riis_surface_options options = surface_options();
+  options.half_thickness = half_thickness;
+  riis_surface *surface = surface_from(&arrays, &options);
+  free(xyz);
+  return surface;
+}
+
+static int crosses(const whole_case *c, int64_t a, int64_t b) {
+  int64_t abc[9];
+  for (int64_t t = 0; t < c->n_triangles; ++t) {
+    corners_of(c, t, abc);
+    if (oracle_segment_meets_triangle(c->node + 3 * a, c->node + 3 * b, abc)) return 1;
+  }
+  return 0;
+}
+
+/* leaks[a * n + b] for a < b; the number of them. */
+static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t *leaks) {
+  int64_t n = 0;
+  memset(leaks, 0, (size_t)(c->n_nodes * c->n_nodes));
+  for (int64_t i = 0; i < c->n_nodes; ++i)
+    for (int64_t k = c->offsets[i]; k < c->offsets[i + 1]; ++k) {
+      const int64_t j = c->columns[k], a = i < j ? i : j, b = i < j ? j : i;
+      if (a == b || b >= c->n_nodes || marks[a] || marks[b] || leaks[a * c->n_nodes + b]) continue;
+      if (c->is_masked && (!c->mask[a] || !c->mask[b])) continue;
+      n += leaks[a * c->n_nodes + b] = (uint8_t)crosses(c, a, b);
+    }
+  return n;
+}
+
+/* Marks as the oracle has them; where rounding decides, as the result. */
+static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
+                           const riis_mark_result *result, uint8_t *marks) {
+  const surface_content all = surface_content_of(surface);
+  int64_t nearest = 0;
+  CHECK_OK(riis_mark_result_dense(result, c->n_nodes, 2e60, marks, NULL, NULL, NULL));
+  for (int64_t i = 0; i < c->n_nodes; ++i) {
+    const long double d = oracle_distance(xyz + 3 * i, all.n_triangles, all.vertex_id, all.xyz, &nearest);
+    if (c->is_masked && !c->mask[i])
+      marks[i] = 0;
+    else if (fabsl(d - c->half_thickness) > 1e-12L * c->half_thickness + 1e-13L * d)
+      marks[i] = d <= c->half_thickness;
+  }
+}
+
+static void check_list(const whole_case *c, const double *xyz, const riis_surface *surface, leak_list list,
+                       const uint8_t *leaks, int64_t n) {
+  double longest = 0, closing = 0;
+  int64_t longest_edge = -1, before = -1;
+  assert_int_equal(list.sum.n_edges, n);
+  for (int64_t e = 0; e < n; ++e) {
+    const int64_t a = list.node_id[2 * e], b = list.node_id[2 * e + 1];
+    assert_true(a >= 0 && a < b && b < c->n_nodes && leaks[a * c->n_nodes + b]);
+    assert_true(a * c->n_nodes + b > before);
+    before = a * c->n_nodes + b;
+    const double *p = xyz + 3 * a, *q = xyz + 3 * b;
+    const long double x = (long double)p[0] - q[0], y = (long double)p[1] - q[1], z = (long double)p[2] - q[2];
+    const double length = (double)sqrtl(x * x + y * y + z * z);
+    CHECK_NEAR(list.length[e], length, 1e-15 * length);
+    CHECK_SAME(list.distance[e],
+               fmin(closest_to(surface, p[0], p[1], p[2]).distance, closest_to(surface, q[0], q[1], q[2]).distance));
+    if (list.length[e] > longest) longest = list.length[e], longest_edge = e;
+    closing = fmax(closing, list.distance[e]);
+  }
+  CHECK_SAME(list.sum.longest_length, longest);
+  CHECK_SAME(list.sum.half_thickness, closing);
+  for (int i = 0; i < 2; ++i)
+    assert_int_equal(list.sum.longest_node_id[i], n ? list.node_id[2 * longest_edge + i] : -1);
+  for (int i = 0; i < 3; ++i) {
+    const double middle =
+        n ? 0.5 * xyz[3 * list.sum.longest_node_id[0] + i] + 0.5 * xyz[3 * list.sum.longest_node_id[1] + i] : 0;
+    CHECK_NEAR(list.sum.longest_middle[i], middle, 1e-15 * longest);
+  }
+}
+
+/* How many leaks there are with another half thickness. */
+static int64_t n_leaks_with(const whole_case *c, const riis_mesh *mesh, double half_thickness) {
+  riis_surface *surface = surface_of_case(c, half_thickness);
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  if (c->is_masked) options.node_mask = c->mask;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  const int64_t n = leaks_of(surface, mesh, &options, result).sum.n_edges;
+  riis_mark_result_destroy(&result);
+  riis_surface_destroy(&surface);
+  return n;
+}
+
+static int64_t check_case(const whole_case *c) {
+  static uint8_t marks[max_nodes], leaks[max_nodes * max_nodes];
+  double *xyz = scaled(c->node, 3 * c->n_nodes, c->exponent);
+  test_mesh nodes = {c->n_nodes, xyz, (int64_t *)c->offsets, (int64_t *)c->columns};
+  riis_surface *surface = surface_of_case(c, c->half_thickness);
+  riis_mesh *mesh = mesh_with_rows(&nodes, c->n_nodes + 4);
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  if (c->is_masked) options.node_mask = c->mask;
+  options.n_threads = (int32_t)random_integer(1, 3);
+  options.distance_limit = one_in(2) ? RIIS_AUTO : 3 * c->half_thickness;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  expected_marks(c, xyz, surface, result, marks);
+  const int64_t n = expected_leaks(c, marks, leaks);
+  const leak_list list = leaks_of(surface, mesh, &options, result);
+  check_list(c, xyz, surface, list, leaks, n);
+  if (n > 0) {
+    assert_int_equal(n_leaks_with(c, mesh, list.sum.half_thickness), 0);
+    assert_true(n_leaks_with(c, mesh, nextafter(list.sum.half_thickness, 0)) > 0);
+  }
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  free(xyz);
+  return n;
+}
+
+static void random_meshes_leak_where_the_loop_says(void **state) {
+  (void)state;
+  const int n = getenv("RIIS_TEST_LONG") && *getenv("RIIS_TEST_LONG") ? 400000 : 400;
+  int n_leaking = 0;
+  static whole_case c;
+  for (int trial = 0; trial < n; ++trial) {
+    const random_source before = rng;
+    make_case(&c);
+    const int64_t n_edges = check_case(&c);
+    n_leaking += n_edges > 0;
+    if (trial % 40000 == 39999) printf("%d trials, last seed %llu\n", trial + 1, (unsigned long long)before.state);
+  }
+  printf("%d of %d meshes leak\n", n_leaking, n);
+  assert_true(n_leaking > n / 4 && n_leaking < n);
+}
+
+/* --- What must not matter ---------------------------------------------------------------------------------------------- */
+
+/* Turned by whole quarters, mirrored and moved, with its nodes in another order: the same edges. */
+static void motion_and_order_do_not_matter(void **state) {
+  (void)state;
+  static whole_case c, moved;
+  for (int trial = 0; trial < 60; ++trial) {
+    make_case(&c);
+    moved = c;
+    const int64_t shift = random_integer(-100, 100);
+    const int axis = (int)random_integer(0, 2), sign = one_in(2) ? 1 : -1;
+    int64_t number[max_nodes];
+    for (int64_t i = 0; i < c.n_nodes; ++i) number[i] = i;
+    for (int64_t i = c.n_nodes - 1; i > 0; --i) {
+      const int64_t j = random_integer(0, i), swap = number[i];
+      number[i] = number[j], number[j] = swap;
+    }
+#define MOVED(x, i) ((x)[((i) + axis) % 3] * ((i) == 1 ? sign : 1) + ((i) == 2 ? shift : 0))
+    for (int64_t v = 0; v < c.n_vertices; ++v)
+      for (int i = 0; i < 3; ++i) moved.vertex[3 * v + i] = MOVED(c.vertex + 3 * v, i);
+    int64_t n = 0, row_of[max_nodes];
+    for (int64_t v = 0; v < c.n_nodes; ++v) {
+      for (int i = 0; i < 3; ++i) moved.node[3 * number[v] + i] = MOVED(c.node + 3 * v, i);
+      moved.mask[number[v]] = c.mask[v];
+      row_of[number[v]] = v;
+    }
+    for (int64_t v = 0; v < c.n_nodes; ++v) {
+      moved.offsets[v] = n;
+      for (int64_t k = c.offsets[row_of[v]]; k < c.offsets[row_of[v] + 1]; ++k)
+        moved.columns[n++] = c.columns[k] < c.n_nodes ? number[c.columns[k]] : c.columns[k];
+    }
+    const int64_t n_of_case = check_case(&c);
+    assert_int_equal(check_case(&moved), n_of_case);
+  }
+}
+
+/* A mesh of many blocks of rows. */
+static void threads_do_not_matter(void **state) {
+  (void)state;
+  const int64_t counts[3] = {24, 24, 20};
+  const double lower[3] = {-1.6, -1.6, -1.5}, upper[3] = {1.6, 1.6, 1.5};
+  test_mesh nodes = lattice(counts, lower, upper);
+  for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += random_between(&rng, -0.06, 0.06);
+  riis_surface_options thin = surface_options();
+  thin.half_thickness = 0.03;
+  riis_surface *surface = aortic_surface(&thin);
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+  riis_mark_result *one = new_result(), *many = new_result();
+  riis_mark_options options = mark_options();
+  options.n_threads = 1;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, one));
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, many));
+  const leak_list a = leaks_of(surface, mesh, &options, one);
+  assert_true(a.sum.n_edges > 100);
+  for (options.n_threads = 2; options.n_threads <= 5; ++options.n_threads) {
+    leak_list b = leaks_of(surface, mesh, &options, many);
+    const size_t n = (size_t)a.sum.n_edges;
+    b.sum.seconds = a.sum.seconds;
+    assert_memory_equal(&a.sum, &b.sum, sizeof a.sum);
+    assert_memory_equal(a.node_id, b.node_id, 2 * n * sizeof *a.node_id);
+    assert_memory_equal(a.length, b.length, n * sizeof *a.length);
+    assert_memory_equal(a.distance, b.distance, n * sizeof *a.distance);
+  }
+  riis_mark_result_destroy(&many);
+  riis_mark_result_destroy(&one);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  free_test_mesh(&nodes);
+}
+
+/* --- Valves ------------------------------------------------------------------------------------------------------------ */
+
+/* How far the segment passes inside the triangle, as a share of its size: below 0 where it passes outside. */
+static long double depth_in(const double *a, const double *b, const double *const *corner) {
+  long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
+  for (int i = 0; i < 3; ++i) {
+    e1[i] = (long double)corner[1][i] - corner[0][i], e2[i] = (long double)corner[2][i] - corner[0][i];
+    along[i] = (long double)b[i] - a[i], from[i] = (long double)a[i] - corner[0][i];
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    p[i] = along[j] * e2[k] - along[k] * e2[j], q[i] = from[j] * e1[k] - from[k] * e1[j];
+  }
+  for (int i = 0; i < 3; ++i) det += e1[i] * p[i], t += e2[i] * q[i], u += from[i] * p[i], v += along[i] * q[i];
+  if (det == 0) return -1;
+  t /= det, u /= det, v /= det;
+  const long double depths[5] = {t, 1 - t, u, v, 1 - u - v};
+  long double least = 1;
+  for (int i = 0; i < 5; ++i) least = depths[i] < least ? depths[i] : least;
+  return least;
+}
+
+/* Every edge between two unmarked nodes, however short, against every triangle. */
+static int64_t check_against_valve(const test_mesh *nodes, const riis_surface *surface, const uint8_t *marks,
+                                   leak_list list) {
+  const surface_content all = surface_content_of(surface);
+  int64_t next = 0;
+  for (int64_t a = 0; a < nodes->n; ++a)
+    for (int64_t k = nodes->offsets[a]; k < nodes->offsets[a + 1]; ++k) {
+      const int64_t b = nodes->columns[k];
+      if (b <= a || marks[a] || marks[b]) continue;
+      long double deepest = -1;
+      for (int64_t t = 0; t < all.n_triangles; ++t) {
+        const int64_t *id = all.vertex_id + 3 * t;
+        const double *corner[3] = {all.xyz + 3 * id[0], all.xyz + 3 * id[1], all.xyz + 3 * id[2]};
+        const long double depth = depth_in(nodes->xyz + 3 * a, nodes->xyz + 3 * b, corner);
+        if (depth > deepest) deepest = depth;
+      }
+      const int is_listed = next < list.sum.n_edges && list.node_id[2 * next] == a && list.node_id[2 * next + 1] == b;
+      if (fabsl(deepest) > 1e-12L && is_listed != (deepest > 0))
+        fail_msg("edge %lld %lld, depth %Lg: %d", (long long)a, (long long)b, deepest, is_listed);
+      next += is_listed;
+    }
+  assert_int_equal(next, list.sum.n_edges);
+  return next;
+}
+
+static int ascending_columns(const void *a, const void *b) {
+  return (*(const int64_t *)a > *(const int64_t *)b) - (*(const int64_t *)a < *(const int64_t *)b);
+}
+
+/* A jittered lattice round a valve, its rows ascending. */
+static test_mesh mesh_round(const riis_surface *surface, double spacing) {
+  const riis_surface_info info = info_of(surface);
+  int64_t counts[3];
+  double lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) {
+    lower[i] = info.lower[i] - 0.3 + random_between(&rng, -0.1, 0);
+    counts[i] = 2 + (int64_t)((info.upper[i] - lower[i] + 0.3) / spacing);
+    upper[i] = lower[i] + spacing * (double)(counts[i] - 1);
+  }
+  test_mesh nodes = lattice(counts, lower, upper);
+  for (int64_t i = 0; i < nodes.n; ++i)
+    qsort(nodes.columns + nodes.offsets[i], (size_t)(nodes.offsets[i + 1] - nodes.offsets[i]), sizeof *nodes.columns,
+          ascending_columns);
+  return nodes;
+}
+
+static riis_surface *valve_surface(const char *kind, double opening, int32_t distance) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options options = surface_options();
+  options.distance = distance;
+  options.tolerance = 0.5;
+  CHECK_OK(riis_valve_create(kind, &valve));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  CHECK_OK(riis_surface_create(valve, &options, &surface));
+  riis_valve_destroy(&valve);
+  return surface;
+}
+
+/* By whichever distances it is marked. */
+static void valves_leak_where_the_loop_says(void **state) {
+  (void)state;
+  static const char *const kinds[2] = {"aortic", "mitral"};
+  int64_t n_leaking[3] = {0, 0, 0};
+  for (int trial = 0; trial < 12; ++trial) {
+    riis_surface *surface = valve_surface(kinds[trial % 2], 0, (int32_t)(trial % 3));
+    test_mesh nodes = mesh_round(surface, trial < 6 ? 0.27 : 0.24);
+    riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+    riis_mark_result *result = new_result();
+    uint8_t *marks = malloc((size_t)nodes.n);
+    CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+    CHECK_OK(riis_mark_result_dense(result, nodes.n, 1e30, marks, NULL, NULL, NULL));
+    n_leaking[trial % 3] += check_against_valve(&nodes, surface, marks, leaks_of(surface, mesh, NULL, result));
+    free(marks);
+    riis_mark_result_destroy(&result);
+    riis_mesh_destroy(&mesh);
+    riis_surface_destroy(&surface);
+    free_test_mesh(&nodes);
+  }
+  for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
+}
+
+/* Edges of at most two half thicknesses cannot leak: not even those of exactly that length, through a plane half way. */
+static void short_edges_do_not_leak(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 4; ++trial) {
+    riis_surface *surface = valve_surface(trial % 2 ? "mitral" : "aortic", 0, RIIS_DISTANCE_TRIANGLES);
+    test_mesh nodes = mesh_round(surface, 0.2 * (1 - 1e-15));
+    riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+    riis_mark_result *result = new_result();
+    CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+    assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0);
+    riis_mark_result_destroy(&result);
+    riis_mesh_destroy(&mesh);
+    riis_surface_destroy(&surface);
+    free_test_mesh(&nodes);
+  }
+}
+
+/* --- Plates ------------------------------------------------------------------------------------------------------------ */
+
+/* The squares [-1, 1]^2 at the heights 0 and 10, half thickness 0.25. */
+static riis_surface *two_plates(void) {
+  static const double xyz[24] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 10, 1, -1, 10, 1, 1, 10, -1, 1, 10};
+  static const int32_t ids[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+  riis_surface_arrays arrays = triangle_arrays(8, xyz, 4, ids);
+  riis_surface_options options = surface_options();
+  options.half_thickness = 0.25;
+  return surface_from(&arrays, &options);
+}
+
+/* A column of nodes along z, each joined to the next. */
+static test_mesh column_of_nodes(int64_t n, double from, double step) {
+  const int64_t counts[3] = {1, 1, n};
+  const double lower[3] = {0, 0, from}, upper[3] = {0, 0, from + step * (double)(n - 1)};
+  return lattice(counts, lower, upper);
+}
+
+/* Where the search may have missed nodes, short edges are looked at as well. */
+static void what_the_papers_search_misses_leaks(void **state) {
+  (void)state;
+  test_mesh nodes = column_of_nodes(121, -1, 0.1);
+  riis_surface *surface = two_plates();
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 0);
+  options.search = RIIS_SEARCH_PAPER;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  const leak_list list = leaks_of(surface, mesh, &options, result);
+  assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2); /* a node on the plate has two edges that touch it */
+  CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  free_test_mesh(&nodes);
+}
+
+/* The list is of what the mesh and its adjacency are now, and of the last marking. */
+static void changes_are_seen(void **state) {
+  (void)state;
+  test_mesh nodes = column_of_nodes(12, -0.5, 1);
+  riis_surface *surface = two_plates();
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+  riis_mark_result *result = new_result();
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  leak_list list = leaks_of(surface, mesh, NULL, result);
+  assert_int_equal(list.sum.n_edges, 2);
+  assert_int_equal(list.node_id[0], 0);
+  assert_int_equal(list.node_id[3], 11);
+  CHECK_SAME(list.sum.half_thickness, 0.5);
+
+  uint8_t mask[12] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
+  riis_mark_options options = mark_options();
+  options.node_mask = mask;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  int64_t n = -1;
+  CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
+  assert_int_equal(n, 0); /* until they are sought again */
+  assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 1);
+
+  for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i + 2] += 0.3;
+  CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0); /* at 0.2 from the plates: marked */
+
+  static const int64_t offsets[13] = {0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, columns[1] = {11};
+  riis_csr csr;
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = 12, csr.offsets = offsets, csr.columns = columns, csr.offset_bits = csr.column_bits = 64;
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  list = leaks_of(surface, mesh, NULL, result); /* from 0.8 to 10.8 */
+  assert_int_equal(list.sum.n_edges, 1);
+  CHECK_NEAR(list.sum.longest_length, 10, 1e-14);
+  CHECK_NEAR(list.sum.half_thickness, 0.8, 1e-14);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  free_test_mesh(&nodes);
+}
+
+/* --- Refusals ---------------------------------------------------------------------------------------------------------- */
+
+static void what_makes_no_sense_is_refused(void **state) {
+  (void)state;
+  test_mesh nodes = column_of_nodes(12, -0.5, 1), fewer = column_of_nodes(5, 0, 1);
+  riis_surface *surface = two_plates();
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0), *other = mesh_with_rows(&fewer, 0);
+  riis_mark_result *result = new_result();
+  riis_leaks leaks;
+  memset(&leaks, 0x5a, sizeof leaks);
+#define REFUSED(status, parts, a_mesh) \
+  CHECK_REFUSED(status, parts, riis_find_leaks(surface, a_mesh, NULL, result, &leaks, sizeof leaks))
+  REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with|riis_mark_nodes", mesh);
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  REFUSED(RIIS_INVALID_ARGUMENT, "result is of a mesh with 12 nodes|mesh has 5", other);
+  assert_int_equal(leaks.n_edges, 0x5a5a5a5a5a5a5a5a);
+  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 2);
+
+  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
+  REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", mesh);
+  riis_mesh_destroy(&mesh);
+  mesh = mesh_with_rows(&nodes, 0);
+  nodes.xyz[20] = NAN;
+  REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", mesh);
+  nodes.xyz[20] = 5.5;
+  int64_t n = 0;
+  CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
+  assert_int_equal(n, 2); /* as it was */
+
+  riis_mark_options options = mark_options();
+  options.n_threads = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
+                riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 64|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 64));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 80|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 80));
+
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create("mitral", &valve));
+  CHECK_OK(riis_surface_update(surface, valve, NULL)); /* keeps its half thickness */
+  riis_surface_options thicker = surface_options();
+  thicker.half_thickness = 0.3;
+  CHECK_OK(riis_surface_update(surface, valve, &thicker));
+  REFUSED(RIIS_INVALID_ARGUMENT, "half thickness 0.25|surface has 0.3|mark the nodes again", mesh);
+  riis_valve_destroy(&valve);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&other);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  free_test_mesh(&fewer);
+  free_test_mesh(&nodes);
+}
+
+int main(void) {
+  rng = random_start("test_leaks");
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(random_meshes_leak_where_the_loop_says),
+      cmocka_unit_test(motion_and_order_do_not_matter),
+      cmocka_unit_test(threads_do_not_matter),
+      cmocka_unit_test(valves_leak_where_the_loop_says),
+      cmocka_unit_test(short_edges_do_not_leak),
+      cmocka_unit_test(what_the_papers_search_misses_leaks),
+      cmocka_unit_test(changes_are_seen),
+      cmocka_unit_test(what_makes_no_sense_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
