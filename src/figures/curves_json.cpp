@@ -54,10 +54,10 @@ PatchSet in_own_frames(PatchSet set) {
   return set;
 }
 
-// A valve that opens to wider cusps. The library has no open aortic state of its own: this one is only an example.
+// A valve that opens to wider cusps. The library has no open aortic state of its own: this one is the README's example.
 json opening_example() {
   Valve valve(find_valve_kind("aortic")), open(find_valve_kind("aortic"));
-  const double leaflet_radius = 1.05, bending_radius = 1.15;
+  const double leaflet_radius = 1, bending_radius = 1.1;
   open.set("leaflet_radius_in", 1, &leaflet_radius);
   open.set("bending_radius_in", 1, &bending_radius);
   valve.set_open_state(open);

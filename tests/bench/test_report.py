@@ -172,14 +172,14 @@ class Page(unittest.TestCase):
             self.skipTest("no matplotlib")
         path = os.path.join(self.folder, "lines.png")
         panels = [("title", [("line", [(1, 1), (12, 2)], "-")])]
-        for limit, grey in ((2, True), (12, True), (64, False)):
+        for limit, grey in ((2, True), (8, True), (64, False)):
             report_text.figure.lines(panels, "threads", "faster", path, (1, 2, 12), (limit, "shaded"))
             picture = pyplot.imread(path)
             row = picture[len(picture) // 8]
             shares = [abs(row[:, :3] - level).max(axis=1) < 0.01 for level in (0.9, 1.0)]
-            self.assertEqual(shares[0].sum() > 0, grey, limit)
+            self.assertEqual(shares[0].mean() > 0.1, grey, limit)
             if grey:
-                self.assertGreater(shares[0].nonzero()[0].min(), shares[1].nonzero()[0].min())
+                self.assertGreater(shares[0].nonzero()[0].mean(), shares[1].nonzero()[0].min())
 
     def test_no_plot_without_times(self):
         """What is not drawn is said, with the command that gets it, on the terminal and for the page."""
@@ -195,6 +195,22 @@ class Page(unittest.TestCase):
             self.assertIn("./run figures --measure", text)
             self.assertIn(command, text)
             self.assertIn(f"not drawn: {text}", printed.getvalue())
+
+    def test_the_papers_tables_are_whole(self):
+        paper = report.Data(self.folder).paper
+        for valve in ("aortic", "mitral"):
+            self.assertEqual([[row[0] for row in block["rows"]] for block in paper[valve]], [[1, 2, 4, 8, 12]] * 5)
+            for block in paper[valve]:
+                for column in (1, 2):
+                    times = [row[column] for row in block["rows"]]
+                    self.assertEqual(times, sorted(times, reverse=True))
+                _, exhaustive, neighbor = block["rows"][0]
+                self.assertTrue(18 <= exhaustive / neighbor <= 28)  # "18 to 24 times faster" (4.2.3), the last row more
+
+    def test_prose_is_wrapped(self):
+        for line in self.page().splitlines():
+            if not line.startswith(("|", "!", "<!--")):
+                self.assertLessEqual(len(line), 115, line)
 
 
 class Study(unittest.TestCase):
@@ -224,22 +240,6 @@ class Study(unittest.TestCase):
         self.assertEqual(self.measured(), ["peers"])
         open(os.path.join(self.folder, "peers.json"), "w", encoding="ascii").close()
         self.assertEqual(self.measured(), [])
-
-    def test_the_papers_tables_are_whole(self):
-        paper = report.Data(self.folder).paper
-        for valve in ("aortic", "mitral"):
-            self.assertEqual([[row[0] for row in block["rows"]] for block in paper[valve]], [[1, 2, 4, 8, 12]] * 5)
-            for block in paper[valve]:
-                for column in (1, 2):
-                    times = [row[column] for row in block["rows"]]
-                    self.assertEqual(times, sorted(times, reverse=True))
-                _, exhaustive, neighbor = block["rows"][0]
-                self.assertTrue(18 <= exhaustive / neighbor <= 28)  # "18 to 24 times faster" (4.2.3), the last row more
-
-    def test_prose_is_wrapped(self):
-        for line in self.page().splitlines():
-            if not line.startswith(("|", "!", "<!--")):
-                self.assertLessEqual(len(line), 115, line)
 
 
 class Text(unittest.TestCase):
