@@ -120,7 +120,7 @@ static void test_pictures_of_the_documents(void **state) {
   }
 }
 
-/* Puts text in the place of the first occurrence of old after the mark, and expects that drawing it is refused with the message. */
+/* Puts text in the place of the first old one after the mark, and expects that drawing it is refused with the message. */
 static void expect_refused_drawing(const char *mark, const char *old, const char *text, const char *message) {
   char *json = scratch_read(scratch_path("curves.json"), NULL);
   char *found = strstr(json, mark);

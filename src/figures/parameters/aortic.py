@@ -60,7 +60,8 @@ def half(panel, kind, curve, color, up):
     panel.line(last, before, color=color, width=1.1, style=":")
     panel.points(first, after, before, last, color=color, size=4, filled=False)
     axis_point = (0, 0)
-    panel.length(f"{kind}_radius_in", axis_point, first, (-0.24, 0.22 * up), shift=(0, 0.06 * up), color=color, ha="right", share=0.2)
+    at, shift = (-0.24, 0.22 * up), (0, 0.06 * up)
+    panel.length(f"{kind}_radius_in", axis_point, first, at, shift=shift, color=color, ha="right", share=0.2)
     panel.length(f"{kind}_radius_out", axis_point, last, (-0.24, 0.92 * up), color=color, ha="right", share=0.42)
     panel.angle(f"{kind}_angle", axis_point, (1, 0), last, 0.3, (-0.24, 0.56 * up), color=color, ha="right", sense=up, share=0.8)
     # Only the share along y of the inner control points' way from the ends is t0 and t3.
@@ -186,8 +187,9 @@ def draw_placement(sheet, cusps):
     panel.label("translation", (-0.08, -0.35), ha="right", value=text)
     panel.note((before[0] - 0.38, 0.72), "before: its\nown frame", color=GREY)
     panel.arrow(along(before, (0.3, 1.0), 0.0), root, color=PALE, both=False)
-    panel.length("root_height", (root[0], root[1]), (root[0], root[1] + sheet.value("root_height")), (1.5, -0.35), shift=(0.12, 0),
-                 value=f"{sheet.value_text('root_height')}: no curve\ndepends on it; the\ntranslation does\nits work")  # fmt: skip
+    top = (root[0], root[1] + sheet.value("root_height"))
+    value = f"{sheet.value_text('root_height')}: no curve\ndepends on it; the\ntranslation does\nits work"
+    panel.length("root_height", root, top, (1.5, -0.35), shift=(0.12, 0), value=value)
 
 
 def draw_opening(sheet, aortic):
@@ -205,13 +207,14 @@ def draw_opening(sheet, aortic):
     sheet.check("opening", distance(ways[0], ways[1]) / distance(ways[0], ways[2]), states[1]["opening"])
     panel.line((0, -0.1), (0, 1.2), color=GREY, width=0.6, style=(0, (8, 3, 2, 3)))
     panel.arrow(along(ways[0], ways[2], 0.05), along(ways[0], ways[2], 0.95), both=False)
-    panel.label("opening", (0.06, 0.52), along(ways[0], ways[2], 0.25), value="0: this state, to 1:\nthe state to open\nto, if one is set\n(here an example)")
+    value = f"{sheet.value_text('opening')}: this state, to 1:\nthe state to open\nto, if one is set\n(here an example)"
+    panel.label("opening", (0.06, 0.52), along(ways[0], ways[2], 0.25), value=value)
     panel.note((0.05, -0.2), "Every control point moves on a straight line.")
 
 
 def draw(aortic):
     sheet = Sheet("Parameters of the aortic valve", aortic["parameters"], (15, 11.8), CUSP)
-    text = "Defaults; where three values stand: right | left | non_coronary cusp. Curves and lengths: the left cusp at its defaults."
+    text = "Defaults; three values: right | left | non_coronary cusp. Curves and lengths: the left cusp at its defaults."
     sheet.text(0.30, 1 - 0.27 / 11.8, text, va="center")
     cusp = next(each for each in aortic["cusps"] if each["name"] == CUSP)["own_frame"]
     draw_plan(sheet, cusp)
@@ -219,9 +222,11 @@ def draw(aortic):
     draw_rotations(sheet, aortic["cusps"])
     draw_placement(sheet, aortic["cusps"])
     draw_opening(sheet, aortic)
-    legend = (("leaflet curve (free edge)", LEAFLET), ("bending curve", BENDING), ("sinus curve", SINUS), ("symmetry curve", SYMMETRY))
+    names = ("leaflet curve (free edge)", "bending curve", "sinus curve", "symmetry curve")
+    legend = zip(names, (LEAFLET, BENDING, SINUS, SYMMETRY))
     for i, (text, color) in enumerate(legend):
         sheet.text(0.012 + 0.16 * i, 0.03, "■ " + text, color=color, va="bottom", weight="bold")
-    text = "○ control points; t0 and t3 are along y, from the ends to the inner ones      − −  in a: the profile x₀ + (x₁ − x₀) (y / y₁)ᵖ, whose slope at the ends is the tangents'"
-    sheet.text(0.012, 0.01, text, va="bottom", fontsize=SMALL)
+    points = "○ control points; t0 and t3 are along y, from the ends to the inner ones"
+    dashes = "− −  in a: the profile x₀ + (x₁ − x₀) (y / y₁)ᵖ, whose slope at the ends is the tangents'"
+    sheet.text(0.012, 0.01, f"{points}      {dashes}", va="bottom", fontsize=SMALL)
     return sheet

@@ -15,8 +15,8 @@ import mitral
 import sheet
 
 CAPTIONS = {
-    "aortic": "Every parameter of the aortic valve, with its default. Lines, angles and points are the library's own: each is compared "
-    "with the parameter that it is named by.",
+    "aortic": "Every parameter of the aortic valve, with its default. Lines, angles and points are the library's own: each is "
+    "compared with the parameter that it is named by.",
     "mitral": "Every parameter of the mitral valve, with its default, likewise.",
 }
 PAPER = {

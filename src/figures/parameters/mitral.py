@@ -60,7 +60,8 @@ class Valve:
 
 
 def draw_annulus(sheet, valve):
-    panel = sheet.panel((0.15, 8.15), (7.3, 4.75), "a   The annulus, seen from the atrium; open, when it is flat", (-3.55, -1.95), 0.98)
+    title = "a   The annulus, seen from the atrium; open, when it is flat"
+    panel = sheet.panel((0.15, 8.15), (7.3, 4.75), title, (-3.55, -1.95), 0.98)
     panel.curve(valve.annulus, plan, ANNULUS, 2.6)
     posterior, widest, trigone, anterior, other_trigone, other_widest = (plan(piece[0]) for piece in valve.annulus)
     panel.points(posterior, widest, trigone, anterior, other_trigone, other_widest, size=5)
@@ -69,12 +70,14 @@ def draw_annulus(sheet, valve):
     name = "ALPM_position_ratio"
     level = (posterior[0], widest[1])
     value = f"{sheet.value_text(name)}, times\nAP_diameter"
-    panel.length(name, posterior, level, (2.2, -0.75), shift=(0.3, 0), factor=distance(posterior, anterior), value=value, share=0.6)
+    depth = distance(posterior, anterior)
+    panel.length(name, posterior, level, (2.2, -0.75), shift=(0.3, 0), factor=depth, value=value, share=0.6)
     panel.length("IT_distance", other_trigone, trigone, (-1.1, 0.88), shift=(0, -0.6), share=0.25, ha="left")
     panel.line(anterior, (anterior[0] + 0.42, anterior[1]), width=0.5)
     panel.line(other_trigone, (anterior[0] + 0.42, trigone[1]), width=0.5)
     name, begin, end = "indent_depth", anterior, (anterior[0], trigone[1])
-    panel.length(name, begin, end, (0.55, 0.88), shift=(0.34, 0), factor=0.5, shown=f"{name} / 2", value=f"{sheet.value_text(name)} / 2")
+    value = f"{sheet.value_text(name)} / 2"
+    panel.length(name, begin, end, (0.55, 0.88), shift=(0.34, 0), factor=0.5, shown=f"{name} / 2", value=value)
     shares(panel, valve)
     panel.note((0.08, -1.62), "posterior point, u = 0", ha="center", va="top")
     panel.note((2.1, 0.15), "widest point")
@@ -95,9 +98,11 @@ def shares(panel, valve):
     at = plan(valve.part(1 - begin - width, 1 - begin, 0.2)[-90])
     panel.label("triangle_size_ratio", (-3.5, 2.3), at, color=GREEN, value=value)
     for share, text, at, ha in (
-        (begin, "commissure\n(posteromedial)", (2.15, 0.62), "left"), (1 - begin, "commissure\n(anterolateral)", (-2.2, 0.42), "right"),
-        (begin / 3, "cleft, at a third of the\nposterior leaflet's share", (1.35, -1.62), "left"), (1 - begin / 3, "cleft", (-1.35, -1.62), "right"),
-    ):  # fmt: skip
+        (begin, "commissure\n(posteromedial)", (2.15, 0.62), "left"),
+        (1 - begin, "commissure\n(anterolateral)", (-2.2, 0.42), "right"),
+        (begin / 3, "cleft, at a third of the\nposterior leaflet's share", (1.35, -1.62), "left"),
+        (1 - begin / 3, "cleft", (-1.35, -1.62), "right"),
+    ):
         p = plan(valve.at(share))
         panel.points(p, color=PURPLE, size=5)
         panel.note(at, text, color=PURPLE, ha=ha)
@@ -115,7 +120,8 @@ def band(panel, valve, begin, end, outwards, color):
 
 
 def draw_closed(sheet, valve):
-    panel = sheet.panel((7.75, 8.15), (7.1, 4.75), "b   Closed, seen from the atrium: both leaflets share a free edge, in a plane", (-3.2, -1.95), 0.98)
+    title = "b   Closed, seen from the atrium: both leaflets share a free edge, in a plane"
+    panel = sheet.panel((7.75, 8.15), (7.1, 4.75), title, (-3.2, -1.95), 0.98)
     panel.curve(valve.annulus, plan, ANNULUS, 2.2)
     panel.curve(valve.anterior, plan, PURPLE, 2.6)
     tip, anterior = plan(valve.anterior_tip), plan(valve.anterior_point)
@@ -223,7 +229,8 @@ def draw_arc(sheet, valve):
 
 
 def draw_unrolled(sheet, valve):
-    panel = sheet.panel((0.15, 0.55), (14.7, 3.05), "f   Open, unrolled: across, along the annulus; down, the straight way to the free edge", (-4.45, -2.5), 0.905)
+    title = "f   Open, unrolled: across, along the annulus; down, the straight way to the free edge"
+    panel = sheet.panel((0.15, 0.55), (14.7, 3.05), title, (-4.45, -2.5), 0.905)
     whole = bezier.length(valve.annulus)
     begin = valve.share(valve.commissure)
     width = valve.share(valve.triangle) - begin
@@ -249,8 +256,8 @@ def draw_unrolled(sheet, valve):
     name, value = "triangle_size_ratio", f"{sheet.value_text('triangle_size_ratio')} of the annulus' length"
     ends = [(valve.share(p) * whole, 0) for p in (valve.commissure, valve.triangle)]
     panel.length(name, *ends, (ends[0][0] + 0.1, -0.42), shift=(0, -0.16), color=GREEN, factor=whole, value=value)
-    ticks = ((-begin, "u = 1 − u_pm"), (-begin / 3, "1 − u_pm / 3"), (0, "0"), (begin / 3, "u_pm / 3"), (2 * begin / 3, "2 u_pm / 3"),
-             (begin, "u_pm"), (0.5, "1/2"), (1 - begin, "1 − u_pm"))  # fmt: skip
+    ticks = ((-begin, "u = 1 − u_pm"), (-begin / 3, "1 − u_pm / 3"), (0, "0"), (begin / 3, "u_pm / 3"),
+             (2 * begin / 3, "2 u_pm / 3"), (begin, "u_pm"), (0.5, "1/2"), (1 - begin, "1 − u_pm"))  # fmt: skip
     for share, text in ticks:
         panel.line((share * whole, 0), (share * whole, 0.06), color=DARK)
         panel.note((share * whole, 0.08), text, ha="center", va="bottom", color=DARK)
@@ -271,7 +278,8 @@ def outline(panel, valve, whole, turned):
 
 def draw(mitral):
     sheet = Sheet("Parameters of the mitral valve", mitral["parameters"], (15, 13.7))
-    sheet.text(0.30, 1 - 0.27 / 13.7, "Defaults. u: share of the annulus' length, counter-clockwise from the posterior point; u_pm = 1/2 − anterior_ratio / 2.", va="center")
+    text = "Defaults. u: share of the annulus' length, counter-clockwise from the posterior point; u_pm = 1/2 − anterior_ratio / 2."
+    sheet.text(0.30, 1 - 0.27 / 13.7, text, va="center")
     closed, half_open, opened = (Valve(state) for state in mitral["states"])
     draw_annulus(sheet, opened)
     draw_closed(sheet, closed)
@@ -279,7 +287,8 @@ def draw(mitral):
     draw_section(sheet, closed, half_open, opened)
     draw_arc(sheet, opened)
     draw_unrolled(sheet, opened)
-    legend = (("annulus", ANNULUS), ("anterior leaflet", ANTERIOR), ("posterior leaflet", POSTERIOR), ("free edge of both, commissures, clefts", PURPLE))
+    names = ("annulus", "anterior leaflet", "posterior leaflet", "free edge of both, commissures, clefts")
+    legend = zip(names, (ANNULUS, ANTERIOR, POSTERIOR, PURPLE))
     for i, (text, color) in enumerate(legend):
         sheet.text(0.012 + 0.14 * i, 0.01, "■ " + text, color=color, va="bottom", weight="bold")
     return sheet

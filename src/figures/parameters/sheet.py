@@ -18,7 +18,7 @@ from PIL import Image, PngImagePlugin
 import bezier
 
 # Told apart with any colour vision (Okabe, Ito 2008), as in the other figures; dimension lines and names are dark.
-BLUE, ORANGE, GREEN, PURPLE, VERMILION = "#0072b2", "#c07f00", "#009e73", "#b5548f", "#d55e00"
+BLUE, GREEN, PURPLE, VERMILION = "#0072b2", "#009e73", "#b5548f", "#d55e00"
 DARK, GREY, PALE = "#2d2d2d", "#828282", "#c4c4c4"
 SMALL, NORMAL, LARGE = 9, 10, 11.5  # points
 
@@ -119,8 +119,7 @@ class Sheet:
             if box.x0 < 0 or box.y0 < 0 or box.x1 > width or box.y1 > height:
                 found.append(f"'{text}' leaves the sheet")
             for other_text, other in boxes[:i]:
-                width_shared, height_shared = min(box.x1, other.x1) - max(box.x0, other.x0), min(box.y1, other.y1) - max(box.y0, other.y0)
-                if width_shared > 0 and height_shared > 0:
+                if box.x0 < other.x1 and other.x0 < box.x1 and box.y0 < other.y1 and other.y0 < box.y1:
                     found.append(f"'{text}' overlaps '{other_text}'")
         return found
 
@@ -218,7 +217,9 @@ class Panel:
         self.arrow(*moved, color=color)
         self.label(name, at, along(*moved, share), ha, color, shown, value)
 
-    def angle(self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None):
+    def angle(
+        self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None
+    ):
         """An angle at centre from the direction of begin to that of end, counter-clockwise where sense is 1, drawn as an arc."""
         start, stop = (math.degrees(math.atan2(p[1] - centre[1], p[0] - centre[0])) for p in (begin, end))
         measured = (stop - start) * sense
