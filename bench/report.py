@@ -11,7 +11,7 @@ import sys
 
 import gbench
 from report_accuracy import accuracy_section
-from report_text import figure, grouped, number, paragraph, table
+from report_text import figure, grouped, number, paragraph, plural, table
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 VALVES = ("aortic", "mitral")
@@ -520,6 +520,7 @@ def plot_threads(data, path):
     if not data.searches or not data.machine:
         return False
     panels, ticks = [], [row[0] for row in data.paper[VALVES[0]][0]["rows"]]
+    processors = data.machine["machine"]["processors"]
     for valve in VALVES:
         block = data.paper[valve][SIZES.index(1000)]
         runs = {threads: runs for nodes, threads, _, _, runs in paper_rows(data, valve) if nodes == block["nodes"]}
@@ -534,8 +535,8 @@ def plot_threads(data, path):
             for name, label in SEARCH_LINES
         ]
         lines.append(("as many times as threads", [(n, n) for n in ticks], "-"))
-        panels.append((f"{valve} valve, a million nodes", lines))
-    limit = (data.machine["machine"]["processors"], "processors here")
+        panels.append((f"{valve} valve, a million nodes, {plural(processors, 'processor')} here", lines))
+    limit = (processors, f"shaded: oversubscribed here, more\nthreads than {plural(processors, 'processor')}")
     return bool(panels) and figure.lines(panels, "threads", "times faster than one thread", path, ticks, limit)
 
 
@@ -550,7 +551,7 @@ def plot_peers(data, path):
 
 PLOTS = (
     ("searches", plot_searches, "Seconds of a marking by nodes, the paper's and those here, on one thread"),
-    ("threads", plot_threads, "How many times faster than one thread, the paper's searches and those here"),
+    ("threads", plot_threads, "How many times faster than one thread, the paper's searches and those here; shaded: more threads than processors"),
     ("peers", plot_peers, "Milliseconds of each peer for the same nodes"),
 )
 
@@ -568,11 +569,24 @@ def measured_text(data, name):
     if not run:
         return ""
     machine = data.machine["machine"]
-    return f"Measured {run['date']} by <code>{run['command']}</code> on {machine['CPU']}, {machine['processors']} processors, load before {run['load_before']:.1f}."
+    return f"Measured {run['date']} by <code>{run['command']}</code> on {machine['CPU']}, {plural(machine['processors'], 'processor')}, load before {run['load_before']:.1f}."
+
+
+def plot_left_out(data, name, title):
+    """Which plot is not drawn, why, and the command that gets it."""
+    measured = data.peers if name == "peers" else data.searches
+    if not measured:
+        file, command = ("peers", "./run bench peers") if name == "peers" else ("searches", "./run bench search")
+        why = f"{data.folder}/{file}.json is missing: ./run figures --measure measures it in the short variant, {command} in full"
+    elif not figure.can_draw():
+        why = "the Python package matplotlib is missing (Debian: python3-matplotlib)"
+    else:
+        why = "out/bench has no times of a million nodes on one thread: ./run bench search measures them"
+    return f"{title}: {why}."
 
 
 def write_figures(data, folder):
-    """The plots for the page that riis-figures makes, and what it is to write with them: plots.json."""
+    """The plots for the page that riis-figures makes, and plots.json: its texts for them, and which plots are left out and why."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}
     figures = []
@@ -585,8 +599,9 @@ def write_figures(data, folder):
                 "panels": [{"png": "searches.png", "caption": drawn["searches"] + "."}, *threads],
                 "caption": "Dashed, the paper's own seconds, from its tables, on its machine. <i>Plain</i>: its two algorithms, the "
                 "distance to every triangle, written plainly and run here. The others are this library's searches, which mark the "
-                "same nodes: exhaustive, neighbour and clusters. Tolerance 5 %, half thickness 0.1 cm. More threads than processors "
-                "are oversubscribed, which no search can gain by. " + measured_text(data, "searches"),
+                "same nodes: exhaustive, neighbour and clusters. Tolerance 5 %, half thickness 0.1 cm. Where shaded, "
+                "there are more threads than processors here (oversubscribed): no search can gain by them. The paper's lines are of its "
+                "own machine. " + measured_text(data, "searches"),
                 "paper": "tables <i>Scaling of mesh traversal functions</i> of the aortic and of the mitral valve (section 4.2.3).",
             }
         )
@@ -602,11 +617,14 @@ def write_figures(data, folder):
                 "paper": "nothing: it compares with itself only.",
             }
         )
+    left_out = [plot_left_out(data, name, title) for name, _, title in PLOTS if name not in drawn]
     path = os.path.join(folder, "plots.json")
     with open(path, "w", encoding="utf-8") as file:
-        json.dump({"figures": figures}, file, indent=2)
+        json.dump({"figures": figures, "left_out": left_out}, file, indent=2)
         file.write("\n")
     print(f"==> left: {path}, {len(figures)} figures")
+    for text in left_out:
+        print(f"==> not drawn: {text}")
 
 
 def page(data, folder):

@@ -21,6 +21,10 @@ def grouped(value):
     return f"{round(value):,}"
 
 
+def plural(count, noun):
+    return f"{grouped(count)} {noun}" + ("" if count == 1 else "s")
+
+
 def table(heads, rows):
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     for row in rows:
@@ -47,6 +51,10 @@ class figure:
         return matplotlib.pyplot
 
     @staticmethod
+    def can_draw():
+        return bool(figure._pyplot())
+
+    @staticmethod
     def _save(pyplot, plot, path):
         # Without the program's version in it the same data gives the same bytes.
         plot.savefig(path, dpi=110, metadata={"Software": None})
@@ -56,7 +64,7 @@ class figure:
     @staticmethod
     def lines(panels, across, up, path, ticks=None, limit=None):
         """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those across,
-        in place of powers of ten. limit: where across something ends, and what: (at, text)."""
+        in place of powers of ten. limit: (at, text), what lies beyond is shaded and has that text in it."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False
@@ -73,8 +81,12 @@ class figure:
                     ruler.set_major_locator(pyplot.FixedLocator(ticks))
                     ruler.set_major_formatter("{x:g}")
                     ruler.set_minor_locator(pyplot.NullLocator())
-            if limit:
-                axis.axvline(limit[0], color="0.5", linewidth=0.8, linestyle=":", label=limit[1])
+            if limit and limit[0] < axis.get_xlim()[1]:
+                end = axis.get_xlim()[1]
+                axis.axvspan(limit[0], end, color="0.9", zorder=0)
+                axis.axvline(limit[0], color="0.5", linewidth=0.8, linestyle=":")
+                axis.text(0.97, 0.03, limit[1], transform=axis.transAxes, ha="right", va="bottom", fontsize=7, color="0.3")
+                axis.set_xlim(right=end)
         axes[0].set_ylabel(up)
         if axes[-1].get_legend_handles_labels()[1]:
             axes[-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1, 0.5))

@@ -165,6 +165,14 @@ class Study:
         here = os.path.dirname(os.path.abspath(__file__))
         self.run("peers_python", [python, os.path.join(here, "peers.py"), os.path.join(self.out, "peers"), "OUT"])
 
+    def missing_for_figures(self):
+        """Measures the costs that the figures' page plots and that out/bench lacks; what is there may be of a longer run."""
+        for name, measure in (("searches", lambda: self.searches(False)), ("peers", self.peers)):
+            if os.path.exists(self.path(name)):
+                print(f"==> {self.path(name)} is there: not measured again", flush=True)
+            else:
+                measure()
+
     def guard(self):
         self.google_benchmark("guard", GUARDED, 0.1, 5)
 
@@ -181,23 +189,19 @@ class Study:
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=("short", "full", "search", "marking", "accuracy", "peers", "compare", "baseline", "plots"))
-    parser.add_argument("file", nargs="?", help="the baseline of compare and baseline, the folder of plots")
+    parser.add_argument("what", choices=("short", "full", "search", "marking", "accuracy", "peers", "compare", "baseline", "figures"))
+    parser.add_argument("file", nargs="?", help="the baseline of compare and baseline")
     parser.add_argument("--factor", default="1.3", help="of compare: slower by more than this fails (%(default)s)")
     parser.add_argument("--build", default="build")
     parser.add_argument("--out", default=os.path.join("out", "bench"))
     options = parser.parse_args(arguments)
     words = {"short": "", "compare": "--compare"}.get(options.what, options.what)
-    command = "./run figures" if options.what == "plots" else " ".join(filter(None, ["./run bench", words, options.file]))
+    command = "./run figures --measure" if options.what == "figures" else " ".join(filter(None, ["./run bench", words, options.file]))
     study = Study(options.build, options.out, command)
-    full = options.what not in ("short", "plots")
-    if options.what == "plots":
-        if not options.file:
-            parser.error("plots takes a folder")
-        # What there is may be of a longer run.
-        if not os.path.exists(study.path("searches")):
-            study.searches(full)
-        return report.main(["--data", options.out, "--figures", options.file])
+    if options.what == "figures":
+        study.missing_for_figures()
+        return 0
+    full = options.what != "short"
     if options.what in ("compare", "baseline"):
         if not options.file:
             parser.error(f"{options.what} takes a file")

@@ -37,10 +37,10 @@ Png read_png(const std::string &path) {
 
 }  // namespace
 
-std::vector<Figure> read_figures(const std::string &path) {
+GivenFigures read_figures(const std::string &path) {
   const std::vector<unsigned char> text = bytes_of(path);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::vector<Figure> figures;
+  GivenFigures read;
   try {
     const nlohmann::json all = nlohmann::json::parse(text);
     for (const nlohmann::json &given : all.at("figures")) {
@@ -50,12 +50,13 @@ std::vector<Figure> read_figures(const std::string &path) {
                                  std::to_string(max_columns));
       for (const nlohmann::json &panel : given.at("panels"))
         figure.panels.push_back({read_png(folder / panel.at("png").get<std::string>()), panel.at("caption")});
-      figures.push_back(std::move(figure));
+      read.figures.push_back(std::move(figure));
     }
+    if (all.contains("left_out")) read.left_out = all["left_out"].get<std::vector<std::string>>();
   } catch (const nlohmann::json::exception &error) {
     throw std::runtime_error(path + ": " + error.what());
   }
-  return figures;
+  return read;
 }
 
 }  // namespace riis::figures

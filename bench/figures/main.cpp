@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures FILE.html [PLOTS.json]: draws the geometry, the paper's figures of it first, into one page, and puts the plots that
-// the JSON names behind them.
+// riis-figures FILE.html [GIVEN.json...]: draws the geometry, the paper's figures of it first, into one page, and puts the pictures
+// that the JSON files name behind them.
+// riis-figures --curves FILE.json: writes both valves' parameters and curves, for parameters/draw.py.
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
 
 #include "base/errors.hpp"
+#include "figures/curves_json.hpp"
 #include "figures/figures.hpp"
 #include "figures/given_figures.hpp"
 #include "figures/shapes.hpp"
@@ -35,11 +37,17 @@ std::string parameter_tables() {
   return html + "</section>\n";
 }
 
-void draw_page(const std::string &path, const char *plots, const riis::vtk::CaughtOutput &caught) {
+void draw_page(const std::string &path, const std::vector<std::string> &given_paths,
+               const riis::vtk::CaughtOutput &caught) {
   const riis::vtk::HeldDisplay display;
   begin_page(path);
-  const std::vector<Figure> given = plots ? read_figures(plots) : std::vector<Figure>{};
-  std::vector<Figure> figures;
+  std::vector<Figure> figures, given;
+  std::vector<std::string> left_out;
+  for (const std::string &given_path : given_paths) {
+    const GivenFigures read = read_figures(given_path);
+    given.insert(given.end(), read.figures.begin(), read.figures.end());
+    left_out.insert(left_out.end(), read.left_out.begin(), read.left_out.end());
+  }
   for (Figure (*draw)() : {bezier_figure, coons_figure, aortic_valve_figure, aortic_cusp_figure, mitral_curves_figure,
                            mitral_surfaces_figure, mitral_quads_figure, marking_figure, tolerance_figure,
                            accuracy_figure, accuracy_distribution_figure}) {
@@ -49,20 +57,26 @@ void draw_page(const std::string &path, const char *plots, const riis::vtk::Caug
     std::fflush(stdout);
   }
   figures.insert(figures.end(), given.begin(), given.end());
-  write_page(path, figures, parameter_tables());
+  write_page(path, figures, left_out, parameter_tables());
 }
 
 }  // namespace
 
 int main(int argc, char **argv) {
-  if (argc != 2 && argc != 3) {
-    std::fprintf(stderr, "usage: riis-figures FILE.html [PLOTS.json]\n");
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const bool only_curves = !words.empty() && words[0] == "--curves";
+  if (words.empty() || (only_curves && words.size() != 2)) {
+    std::fprintf(stderr, "usage: riis-figures FILE.html [GIVEN.json...]\n       riis-figures --curves FILE.json\n");
     return 2;
   }
   try {
     const riis::FloatEnvironment environment;
+    if (only_curves) {
+      write_curves(words[1]);
+      return 0;
+    }
     const riis::vtk::CaughtOutput caught;
-    draw_page(argv[1], argc == 3 ? argv[2] : nullptr, caught);
+    draw_page(words[0], {words.begin() + 1, words.end()}, caught);
     return 0;
   } catch (const riis::Error &error) {
     std::fprintf(stderr, "riis-figures: %s\n", error.message.text());

@@ -87,6 +87,13 @@ void put(std::ostream &out, const Figure &figure, std::size_t number) {
       << figure.table << "<p class=\"paper\"><b>In the paper:</b> " << figure.paper << "</p>\n</section>\n";
 }
 
+void put_left_out(std::ostream &out, const std::vector<std::string> &texts) {
+  if (texts.empty()) return;
+  out << "<section id=\"left-out\">\n<h2>Not on this page</h2>\n<ul>\n";
+  for (const std::string &text : texts) out << "<li>" << text << "</li>\n";
+  out << "</ul>\n</section>\n";
+}
+
 }  // namespace
 
 std::string html_table(const std::vector<std::vector<std::string>> &rows) {
@@ -104,7 +111,8 @@ void begin_page(const std::string &path) {
   if (!std::ofstream(path, std::ios::binary)) throw std::runtime_error(path + ": cannot be written");
 }
 
-void write_page(const std::string &path, const std::vector<Figure> &figures, const std::string &appendix) {
+void write_page(const std::string &path, const std::vector<Figure> &figures, const std::vector<std::string> &left_out,
+                const std::string &appendix) {
   std::ofstream out(path, std::ios::binary);
   out << head << "<h1>riis in figures</h1>\n"
       << "<p>Every picture and every number on this page is computed by riis " << riis_version_string()
@@ -120,6 +128,7 @@ void write_page(const std::string &path, const std::vector<Figure> &figures, con
     out << "<li><a href=\"#figure-" << i + 1 << "\">" << figures[i].title << "</a></li>\n";
   out << "</ol></nav>\n";
   for (std::size_t i = 0; i < figures.size(); ++i) put(out, figures[i], i + 1);
+  put_left_out(out, left_out);
   out << appendix << "</body>\n</html>\n";
   out.close();
   if (!out) throw std::runtime_error(path + ": cannot be written");

@@ -38,7 +38,8 @@ std::string html_table(const std::vector<std::vector<std::string>> &rows);
 // std::runtime_error that names the path.
 void begin_page(const std::string &path);
 
-// appendix: HTML after the last figure.
-void write_page(const std::string &path, const std::vector<Figure> &figures, const std::string &appendix);
+// left_out: which figures the page lacks and how to get them, a text (HTML) each. appendix: HTML after the last figure.
+void write_page(const std::string &path, const std::vector<Figure> &figures, const std::vector<std::string> &left_out,
+                const std::string &appendix);
 
 }  // namespace riis::figures

@@ -13,6 +13,7 @@ import unittest.mock
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
 import report
 import report_text
+import study
 
 SEARCHES = {
     "exhaustive": 50.0, "neighbor_warm": 40.0, "neighbor_cold": 80.0, "clusters": 5.0, "paper": 10.0, "all_distances": 1000.0,
@@ -132,20 +133,23 @@ class Page(unittest.TestCase):
     def test_figures_of_the_plots(self):
         """What is drawn and written for the page of figures; who draws is replaced: there may be no matplotlib."""
         self.page()
-        drawn = {}
+        drawn, limits = {}, []
 
         def draw(panels, *words):
             drawn[os.path.basename(next(word for word in words if str(word).endswith(".png")))] = panels
+            limits.extend(word for word in words if isinstance(word, tuple))
             return True
 
         folder = os.path.join(self.folder, "plots")
         with contextlib.redirect_stdout(io.StringIO()), unittest.mock.patch.multiple(report.figure, lines=draw, bars=draw):
             self.assertEqual(report.main(["--data", self.folder, "--figures", folder]), 0)
         with open(os.path.join(folder, "plots.json"), encoding="utf-8") as file:
-            figures = json.load(file)["figures"]
+            written = json.load(file)
+        figures = written["figures"]
+        self.assertEqual(written["left_out"], [])
         self.assertEqual([[panel["png"] for panel in each["panels"]] for each in figures], [["searches.png", "threads.png"], ["peers.png"]])
         self.assertEqual(sorted(drawn), ["peers.png", "searches.png", "threads.png"])
-        self.assertIn("2026-01-02 03:04 UTC by <code>./run bench</code> on A processor, 1 processors", figures[0]["caption"])
+        self.assertIn("2026-01-02 03:04 UTC by <code>./run bench</code> on A processor, 1 processor,", figures[0]["caption"])
 
         seconds = {label: points for label, points, _ in drawn["searches.png"][0][1]}
         self.assertEqual(seconds["paper, exhaustive"], [(1006781, 307.133)])
@@ -153,16 +157,44 @@ class Page(unittest.TestCase):
         ((title, lines),) = drawn["threads.png"]  # the mitral valve was not measured
         times = {label: points for label, points, _ in lines}
         self.assertIn("aortic", title)
+        self.assertIn("1 processor here", title)
         self.assertEqual(times["plain exhaustive"], [(1, 1), (2, 1.6)])
         self.assertEqual(times["paper, neighbour"][-1], (12, 11.95 / 2.035))
         self.assertEqual(drawn["peers.png"][1][1][0], ("CGAL", 30))
+        ((processors, text),) = limits  # beyond which threads share a processor
+        self.assertEqual(processors, 1)
+        self.assertIn("oversubscribed", text)
+
+    def test_what_is_oversubscribed_is_shaded(self):
+        """The plot itself: grey right of the processors, white left of them."""
+        pyplot = report_text.figure._pyplot()
+        if not pyplot:
+            self.skipTest("no matplotlib")
+        path = os.path.join(self.folder, "lines.png")
+        panels = [("title", [("line", [(1, 1), (12, 2)], "-")])]
+        for limit, grey in ((2, True), (8, True), (64, False)):
+            report_text.figure.lines(panels, "threads", "faster", path, (1, 2, 12), (limit, "shaded"))
+            picture = pyplot.imread(path)
+            row = picture[len(picture) // 8]
+            shares = [abs(row[:, :3] - level).max(axis=1) < 0.01 for level in (0.9, 1.0)]
+            self.assertEqual(shares[0].mean() > 0.1, grey, limit)
+            if grey:
+                self.assertGreater(shares[0].nonzero()[0].mean(), shares[1].nonzero()[0].min())
 
     def test_no_plot_without_times(self):
+        """What is not drawn is said, with the command that gets it, on the terminal and for the page."""
         self.page(())
-        with contextlib.redirect_stdout(io.StringIO()):
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
             report.main(["--data", self.folder, "--figures", self.folder])
         with open(os.path.join(self.folder, "plots.json"), encoding="utf-8") as file:
-            self.assertEqual(json.load(file), {"figures": []})
+            written = json.load(file)
+        self.assertEqual(written["figures"], [])
+        self.assertEqual(len(written["left_out"]), 3)
+        for text, command in zip(written["left_out"], ("./run bench search", "./run bench search", "./run bench peers")):
+            self.assertIn("./run figures --measure", text)
+            self.assertIn(command, text)
+            self.assertIn(f"not drawn: {text}", printed.getvalue())
 
     def test_the_papers_tables_are_whole(self):
         paper = report.Data(self.folder).paper
@@ -179,6 +211,35 @@ class Page(unittest.TestCase):
         for line in self.page().splitlines():
             if not line.startswith(("|", "!", "<!--")):
                 self.assertLessEqual(len(line), 115, line)
+
+
+class Study(unittest.TestCase):
+    """What bench/study.py measures for the figures; the programs are replaced."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def measured(self):
+        """Names of the runs that were started."""
+        started = []
+
+        def run(_, name, command):
+            started.append(name)
+
+        words = ["figures", "--out", self.folder, "--build", self.folder]
+        with contextlib.redirect_stdout(io.StringIO()), unittest.mock.patch.object(study, "machine", lambda build: {}):
+            with unittest.mock.patch.object(study.Study, "run", run):
+                self.assertEqual(study.main(words), 0)
+        return started
+
+    def test_only_what_is_missing_is_measured(self):
+        self.assertEqual(self.measured(), ["searches", "peers"])
+        open(os.path.join(self.folder, "searches.json"), "w", encoding="ascii").close()
+        self.assertEqual(self.measured(), ["peers"])
+        open(os.path.join(self.folder, "peers.json"), "w", encoding="ascii").close()
+        self.assertEqual(self.measured(), [])
 
 
 class Text(unittest.TestCase):

@@ -42,7 +42,8 @@ static int draw_page(void **state) {
       "\"panels\":"
       " [{\"png\": \"" RIIS_TEST_PICTURE
       "\", \"caption\": \"first\"},"
-      " {\"png\": \"" RIIS_TEST_PICTURE "\", \"caption\": \"second\"}]}]}";
+      " {\"png\": \"" RIIS_TEST_PICTURE
+      "\", \"caption\": \"second\"}]}], \"left_out\": [\"Peers: not measured.\", \"Threads: as well.\"]}";
   if (run_with_plots("figures.html", plots) != 0) {
     fprintf(stderr, "%s\n", scratch_read(scratch_path("printed"), NULL));
     return -1;
@@ -155,6 +156,17 @@ static void test_given_figures(void **state) {
   expect_picture(second, end);
 }
 
+/* What is not on the page is said there. */
+static void test_left_out(void **state) {
+  (void)state;
+  const char *section = strstr(page, "<section id=\"left-out\">");
+  assert_non_null(section);
+  const char *end = strstr(section, "</section>");
+  assert_non_null(find(section, end, "Not on this page"));
+  assert_non_null(find(section, end, "<li>Peers: not measured.</li>"));
+  assert_non_null(find(section, end, "<li>Threads: as well.</li>"));
+}
+
 /* What is wrong with them is said before anything is drawn. */
 static void test_given_figures_refused(void **state) {
   (void)state;
@@ -164,6 +176,7 @@ static void test_given_figures_refused(void **state) {
       {"{", "plots.json: "},
       {"{}", "plots.json: "},
       {"{\"figures\": [{\"title\": 3}]}", "plots.json: "},
+      {"{\"figures\": [], \"left_out\": [1]}", "plots.json: "},
       {"{\"figures\": [{\"title\": \"\", \"columns\": 0, \"caption\": \"\", \"paper\": \"\", \"panels\": []}]}",
        "plots.json: columns = 0 is not 1 to 4"},
       {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
@@ -196,7 +209,7 @@ int main(int argc, char **argv) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_every_figure),  cmocka_unit_test(test_page_stands_alone),
       cmocka_unit_test(test_given_figures), cmocka_unit_test(test_given_figures_refused),
-      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_left_out),      cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, draw_page, remove_page);
 }

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "figures/curves_json.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "figures/shapes.hpp"
+
+namespace riis::figures {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char *cusp_names[3] = {"right", "left", "non_coronary"};
+
+json json_of(Vec3 p) { return {p.x, p.y, p.z}; }
+
+json json_of(const Bezier &piece) {
+  json points = json::array();
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(piece.degree); ++i) points.push_back(json_of(piece.control[i]));
+  return points;
+}
+
+json json_of(const Pieces &pieces) {
+  json made = json::array();
+  for (const Bezier &piece : pieces) made.push_back(json_of(piece));
+  return made;
+}
+
+json parameters_of(const ValveKind &kind) {
+  json made = json::array();
+  for (const ParameterSpec &spec : kind.parameters) {
+    const std::vector<double> values(spec.default_values.begin(), spec.default_values.begin() + spec.n_values);
+    made.push_back({{"name", spec.name}, {"unit", spec.unit}, {"values", values}, {"description", spec.description}});
+  }
+  return made;
+}
+
+json json_of(const CuspCurves &curves) {
+  return {{"leaflet", {json_of(curves.leaflet[0]), json_of(curves.leaflet[1])}},
+          {"bending", {json_of(curves.bending[0]), json_of(curves.bending[1])}},
+          {"sinus", {json_of(curves.sinus[0]), json_of(curves.sinus[1])}},
+          {"symmetry", json_of(curves.symmetry)}};
+}
+
+// The same patches before any cusp is turned and moved.
+PatchSet in_own_frames(PatchSet set) {
+  for (Patch &patch : set.patches)
+    for (PatchImage &image : patch.images) {
+      image.rotation = no_rotation;
+      image.translation = {0, 0, 0};
+    }
+  return set;
+}
+
+// A valve that opens to wider cusps. The library has no open aortic state of its own: this one is the README's example.
+json opening_example() {
+  Valve valve(find_valve_kind("aortic")), open(find_valve_kind("aortic"));
+  const double leaflet_radius = 1, bending_radius = 1.1;
+  open.set("leaflet_radius_in", 1, &leaflet_radius);
+  open.set("bending_radius_in", 1, &bending_radius);
+  valve.set_open_state(open);
+  json states = json::array();
+  for (const double opening : {0.0, 0.5, 1.0}) {
+    valve.set("opening", 1, &opening);
+    json cusps = json::array();
+    for (std::int32_t cusp = 0; cusp < 3; ++cusp)
+      cusps.push_back(json_of(cusp_curves(in_own_frames(valve.make_patches()), cusp)));
+    states.push_back({{"opening", opening}, {"cusps", cusps}});
+  }
+  return states;
+}
+
+json aortic() {
+  const Valve valve(find_valve_kind("aortic"));
+  const PatchSet placed = valve.make_patches(), own = in_own_frames(placed);
+  json cusps = json::array();
+  for (std::int32_t cusp = 0; cusp < 3; ++cusp)
+    cusps.push_back({{"name", cusp_names[cusp]},
+                     {"own_frame", json_of(cusp_curves(own, cusp))},
+                     {"placed", json_of(cusp_curves(placed, cusp))}});
+  return {{"parameters", parameters_of(valve.kind())}, {"cusps", cusps}, {"opening_example", opening_example()}};
+}
+
+// Arcs from the annulus to the free edges on the half x >= 0, at shares u of the annulus' length from its posterior point:
+// ends of many ("lines"), and the curves between two patches ("arcs").
+void add_arcs(json &state, const PatchSet &set) {
+  constexpr int n = 32;
+  double whole = 0;
+  for (const Patch &patch : set.patches) whole += 2 * set.curves[patch.v0.curve].length();
+  const auto curve = [&](const Side &side) {
+    return side.reversed ? set.curves[side.curve].reversed() : set.curves[side.curve];
+  };
+  double u = 0.5;  // patches run from the anterior point to the posterior one
+  for (const Patch &patch : set.patches) {
+    const PatchImage &image = patch.images.front();
+    const Curve base = curve(patch.v0), edge = curve(patch.v1);
+    for (int i = 0; i <= n; ++i) {
+      const double share = static_cast<double>(i) / n;
+      state["lines"].push_back({{"u", u - share * base.length() / whole},
+                                {"annulus", json_of(place(image, base.at(share)))},
+                                {"edge", json_of(place(image, edge.at(share)))},
+                                {"leaflet", image.leaflet_id}});
+    }
+    state["arcs"].push_back({{"u", u}, {"curve", json_of(placed(set, patch.u0, image))}});
+    u -= base.length() / whole;
+  }
+  const Patch &last = set.patches.back();
+  state["arcs"].push_back({{"u", u}, {"curve", json_of(placed(set, last.u1, last.images.front()))}});
+}
+
+json mitral() {
+  Valve valve(find_valve_kind("mitral"));
+  json states = json::array();
+  for (const double opening : {0.0, 0.5, 1.0}) {
+    valve.set("opening", 1, &opening);
+    const PatchSet set = valve.make_patches();
+    const MitralCurves curves = mitral_curves(set);
+    json state = {{"opening", opening},
+                  {"annulus", json_of(curves.annulus)},
+                  {"anterior", json_of(curves.anterior)},
+                  {"posterior", json_of(curves.posterior)}};
+    add_arcs(state, set);
+    states.push_back(state);
+  }
+  return {{"parameters", parameters_of(valve.kind())}, {"states", states}};
+}
+
+}  // namespace
+
+void write_curves(const std::string &path) {
+  std::ofstream out(path, std::ios::binary);
+  out << json{{"aortic", aortic()}, {"mitral", mitral()}}.dump(1) << "\n";
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace riis::figures

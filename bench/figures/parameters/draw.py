@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
+
+draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Leaves aortic_parameters.png and mitral_parameters.png
+there, the same as .svg, and parameters.json, by which riis-figures puts them on its page. Refuses a drawing that leaves a
+parameter out, shows another value than the parameter's, or has labels that overlap."""
+
+import json
+import os
+import sys
+
+import aortic
+import mitral
+import sheet
+
+CAPTIONS = {
+    "aortic": "Every parameter of the aortic valve, with its default. Lines, angles and points are the library's own: each is "
+    "compared with the parameter that it is named by.",
+    "mitral": "Every parameter of the mitral valve, with its default, likewise.",
+}
+PAPER = {
+    "aortic": "table “Aortic valve parameters” (section 2.1), which has no picture of them.",
+    "mitral": "appendix, table of the mitral valve's parameters.",
+}
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print("usage: draw.py CURVES.json FOLDER", file=sys.stderr)
+        return 2
+    curves, folder = arguments
+    with open(curves, encoding="utf-8") as file:
+        valves = json.load(file)
+    figures = []
+    for valve, module in (("aortic", aortic), ("mitral", mitral)):
+        try:
+            module.draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
+        except sheet.Refused as why:
+            print(f"draw.py: {valve} valve: {why}", file=sys.stderr)
+            return 1
+        panel = {"png": f"{valve}_parameters.png", "caption": f"The {valve} valve's parameters."}
+        title = f"What the parameters of the {valve} valve measure"
+        figures.append({"title": title, "columns": 1, "panels": [panel], "caption": CAPTIONS[valve], "paper": PAPER[valve]})
+    with open(os.path.join(folder, "parameters.json"), "w", encoding="utf-8") as file:
+        json.dump({"figures": figures}, file, indent=2)
+        file.write("\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Technical drawings that name parameters: dimension lines, angles, leaders, labels.
+
+Whatever is named is measured between the very points that are drawn, and compared with the parameter's value: a drawing that
+would show another length or angle than the library makes is refused, as is one that leaves a parameter out or has labels that
+overlap."""
+
+import io
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "riis", "font.family": "DejaVu Sans"})
+from matplotlib import pyplot
+from PIL import Image, PngImagePlugin
+
+import bezier
+
+# Told apart with any colour vision (Okabe, Ito 2008), as in the other figures; dimension lines and names are dark.
+BLUE, GREEN, PURPLE, VERMILION = "#0072b2", "#009e73", "#b5548f", "#d55e00"
+DARK, GREY, PALE = "#2d2d2d", "#828282", "#c4c4c4"
+SMALL, NORMAL, LARGE = 9, 10, 11.5  # points
+
+
+class Refused(Exception):
+    """The drawing would not be true, complete or readable."""
+
+
+def plain(value):
+    """As short as the value is, with a minus sign."""
+    return f"{value:.6g}".replace("-", "−")
+
+
+def along(p, q, share):
+    return tuple(a + share * (b - a) for a, b in zip(p, q))
+
+
+def distance(p, q):
+    return math.dist(p, q)
+
+
+class Sheet:
+    """A drawing of several panels for one kind of valve. cusp: the one that is drawn where the three differ."""
+
+    def __init__(self, title, parameters, size, cusp=None):
+        self.parameters = {each["name"]: each for each in parameters}
+        self.cusp, self.size, self.named = cusp, size, set()
+        self.texts = []
+        self.figure = pyplot.figure(figsize=size)
+        self.text(0.012, 1 - 0.14 / size[1], title, fontsize=LARGE + 3, weight="bold", va="top")
+
+    # ------------------------------------------------------------------------------------------------------- parameters
+
+    def of_cusps(self, name):
+        """The parameters of the cusps that a name without a cusp stands for."""
+        return [each for full, each in self.parameters.items() if full.partition(".")[2] == name]
+
+    def value(self, name):
+        """The default of what is drawn."""
+        if name in self.parameters:
+            values = self.parameters[name]["values"]
+            return values[0] if len(values) == 1 else values[("right", "left", "non_coronary").index(self.cusp)]
+        own = f"{self.cusp}.{name}"
+        if own not in self.parameters:
+            raise Refused(f"{name} is no parameter")
+        return self.parameters[own]["values"][0]
+
+    def mark_named(self, name):
+        if name in self.parameters:
+            self.named.add(name)
+            return
+        found = self.of_cusps(name)
+        if not found:
+            raise Refused(f"{name} is drawn, but is no parameter")
+        self.named.update(each["name"] for each in found)
+
+    def unit(self, name):
+        each = self.parameters.get(name) or self.of_cusps(name)[0]
+        return {"length": " cm", "degree": "°", "1": ""}[each["unit"]]
+
+    def value_text(self, name):
+        """Defaults with their unit: one value, or those of the three cusps."""
+        if name in self.parameters:
+            values = self.parameters[name]["values"]
+        else:
+            values = [each["values"][0] for each in self.of_cusps(name)]
+        return " | ".join(map(plain, values)) + self.unit(name)
+
+    def check(self, name, measured, value=None):
+        """Refuses a drawing that shows another length, angle or ratio than the value."""
+        value = self.value(name) if value is None else value
+        if not abs(measured - value) <= 1e-7 * max(1, abs(value)):
+            raise Refused(f"{name} is {value}, but what the drawing shows as it is {measured}")
+
+    # ------------------------------------------------------------------------------------------------------------ texts
+
+    def text(self, x, y, text, axis=None, **style):
+        """Every text goes through here, to be compared with the others. x, y: of the axis, else shares of the figure."""
+        made = (axis.text if axis else self.figure.text)(x, y, text, **{"fontsize": NORMAL, "color": DARK, **style})
+        self.texts.append(made)
+        return made
+
+    def panel(self, corner, size, title, left_bottom, centimetres):
+        return Panel(self, corner, size, title, left_bottom, centimetres)
+
+    # ------------------------------------------------------------------------------------------------------------ whole
+
+    def missing(self):
+        return [name for name in self.parameters if name not in self.named]
+
+    def overlaps(self):
+        """Pairs of texts that overlap, and texts that leave the sheet."""
+        renderer = self.figure.canvas.get_renderer()
+        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in self.texts]
+        width, height = self.figure.canvas.get_width_height()
+        found = []
+        for i, (text, box) in enumerate(boxes):
+            if box.x0 < 0 or box.y0 < 0 or box.x1 > width or box.y1 > height:
+                found.append(f"'{text}' leaves the sheet")
+            for other_text, other in boxes[:i]:
+                if box.x0 < other.x1 and other.x0 < box.x1 and box.y0 < other.y1 and other.y0 < box.y1:
+                    found.append(f"'{text}' overlaps '{other_text}'")
+        return found
+
+    def check_whole(self):
+        """Refuses a drawing that leaves a parameter out or cannot be read."""
+        if self.missing():
+            raise Refused(f"not drawn: {', '.join(self.missing())}")
+        self.figure.canvas.draw()
+        if self.overlaps():
+            raise Refused("; ".join(self.overlaps()))
+
+    def save(self, path):
+        """PATH.png, of few colours, so that it is small, with names and defaults in it as text; PATH.svg, of lines and texts."""
+        self.check_whole()
+        drawn, about = io.BytesIO(), PngImagePlugin.PngInfo()
+        self.figure.savefig(drawn, dpi=100, format="png")
+        for name, each in self.parameters.items():
+            about.add_text(name, " ".join(f"{value:.12g}" for value in each["values"]))
+        picture = Image.open(drawn).convert("RGB").quantize(128, dither=Image.Dither.NONE)
+        picture.save(path + ".png", optimize=True, pnginfo=about)
+        self.figure.savefig(path + ".svg", metadata={"Date": None})
+        pyplot.close(self.figure)
+
+
+class Panel:
+    """One view: plane coordinates in centimetres from left_bottom; so many centimetres an inch of the sheet, both ways."""
+
+    def __init__(self, sheet, corner, size, title, left_bottom, centimetres):
+        self.sheet = sheet
+        (x, y), (width, height) = corner, size
+        whole_width, whole_height = sheet.size
+        self.axis = sheet.figure.add_axes([x / whole_width, y / whole_height, width / whole_width, height / whole_height])
+        limits = [(low, low + inches * centimetres) for low, inches in zip(left_bottom, size)]
+        self.axis.set(xlim=limits[0], ylim=limits[1])
+        self.axis.axis("off")
+        sheet.text(x / whole_width, (y + height + 0.06) / whole_height, title, fontsize=LARGE, weight="bold", va="bottom")
+
+    # ------------------------------------------------------------------------------------------------------------ lines
+
+    def line(self, *points, color=DARK, width=0.8, style="-", zorder=2):
+        self.axis.plot(*zip(*points), color=color, linewidth=width, linestyle=style, zorder=zorder, solid_capstyle="round")
+
+    def curve(self, pieces, project, color, width=2.2, style="-", zorder=3):
+        self.line(*(project(p) for p in bezier.samples(pieces)), color=color, width=width, style=style, zorder=zorder)
+
+    def points(self, *points, color=DARK, size=4, zorder=4, marker="o", filled=True):
+        face = color if filled else "white"
+        self.axis.plot(
+            *zip(*points), linestyle="none", marker=marker, markersize=size, color=color, markerfacecolor=face, zorder=zorder
+        )
+
+    def arrow(self, p, q, color=DARK, both=True, width=0.9, size=8):
+        style = {"arrowstyle": "<|-|>" if both else "-|>", "mutation_scale": size, "shrinkA": 0, "shrinkB": 0}
+        self.axis.annotate("", xy=q, xytext=p, arrowprops={**style, "color": color, "linewidth": width}, zorder=5)
+
+    def note(self, at, text, color=GREY, ha="left", va="center", fontsize=SMALL, **style):
+        style = {"linespacing": 1.2, **style}
+        self.sheet.text(*at, text, axis=self.axis, color=color, ha=ha, va=va, fontsize=fontsize, zorder=7, **style)
+
+    # ----------------------------------------------------------------------------------------------------------- labels
+
+    def label(self, name, at, to=None, ha="left", color=DARK, shown=None, value=None):
+        """Name and value at a place, with a leader to what they are of. shown: the name inside of a formula."""
+        self.sheet.mark_named(name)
+        if at is None:  # named elsewhere in the panel
+            return
+        points_of_line = 1 / 72 / self.sheet.size[1]
+        to_figure = self.sheet.figure.transFigure.inverted()
+        x, y = to_figure.transform(self.axis.transData.transform(at))
+        box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+        style = {"ha": ha, "color": color, "zorder": 7, "bbox": box}
+        title = self.sheet.text(x, y + points_of_line, shown or name, weight="bold", va="bottom", **style)
+        below = self.sheet.text(x, y - points_of_line, value or self.sheet.value_text(name), fontsize=SMALL, va="top", **style)
+        if to is not None:
+            self.line(self.edge_towards(to, title, below), to, color=color, width=0.6, zorder=6)
+            self.points(to, color=color, size=2.2, zorder=6)
+
+    def edge_towards(self, to, *texts):
+        """Where a leader to a point leaves texts: the nearest point of the box around them."""
+        renderer = self.sheet.figure.canvas.get_renderer()
+        boxes = [text.get_window_extent(renderer) for text in texts]
+        x, y = self.axis.transData.transform(to)
+        x = min(max(x, min(box.x0 for box in boxes) - 3), max(box.x1 for box in boxes) + 3)
+        y = min(max(y, min(box.y0 for box in boxes) - 2), max(box.y1 for box in boxes) + 2)
+        return tuple(self.axis.transData.inverted().transform((x, y)))
+
+    def length(self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5):
+        """A length from p to q: a dimension line moved by shift, with extension lines, named at a place. factor: the drawn length
+        is so many times the parameter. share: where on the dimension line the leader ends."""
+        self.sheet.check(name, distance(p, q) / abs(factor))
+        moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]
+        if shift != (0, 0):
+            for a, b in zip((p, q), moved):
+                self.line(a, along(a, b, 1 + 0.03 / max(distance(a, b), 1e-9)), color=color, width=0.5)
+        self.arrow(*moved, color=color)
+        self.label(name, at, along(*moved, share), ha, color, shown, value)
+
+    def angle(
+        self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None
+    ):
+        """An angle at centre from the direction of begin to that of end, counter-clockwise where sense is 1, drawn as an arc."""
+        start, stop = (math.degrees(math.atan2(p[1] - centre[1], p[0] - centre[0])) for p in (begin, end))
+        measured = (stop - start) * sense
+        measured = (measured + 180) % 360 - 180
+        self.sheet.check(name, measured, value)
+        stop = start + sense * measured
+        angles = [math.radians(start + (stop - start) * i / 48) for i in range(49)]
+        arc = [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in angles]
+        self.line(*arc, color=color, width=0.9, zorder=5)
+        for before, end in ((arc[-4], arc[-1]), (arc[3], arc[0])):
+            self.arrow(before, end, color=color, both=False, size=6, width=0.5)
+        self.label(name, at, arc[round(48 * share)], ha, color, shown, text)

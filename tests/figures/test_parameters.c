@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The drawings of what parameters measure: every parameter that riis_valve_parameter knows is named in its valve's drawing,
+ * also in the one that the documents show; a drawing that would leave one out or show another value is refused. Skipped
+ * where Python has no matplotlib. */
+#include <ctype.h>
+#include <riis/riis.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include "expect.h"
+#include "scratch.h"
+
+static const char *const valves[] = {"aortic", "mitral"};
+
+/* The exit status of a program; what it prints goes to a file in the scratch folder. */
+static int run(const char *command, const char *word, const char *other_word) {
+  char line[2048];
+  const int n = snprintf(line, sizeof line, "%s '%s' '%s' >'%s", command, word, other_word, scratch_path("printed"));
+  assert_true(n > 0 && (size_t)n + 7 < sizeof line);
+  strcat(line, "' 2>&1");
+  const int status = system(line);
+  assert_true(WIFEXITED(status));
+  return WEXITSTATUS(status);
+}
+
+static int draw(const char *curves) {
+  char path[1024];
+  snprintf(path, sizeof path, "%s", scratch_path(curves));
+  const size_t folder = (size_t)(strrchr(path, '/') - path);
+  char out[1024];
+  snprintf(out, sizeof out, "%.*s", (int)folder, path);
+  return run("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "'", path, out);
+}
+
+static int setup(void **state) {
+  scratch_setup(state);
+  if (system("'" RIIS_PYTHON "' -c 'import matplotlib, PIL' 2>/dev/null") != 0) {
+    puts("skipped: " RIIS_PYTHON " has no matplotlib (Debian: python3-matplotlib)");
+    scratch_teardown(state);
+    exit(77);
+  }
+  char path[1024];
+  snprintf(path, sizeof path, "%s", scratch_path("curves.json"));
+  if (run("'" RIIS_FIGURES_PROGRAM "'", "--curves", path) == 0 && draw("curves.json") == 0) return 0;
+  fprintf(stderr, "%s\n", scratch_read(scratch_path("printed"), NULL));
+  return -1;
+}
+
+/* Calls visit with every parameter of the valve. */
+static void for_each_parameter(const char *kind, void (*visit)(const riis_parameter *, void *), void *what) {
+  riis_valve *valve = NULL;
+  assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
+  int64_t n = 0;
+  assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+  assert_true(n > 10);
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter;
+    assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    visit(&parameter, what);
+  }
+  riis_valve_destroy(&valve);
+}
+
+/* Whether a text of the drawing is the name, or begins with it and a blank. */
+static int is_written(const char *svg, const char *name) {
+  char begin[256];
+  const size_t n = (size_t)snprintf(begin, sizeof begin, ">%s", name);
+  for (const char *found = svg; (found = strstr(found, begin)); ++found)
+    if (found[n] == '<' || isspace((unsigned char)found[n])) return 1;
+  return 0;
+}
+
+static void expect_written(const riis_parameter *parameter, void *svg) {
+  /* Names without a cusp stand for all three. */
+  const char *dot = strchr(parameter->name, '.');
+  if (!is_written(svg, parameter->name) && !(dot && is_written(svg, dot + 1)))
+    fail_msg("%s is not in the drawing", parameter->name);
+}
+
+static void test_every_parameter_is_named(void **state) {
+  (void)state;
+  for (size_t i = 0; i < 2; ++i) {
+    char name[64];
+    snprintf(name, sizeof name, "%s_parameters.svg", valves[i]);
+    char *svg = scratch_read(scratch_path(name), NULL);
+    for_each_parameter(valves[i], expect_written, svg);
+    free(svg);
+  }
+}
+
+struct picture {
+  char *bytes;
+  size_t n_bytes;
+};
+
+/* The drawing has names and defaults in it as text. */
+static void expect_in_picture(const riis_parameter *parameter, void *what) {
+  const struct picture *picture = what;
+  char text[512];
+  size_t n = (size_t)snprintf(text, sizeof text, "tEXt%s", parameter->name) + 1;
+  for (int64_t i = 0; i < parameter->n_values; ++i)
+    n += (size_t)snprintf(text + n, sizeof text - n, i ? " %.12g" : "%.12g", parameter->default_values[i]);
+  for (size_t i = 0; i + n <= picture->n_bytes; ++i)
+    if (memcmp(picture->bytes + i, text, n) == 0) return;
+  fail_msg("%s with its default is not in the picture; ./run figures makes it anew in out/figures/parameters",
+           parameter->name);
+}
+
+static void test_pictures_of_the_documents(void **state) {
+  (void)state;
+  for (size_t i = 0; i < 2; ++i) {
+    char path[1024];
+    struct picture picture;
+    snprintf(path, sizeof path, "%s/%s_parameters.png", RIIS_DOCS, valves[i]);
+    picture.bytes = scratch_read(path, &picture.n_bytes);
+    assert_true(picture.n_bytes > 20000 && picture.n_bytes < 250000);
+    for_each_parameter(valves[i], expect_in_picture, &picture);
+    free(picture.bytes);
+  }
+}
+
+/* Puts text in the place of the first old one after the mark, and expects that drawing it is refused with the message. */
+static void expect_refused_drawing(const char *mark, const char *old, const char *text, const char *message) {
+  char *json = scratch_read(scratch_path("curves.json"), NULL);
+  char *found = strstr(json, mark);
+  assert_non_null(found);
+  assert_non_null(found = strstr(found, old));
+  const size_t size = strlen(json) + strlen(text) + 1;
+  char *changed = malloc(size);
+  snprintf(changed, size, "%.*s%s%s", (int)(found - json), json, text, found + strlen(old));
+  scratch_write_text("changed.json", changed);
+  free(changed);
+  free(json);
+  assert_int_equal(draw("changed.json"), 1);
+  char *printed = scratch_read(scratch_path("printed"), NULL);
+  if (!strstr(printed, message)) fail_msg("'%s' is not in '%s'", message, printed);
+  free(printed);
+}
+
+static void test_untrue_drawings_are_refused(void **state) {
+  (void)state;
+  const char *more =
+      "\"parameters\": [ {\"name\": \"left.tilt\", \"unit\": \"degree\", \"values\": [3], \"description\": \"\"},";
+  expect_refused_drawing("\"aortic\"", "\"parameters\": [", more, "aortic valve: not drawn: left.tilt");
+  expect_refused_drawing("\"mitral\"", "\"parameters\": [", more, "mitral valve: not drawn: left.tilt");
+  expect_refused_drawing("\"mitral\"", "\"name\": \"surface_angle\"", "\"name\": \"face_angle\"",
+                         "surface_angle is no parameter");
+  expect_refused_drawing("\"name\": \"root_radius\"", "1.29", "1.28",
+                         "aortic valve: root_radius is 1.28, but what the drawing shows as it is 1.29");
+  expect_refused_drawing("\"name\": \"leaflet_arc_angle\"", "120.0", "119.0",
+                         "leaflet_arc_angle is 119.0, but what the drawing shows as it is 120");
+  expect_refused_drawing("\"name\": \"anterior_ratio\"", "0.41", "0.42",
+                         "anterior_ratio is 0.42, but what the drawing shows as it is 0.4");
+  expect_refused_drawing("\"name\": \"left.leaflet_power\"", "2.77", "2.7",
+                         "leaflet_power is 2.7, but what the drawing shows as it is 2.7");
+}
+
+static void test_refused_arguments(void **state) {
+  (void)state;
+  assert_int_equal(run("'" RIIS_FIGURES_PROGRAM "'", "--curves", scratch_path("none/curves.json")), 1);
+  char *printed = scratch_read(scratch_path("printed"), NULL);
+  assert_non_null(strstr(printed, "curves.json: cannot be written"));
+  free(printed);
+  assert_int_equal(system("'" RIIS_FIGURES_PROGRAM "' --curves 2>/dev/null"), 2 << 8);
+  assert_int_equal(system("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "' 2>/dev/null"), 2 << 8);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_every_parameter_is_named),
+      cmocka_unit_test(test_pictures_of_the_documents),
+      cmocka_unit_test(test_untrue_drawings_are_refused),
+      cmocka_unit_test(test_refused_arguments),
+  };
+  return cmocka_run_group_tests(tests, setup, scratch_teardown);
+}
