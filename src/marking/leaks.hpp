@@ -3,6 +3,7 @@
 // In: a surface, a mesh with an adjacency, what a marking found. Out: such edges, ascending.
 #pragma once
 
+#include "marking/mark_result.hpp"
 #include "marking/search.hpp"
 
 namespace riis {
