@@ -10,10 +10,11 @@ from latex2mathml.converter import convert
 
 FENCE = re.compile(r"^( *)```(\w*) *$")
 # A formula begins behind a blank or a bracket, and no blank is inside of its dollars; it ends before a blank or punctuation.
-FORMULA = re.compile(r"(`+)(?:(?!\1).)*\1(?!`)|(?<![\w$\\])\$(?=[^\s$])([^$]*?)(?<=[^\s$])\$(?![\w$])")
+CODE = r"(`+)(?:(?!\1).)*\1(?!`)"
+FORMULA = re.compile(CODE + r"|(?<![\w$\\])\$(?=[^\s$])([^$]*?)(?<=[^\s$])\$(?![\w$])")
 
-# What TeX does about space, and latex2mathml and browsers leave out: none around a slash and behind a sign, some around functions;
-# columns by the style that Chromium knows; primes as high as they are drawn.
+# What TeX does about space, and latex2mathml and browsers leave out: none around a slash and behind a sign, some around
+# functions; columns by the style that Chromium knows; primes as high as they are drawn.
 THIN = '<mspace width="0.167em" />'
 SPACING = [
     (r"<mi>(&#x000B1;)</mi>", r"<mo>\1</mo>"),
@@ -45,6 +46,7 @@ def inline(line, place):
             return found[0]  # code
         return f"@htmlonly{mathml(found[2], False, place)}@endhtmlonly"
 
+    line = re.sub(r"\]\(\.\./", "](", line)  # the pages of docs lie beside the others
     return re.sub(r"[.]md#[a-z0-9-]*", ".md", FORMULA.sub(formula, line))
 
 

@@ -257,7 +257,9 @@ static int destroy_all(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_marks),         cmocka_unit_test(test_parameters), cmocka_unit_test(test_bad_files),
+      cmocka_unit_test(test_marks),
+      cmocka_unit_test(test_parameters),
+      cmocka_unit_test(test_bad_files),
       cmocka_unit_test(test_changed_files),
   };
   return cmocka_run_group_tests(tests, make_patches_box, destroy_all);

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""check_links.py FOLDER: links in the Markdown documents below the folder lead to files that there are, and to their headings."""
+import pathlib
+import re
+import sys
+
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def text_of(path):
+    """Without code, in which nothing is a link."""
+    text = re.sub(r"^( *)```.*?^\1```", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    return re.sub(r"`[^`\n]*`", "", text)
+
+
+def headings(path):
+    text = re.sub(r"^( *)```.*?^\1```", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    titles = re.findall(r"^#+ +(.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def problems(folder):
+    documents = [*folder.glob("*.md"), *folder.glob("docs/*.md"), *folder.glob("examples/*.md")]
+    if not documents:
+        yield f"no documents in {folder}"
+    for document in documents:
+        for link in LINK.findall(text_of(document)):
+            if re.match(r"[a-z]+:", link):
+                continue
+            file, _, place = link.partition("#")
+            target = document.parent / file if file else document
+            if not target.exists():
+                yield f"{document.relative_to(folder)}: {link}: there is no such file"
+            elif place and target.suffix == ".md" and place not in headings(target):
+                yield f"{document.relative_to(folder)}: {link}: there is no such heading"
+
+
+found = list(problems(pathlib.Path(sys.argv[1])))
+if found:
+    sys.exit("\n".join(found))

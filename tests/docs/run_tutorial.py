@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""run_tutorial.py check|write TUTORIAL.md SCRATCH PROGRAM_FOLDER RIIS: runs the tutorial as its reader would.
+
+Every block of ```sh is run in the scratch folder, in their order, and must succeed. Where a block of ```text follows, it is
+what the commands print. check compares; write puts what they printed into the tutorial. Seconds and numbers of threads are
+not compared, and with another gmsh than the tutorial's no numbers are.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+BLOCK = re.compile(r"^```(sh)\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
+NUMBER = r"\d[\d,.]*(?:e[+-]?\d+)?"
+
+
+def comparable(text, same_gmsh):
+    lines = []
+    for line in text.splitlines():
+        line = re.sub(r"\d+ threads?", "# threads", line)
+        if line.startswith("seconds") or not same_gmsh:
+            line = re.sub(NUMBER, "#", line)
+        lines.append(line.rstrip())
+    return lines
+
+
+def main(mode, tutorial, scratch, programs, riis):
+    for program in "gmsh", "xvfb-run":
+        if not shutil.which(program):
+            print(f"skipped: there is no {program}")
+            return 77
+    tutorial, scratch = pathlib.Path(tutorial), pathlib.Path(scratch)
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}", RIIS=riis)
+    text = tutorial.read_text(encoding="utf-8")
+    version = subprocess.run(["gmsh", "--version"], capture_output=True, text=True, check=True)
+    same_gmsh = f"gmsh {(version.stdout + version.stderr).strip()} " in text.replace("\n", " ")
+    problems, written, end = [], [], 0
+    for block in BLOCK.finditer(text):
+        commands, expected = block[2], block[3]
+        done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=scratch, env=environment, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        if done.returncode != 0:
+            sys.exit(f"{commands}ended with {done.returncode}:\n{done.stdout}")
+        if mode == "check" and comparable(done.stdout, same_gmsh) != comparable(expected or "", same_gmsh):
+            problems.append(f"{commands}printed\n{done.stdout}and not\n{expected or ''}")
+        if expected is not None:
+            written.append(text[end:block.start(3)] + done.stdout)
+            end = block.end(3)
+    if not written:
+        sys.exit(f"{tutorial} has no block of commands with their output")
+    if mode == "write":
+        tutorial.write_text("".join(written) + text[end:], encoding="utf-8")
+    if problems:
+        sys.exit("\n".join(problems))
+    print(f"{len(BLOCK.findall(text))} blocks of commands; {'all' if same_gmsh else 'no'} numbers compared")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
