@@ -8,6 +8,7 @@
 
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
+#include "cli/leaks.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
 #include "cli/progress.hpp"
@@ -161,16 +162,19 @@ void explain_no_marks(const riis_surface_info &surface, const riis_vtk_mesh *fil
                surface.lower[1], surface.upper[1], surface.lower[2], surface.upper[2]);
 }
 
-void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
+void mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
+          Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrow_nodes(options, file, report);
   if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
   riis_mark_result *handle = nullptr;
   check(riis_mark_result_create(&handle));
   const MarkResult result(handle);
-  const Stage stage("marking", options.quiet);
-  check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
-  report.seconds.search = stage.seconds();
+  {
+    const Stage stage("marking", options.quiet);
+    check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
+    report.seconds.search = stage.seconds();
+  }
   check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
   check(riis_vtk_mesh_set_marks(file, result.get(), options.far_distance));
   if (!report.marks.complete) warn_of_incomplete_marks();
@@ -179,6 +183,7 @@ void mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *fi
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.distance = options.surface_options.distance;
   report.mesh_name = options.mesh;
+  look_for_leaks(options, {surface, valve, file, mesh.get(), result.get()}, report);
 }
 
 void write_files(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
@@ -255,7 +260,7 @@ void run(const Options &options) {
   report.seconds.scene = report.surface.seconds_scene;
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
-  if (mesh) mark(options, surface.get(), mesh.get(), report);
+  if (mesh) mark(options, surface.get(), valve.get(), mesh.get(), report);
   write_files(options, surface.get(), mesh.get(), report);
   try {
     draw_pictures(options, surface.get(), mesh.get(), report);
