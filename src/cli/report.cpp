@@ -59,10 +59,23 @@ void add_marks(const Report &report, std::ostringstream &out) {
   if (!marks.complete) out << "complete  unknown: what is not connected to the search's one start is missing\n";
 }
 
+void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
+  out << "leaks     ";
+  if (leaks.found.n_edges == 0)
+    out << "none: no edge crosses the surface between unmarked nodes";
+  else
+    out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
+        << leaks.found.longest_length;
+  if (leaks.n_cells_left_out > 0)
+    out << "; unknown for " << counted(leaks.n_cells_left_out, "cell") << " of other kinds than riis knows edges of";
+  out << "\n";
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
   out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
       << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
-      << seconds.search << ", write " << seconds.write << ", picture " << seconds.picture << "\n";
+      << seconds.search << ", leaks " << seconds.leaks << ", write " << seconds.write << ", picture " << seconds.picture
+      << "\n";
 }
 
 }  // namespace
@@ -103,6 +116,13 @@ std::string json_of(const Report &report) {
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
                {"n_unreached", marks.n_unreached},
+               {"n_leaking_edges", report.leaks.found.n_edges},
+               {"longest_leaking_edge", report.leaks.found.longest_length},
+               {"longest_leaking_edge_middle", report.leaks.found.longest_middle},
+               {"closing_half_thickness", report.leaks.closing_half_thickness > 0
+                                              ? nlohmann::ordered_json(report.leaks.closing_half_thickness)
+                                              : nlohmann::ordered_json()},
+               {"n_cells_without_known_edges", report.leaks.n_cells_left_out},
                {"seconds",
                 {{"read", seconds.read},
                  {"surface", seconds.surface},
@@ -110,6 +130,7 @@ std::string json_of(const Report &report) {
                  {"mesh", seconds.mesh},
                  {"adjacency", seconds.adjacency},
                  {"search", seconds.search},
+                 {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
   return json.dump(2) + "\n";
@@ -124,7 +145,10 @@ std::string table_of(const Report &report) {
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";
-  if (!report.mesh_name.empty()) add_marks(report, out);
+  if (!report.mesh_name.empty()) {
+    add_marks(report, out);
+    add_leaks(report.leaks, out);
+  }
   add_seconds(report.seconds, out);
   for (const std::string &path : report.written) out << "written   " << path << "\n";
   return out.str();

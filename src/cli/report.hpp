@@ -17,8 +17,15 @@ struct Seconds {
   double mesh = 0;     // checking the nodes
   double adjacency = 0;
   double search = 0;
+  double leaks = 0;  // edges, and the half thickness that would close them
   double write = 0;  // files
   double picture = 0;
+};
+
+struct LeakReport {
+  riis_leaks found{};
+  double closing_half_thickness = 0;  // for the user to type; 0: none
+  int64_t n_cells_left_out = 0;       // cells of volume whose edges are not known
 };
 
 struct Report {
@@ -31,6 +38,7 @@ struct Report {
   int64_t n_leaflets = 0;  // of a surface from a file, where --leaflets makes them; 0: not to be told
   riis_surface_info surface{};
   riis_mark_stats marks{};
+  LeakReport leaks;
   Seconds seconds;
   std::vector<std::string> written;  // files
 };

@@ -9,6 +9,7 @@
 #include "cli/conversion.hpp"
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
+#include "cli/leaks.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
 #include "cli/progress.hpp"
@@ -186,16 +187,19 @@ void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
 }
 
 // Returns the marks, which pictures may want by other names than the output's.
-MarkResult mark(const Options &options, const riis_surface *surface, riis_vtk_mesh *file, Report &report) {
+MarkResult mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
+                Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrow_nodes(options, file, report);
   if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
   riis_mark_result *handle = nullptr;
   check(riis_mark_result_create(&handle));
   MarkResult result(handle);
-  const Stage stage("marking", options.quiet);
-  check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
-  report.seconds.search = stage.seconds();
+  {
+    const Stage stage("marking", options.quiet);
+    check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
+    report.seconds.search = stage.seconds();
+  }
   check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
   check(riis_vtk_mesh_set_named_marks(file, result.get(), options.far_distance, options.prefix.c_str()));
   if (!report.marks.complete) warn_of_incomplete_marks();
@@ -205,6 +209,7 @@ MarkResult mark(const Options &options, const riis_surface *surface, riis_vtk_me
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.distance = options.surface_options.distance;
   report.mesh_name = options.mesh;
+  look_for_leaks(options, {surface, valve, file, mesh.get(), result.get()}, report);
   return result;
 }
 
@@ -284,7 +289,7 @@ ExitCode run(const Options &options) {
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, mesh.get());
-  const MarkResult result = mesh ? mark(options, surface.get(), mesh.get(), report) : nullptr;
+  const MarkResult result = mesh ? mark(options, surface.get(), valve.get(), mesh.get(), report) : nullptr;
   write_files(options, surface.get(), mesh.get(), report);
   try {
     // The component draws the marks of these names; the file with the other ones is written.

@@ -2,7 +2,6 @@
 #include "vtk/volume_cells.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -75,10 +74,13 @@ CellEdges edges_of(int type) {
   }
 }
 
-bool is_long_and_near(const double *a, const double *b, double longer_than, const double *lower, const double *upper) {
+// In fine meshes no edge is long: lengths first.
+bool is_long_and_near(const double *a, const double *b, double least_square, const double *lower, const double *upper) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  if (x * x + y * y + z * z < least_square) return false;
   for (int i = 0; i < 3; ++i)
     if (std::max(a[i], b[i]) < lower[i] || std::min(a[i], b[i]) > upper[i]) return false;
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > longer_than * (1 - 1e-9);
+  return true;
 }
 
 }  // namespace
@@ -114,6 +116,7 @@ VolumeCells volume_cells_of(vtkUnstructuredGrid *grid) {
 LongEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
                         const double *upper) {
   LongEdges made;
+  const double least = longer_than * (1 - 1e-9), least_square = least * least;
   const vtkIdType n_cells = grid->GetNumberOfCells();
   for (vtkIdType cell_id = 0; cell_id < n_cells; ++cell_id) {
     const int type = grid->GetCellType(cell_id);
@@ -128,7 +131,7 @@ LongEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double lon
     for (int i = 0; i < edges.n; ++i) {
       const vtkIdType *ends = edges.edge(i);
       const vtkIdType a = ids[ends[0]], b = ids[ends[1]];
-      if (is_long_and_near(xyz + 3 * a, xyz + 3 * b, longer_than, lower, upper))
+      if (is_long_and_near(xyz + 3 * a, xyz + 3 * b, least_square, lower, upper))
         made.node_ids.insert(made.node_ids.end(), {a, b});
     }
   }

@@ -17,6 +17,7 @@ enum { longest_output = 65536 };
 /* The last run. */
 extern int program_exit_code; /* 128 + N where signal N ended it */
 extern char program_out[longest_output], program_err[longest_output];
+extern char program_leaks[longest_output]; /* the warning of leaks, which is not in program_err; "" if there was none */
 
 /* Where the program's stdout goes instead of to program_out: the path of a file, or "" for a stdout that is closed. NULL
  * at first. */

@@ -68,7 +68,7 @@ static void test_every_number(void **state) {
   assert_true(json_number(json, "threads") == 1);
   assert_true(json_has_text(json, "search", "\"exhaustive\""));
   assert_true(json_has_text(json, "complete", "true"));
-  const char *stages[] = {"read", "surface", "scene", "mesh", "adjacency", "search", "write", "picture"};
+  const char *stages[] = {"read", "surface", "scene", "mesh", "adjacency", "search", "leaks", "write", "picture"};
   const char *seconds = strstr(json, "\"seconds\": {");
   assert_non_null(seconds);
   for (size_t i = 0; i < sizeof stages / sizeof stages[0]; ++i) {

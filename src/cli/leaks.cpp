@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/leaks.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/handles.hpp"
+#include "cli/progress.hpp"
+#include "cli/refusal.hpp"
+
+namespace riis::cli {
+namespace {
+
+// Looks at the edges that may leak; longer_than as riis_vtk_mesh_long_edges has it.
+riis_leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
+                    int64_t *n_cells_left_out) {
+  riis_adjacency *handle = nullptr;
+  check(
+      riis_vtk_mesh_long_edges(marked.file, marked.surface, longer_than, options.n_threads, n_cells_left_out, &handle));
+  const Adjacency adjacency(handle);
+  riis_csr rows;
+  check(riis_adjacency_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_mesh_set_adjacency(marked.mesh, &rows));
+  riis_leaks leaks;
+  const riis_status status =
+      riis_find_leaks(marked.surface, marked.mesh, &options, marked.result, &leaks, sizeof leaks);
+  check(riis_mesh_set_adjacency(marked.mesh, nullptr));  // before the rows go; changes no error text
+  check(status);
+  return leaks;
+}
+
+// To three digits, never below x: what a user types has to close what it is said to close.
+double rounded_up(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  for (int steps = 0;; ++steps) {
+    char text[64];
+    double rounded = 0;
+    const char *end = std::to_chars(text, text + sizeof text, x + steps * unit, std::chars_format::general, 3).ptr;
+    std::from_chars(text, end, rounded);
+    if (rounded >= x) return rounded;
+  }
+}
+
+// Marks once more, with another half thickness; what leaks then.
+riis_leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_thickness) {
+  riis_surface_options surface_options = options.surface_options;
+  surface_options.half_thickness = half_thickness;
+  riis_surface *surface_handle = nullptr;
+  check(riis_surface_create(marked.valve, &surface_options, &surface_handle));
+  const Surface surface(surface_handle);
+  riis_mark_result *result_handle = nullptr;
+  check(riis_mark_result_create(&result_handle));
+  const MarkResult result(result_handle);
+  riis_mark_options mark_options = options.mark_options;
+  mark_options.search = RIIS_SEARCH_AUTO;
+  mark_options.distance_limit = RIIS_AUTO;
+  check(riis_mark_nodes(surface.get(), marked.mesh, &mark_options, result.get()));
+  const bool is_by_triangles = options.surface_options.distance == RIIS_DISTANCE_TRIANGLES;
+  return leaks_of({surface.get(), marked.valve, marked.file, marked.mesh, result.get()}, mark_options,
+                  is_by_triangles ? 2 * half_thickness : 0, nullptr);
+}
+
+// The triangles of a valve follow the half thickness, so the number is tried; those of a file stay. 0: none was found.
+double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_leaks &leaks) {
+  constexpr int n_tries = 8;
+  double wanted = rounded_up(leaks.half_thickness);
+  if (!marked.valve) return wanted;
+  try {
+    for (int i = 0; i < n_tries; ++i) {
+      const riis_leaks left = leaks_with(options, marked, wanted);
+      if (left.n_edges == 0) return wanted;
+      wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
+    }
+  } catch (const Refusal &) {
+    // The marks are good, and so is the warning, without advice: a surface may not be made with any half thickness.
+  }
+  return 0;
+}
+
+// Said however quiet the user wants it: the valve does not hold.
+void warn_of_leaks(const LeakReport &report, double half_thickness) {
+  const riis_leaks &leaks = report.found;
+  const double *at = leaks.longest_middle;
+  const bool is_one = leaks.n_edges == 1;
+  if (is_one)
+    std::fprintf(stderr, "riis-mark: the surface leaks: 1 edge of length %g crosses it between two unmarked nodes",
+                 leaks.longest_length);
+  else
+    std::fprintf(stderr,
+                 "riis-mark: the surface leaks: %lld edges cross it between two unmarked nodes, the longest (%g)",
+                 static_cast<long long>(leaks.n_edges), leaks.longest_length);
+  std::fprintf(stderr, " at %g %g %g; ", at[0], at[1], at[2]);
+  if (report.closing_half_thickness > 0)
+    std::fprintf(stderr, "--half-thickness %g closes %s; ", report.closing_half_thickness, is_one ? "it" : "them");
+  std::fprintf(stderr, "edges of at most two half thicknesses (%g) do not leak\n", 2 * half_thickness);
+}
+
+}  // namespace
+
+void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report) {
+  const Stage stage("looking for leaks", options.quiet);
+  LeakReport &leaks = report.leaks;
+  // Where nodes may be missing, or distances are not those to the triangles, short edges may leak as well.
+  const bool is_by_triangles = options.surface_options.distance == RIIS_DISTANCE_TRIANGLES;
+  const bool only_long = report.marks.complete && is_by_triangles;
+  const double half_thickness = report.surface.half_thickness;
+  leaks.found = leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
+  if (leaks.found.n_edges > 0) {
+    if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
+    warn_of_leaks(leaks, half_thickness);
+  }
+  report.seconds.leaks = stage.seconds();
+}
+
+}  // namespace riis::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh that was marked. Out: how many of its edges cross the surface between unmarked nodes, and what would close them.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include "cli/command_line.hpp"
+#include "cli/report.hpp"
+
+namespace riis::cli {
+
+struct MarkedMesh {
+  const riis_surface *surface;
+  const riis_valve *valve;  // that the surface was made of; null for a surface from a file
+  const riis_vtk_mesh *file;
+  riis_mesh *mesh;  // its adjacency is taken away
+  riis_mark_result *result;
+};
+
+// Writes report.leaks and report.seconds.leaks, and warns on stderr if flow passes.
+void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report);
+
+}  // namespace riis::cli

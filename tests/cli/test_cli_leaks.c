@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The warning of edges that cross the valve between unmarked nodes, against the C interface with all edges of the mesh. */
+#include <math.h>
+#include <riis/riis_vtk.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+/* A box around the valve whose cells' longest edges, the diagonals of cubes, are this long. */
+static void write_mesh(const char *name, const riis_surface *surface, double longest) {
+  riis_surface_info info;
+  double lower[3], upper[3], extent = 0;
+  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+  for (int i = 0; i < 3; ++i) extent = fmax(extent, info.upper[i] - info.lower[i] + 0.7);
+  const int n = 1 + (int)ceil(extent * sqrt(3) / longest);
+  for (int i = 0; i < 3; ++i) {
+    lower[i] = info.lower[i] - 0.33;
+    upper[i] = lower[i] + longest / sqrt(3) * (n - 1) * (1 - 1e-12);
+  }
+  assert_int_equal(shim_write_box(scratch_path(name), SHIM_RAW, n, lower, upper, 0), 1);
+}
+
+static riis_surface *make_surface(const char *kind, double half_thickness) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options options;
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = half_thickness;
+  expect_fine(riis_valve_create(kind, &valve));
+  expect_fine(riis_valve_set_scalar(valve, "opening", 0));
+  expect_fine(riis_surface_create(valve, &options, &surface));
+  riis_valve_destroy(&valve);
+  return surface;
+}
+
+/* With every edge of the mesh. */
+static riis_leaks leaks_by_c(const char *name, const riis_surface *surface) {
+  riis_vtk_mesh *file = NULL;
+  riis_adjacency *adjacency = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  riis_csr csr;
+  riis_leaks leaks;
+  int64_t n = 0;
+  const double *xyz = NULL;
+  expect_fine(riis_vtk_mesh_read(scratch_path(name), &file));
+  expect_fine(riis_vtk_mesh_nodes(file, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_adjacency(file, 0, &adjacency));
+  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  expect_fine(riis_mesh_set_adjacency(mesh, &csr));
+  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_mark_nodes(surface, mesh, NULL, result));
+  expect_fine(riis_find_leaks(surface, mesh, NULL, result, &leaks, sizeof leaks));
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&file);
+  return leaks;
+}
+
+/* What the program says is what the C interface says, and its advice, as it stands there to be typed, works. */
+static void expect_advice(const char *name, const char *kind) {
+  riis_surface *surface = make_surface(kind, 0.1);
+  const riis_leaks leaks = leaks_by_c(name, surface);
+  riis_surface_destroy(&surface);
+  assert_true(leaks.n_edges > 1);
+  run_program(scratch_path(name), "--valve", kind, "--opening", "0", "--quiet", "--stats", scratch_path("stats.json"),
+              NULL);
+  assert_int_equal(program_exit_code, 0);
+  char expected[256];
+  snprintf(expected, sizeof expected,
+           "riis-mark: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%g) at %g %g %g; "
+           "--half-thickness ",
+           (int)leaks.n_edges, leaks.longest_length, leaks.longest_middle[0], leaks.longest_middle[1],
+           leaks.longest_middle[2]);
+  assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
+  assert_non_null(strstr(program_leaks, "edges of at most two half thicknesses (0.2) do not leak\n"));
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_number(json, "n_leaking_edges") == (double)leaks.n_edges);
+  assert_true(json_number(json, "longest_leaking_edge") == leaks.longest_length);
+  assert_true(json_number(json, "n_cells_without_known_edges") == 0);
+  const double closing = json_number(json, "closing_half_thickness");
+  free(json);
+  assert_true(closing > 0.1 && closing <= 0.505 * leaks.longest_length + 0.02);
+
+  char typed[32] = {0};
+  assert_int_equal(sscanf(strstr(program_leaks, "--half-thickness ") + 17, "%31s", typed), 1);
+  assert_true(strtod(typed, NULL) == closing && strlen(typed) <= 5);
+  RUN_FINE(scratch_path(name), "--valve", kind, "--opening", "0", "--half-thickness", typed, "--stats", "-");
+  assert_string_equal(program_leaks, "");
+  assert_true(json_number(program_out, "n_leaking_edges") == 0);
+  assert_true(json_has_text(program_out, "closing_half_thickness", "null"));
+  surface = make_surface(kind, closing);
+  assert_int_equal(leaks_by_c(name, surface).n_edges, 0);
+  riis_surface_destroy(&surface);
+}
+
+static void test_coarse_meshes_leak(void **state) {
+  (void)state;
+  const char *const kinds[2] = {"mitral", "aortic"};
+  for (int i = 0; i < 2; ++i) {
+    riis_surface *surface = make_surface(kinds[i], 0.1);
+    for (double longest = 0.26; longest < 0.6; longest += 0.14) {
+      write_mesh("coarse.vtu", surface, longest);
+      expect_advice("coarse.vtu", kinds[i]);
+    }
+    riis_surface_destroy(&surface);
+  }
+}
+
+static void test_fine_meshes_do_not(void **state) {
+  (void)state;
+  const char *const kinds[2] = {"mitral", "aortic"};
+  for (int i = 0; i < 2; ++i) {
+    riis_surface *surface = make_surface(kinds[i], 0.1);
+    write_mesh("fine.vtu", surface, 0.2);
+    RUN_FINE(scratch_path("fine.vtu"), "--valve", kinds[i], "--opening", "0");
+    assert_string_equal(program_leaks, "");
+    assert_non_null(strstr(program_out, "leaks     none: no edge crosses the surface between unmarked nodes\n"));
+    riis_surface_destroy(&surface);
+  }
+}
+
+/* Triangles from a file do not follow the half thickness: the advice is the library's number, to three digits. */
+static void test_surface_from_file(void **state) {
+  (void)state;
+  riis_surface *surface = make_surface("mitral", 0.1);
+  write_mesh("coarse.vtu", surface, 0.5);
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
+  const riis_leaks leaks = leaks_by_c("coarse.vtu", surface);
+  riis_surface_destroy(&surface);
+  run_program(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--stats", "-", NULL);
+  assert_true(json_number(program_out, "n_leaking_edges") == (double)leaks.n_edges);
+  const double closing = json_number(program_out, "closing_half_thickness");
+  assert_true(closing >= leaks.half_thickness && closing <= 1.01 * leaks.half_thickness);
+  char text[32];
+  snprintf(text, sizeof text, "%.17g", leaks.half_thickness);
+  RUN_FINE(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--half-thickness", text);
+  assert_string_equal(program_leaks, "");
+  snprintf(text, sizeof text, "%.17g", nextafter(leaks.half_thickness, 0));
+  RUN_FINE(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--half-thickness", text);
+  assert_non_null(strstr(program_leaks, " edge"));
+}
+
+/* The table says it as well. By the paper's search and by other distances short edges are looked at, too. */
+static void test_searches_and_distances(void **state) {
+  (void)state;
+  riis_surface *surface = make_surface("mitral", 0.1);
+  write_mesh("coarse.vtu", surface, 0.5);
+  riis_surface_destroy(&surface);
+  const char *const names[3] = {"exhaustive", "neighbor", "clusters"};
+  static char first[longest_output];
+  for (int i = 0; i < 3; ++i) {
+    RUN_FINE(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", names[i]);
+    assert_non_null(strstr(program_out, " edges between unmarked nodes across the surface, length up to 0."));
+    if (i == 0) memcpy(first, program_leaks, sizeof first);
+    assert_true(first[0] && strcmp(program_leaks, first) == 0);
+  }
+  RUN_FINE(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--distance", "sampling");
+  assert_non_null(strstr(program_leaks, "--half-thickness"));
+  run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_err, "may be incomplete"));
+  assert_non_null(strstr(program_leaks, "edges of at most two")); /* no half thickness helps where nodes are missed */
+  assert_null(strstr(program_leaks, "--half-thickness"));
+}
+
+static void test_one_edge(void **state) {
+  (void)state;
+  scratch_write_text("one.vtk",
+                     "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+                     "0.2 0.2 -0.5 0.2 0.2 0.25 5 0.2 -0.5 0.2 5 -0.5 0.3 0.3 0.05\n"
+                     "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  scratch_write_text("one.stl",
+                     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                     "endloop\nendfacet\nendsolid\n");
+  RUN_FINE(scratch_path("one.vtk"), "--surface", scratch_path("one.stl"));
+  assert_string_equal(
+      program_leaks,
+      "riis-mark: the surface leaks: 1 edge of length 0.75 crosses it between two unmarked nodes at 0.2 0.2 "
+      "-0.125; --half-thickness 0.25 closes it; edges of at most two half thicknesses (0.2) do not leak\n");
+  assert_non_null(
+      strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
+}
+
+/* Of cells whose edges are not known nothing is said. */
+static void test_other_cells(void **state) {
+  (void)state;
+  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
+  RUN_FINE(scratch_path("zoo.vtu"), "--translate", "50,0,0", "--quiet", "--stats", scratch_path("stats.json"));
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_number(json, "n_cells_without_known_edges") == 9);
+  free(json);
+  run_program(scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
+  assert_non_null(strstr(program_out, "between unmarked nodes; unknown for 9 cells of other kinds"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_coarse_meshes_leak), cmocka_unit_test(test_fine_meshes_do_not),
+      cmocka_unit_test(test_surface_from_file),  cmocka_unit_test(test_searches_and_distances),
+      cmocka_unit_test(test_one_edge),           cmocka_unit_test(test_other_cells),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
