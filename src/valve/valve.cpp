@@ -37,7 +37,8 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
   const bool is_near = nearest.size > 0;
   fail(RIIS_INVALID_PARAMETER,
        "'%.*s' is not a parameter of the %s valve; %s%.*s%sriis_valve_parameter and riis-mark --print-params list them",
-       shown.size, shown.data, kind.name, is_near ? "did you mean '" : "", nearest.size, nearest.data, is_near ? "'? " : "");
+       shown.size, shown.data, kind.name, is_near ? "did you mean '" : "", nearest.size, nearest.data,
+       is_near ? "'? " : "");
 }
 
 // Whether the spec's name is a leaflet's name, a dot, and the given name.
