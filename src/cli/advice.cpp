@@ -18,7 +18,7 @@ constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest
 // Of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
 // Of an edge of the mesh: below, the band between two layers of nodes holds few of either.
-constexpr double smallest_half_thickness = 0.2;
+constexpr double smallest_half_thickness = 0.3;
 
 constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
 
@@ -41,9 +41,16 @@ bool sizes_fit_at(double factor, const Situation &s) {
          factor * s.median_edge <= longest_edge * s.surface.largest_side();
 }
 
+bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
+
+// The default half thickness goes with a parametric valve: edges that are much longer speak for another unit of the mesh.
+bool edges_fit_at(double factor, const Situation &s) {
+  return s.options.has_half_thickness || !is_parametric(s.options) || !is_too_small(s.half_thickness / factor, s);
+}
+
 // The factor that the mesh's lengths want before they go with the surface's; none if they go, or if no power of ten helps.
 std::optional<double> missing_factor(const Situation &s) {
-  if (sizes_fit_at(1, s) && overlap_at(1, s)) return std::nullopt;
+  if (sizes_fit_at(1, s) && edges_fit_at(1, s) && overlap_at(1, s)) return std::nullopt;
   // Sizes that differ as much as these are not in one unit, wherever they are.
   const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
   std::optional<double> best;
@@ -51,7 +58,7 @@ std::optional<double> missing_factor(const Situation &s) {
     if (!must_overlap && (best || !differ_widely)) break;
     double least = std::numeric_limits<double>::infinity();
     for (const double factor : factors) {
-      if (!sizes_fit_at(factor, s) || (must_overlap && !overlap_at(factor, s))) continue;
+      if (!sizes_fit_at(factor, s) || !edges_fit_at(factor, s) || (must_overlap && !overlap_at(factor, s))) continue;
       const double oddity = std::abs(std::log(factor * mesh_in_surfaces(s) / usual_mesh));
       if (oddity < least) {
         least = oddity;
@@ -90,8 +97,6 @@ double better_half_thickness(const Situation &s) {
 }
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
-
-bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
 // What makes the scale, and what the sizes look like then.
 struct Cure {
@@ -156,8 +161,12 @@ std::optional<std::string> advice_on_units(const Situation &s) {
       if (better > 0) write += " --half-thickness " + shown(better);
     }
   }
+  // The sizes of a coarse mesh may be those of a finer one in another unit.
+  const bool may_be_coarse =
+      sizes_fit_at(1, s) && overlap_at(1, s) && s.median_edge > 0 && !is_too_large(s.median_edge, s);
+  const std::string otherwise = may_be_coarse ? ", or, if that is wrong, --half-thickness " + shown(s.median_edge) : "";
   return cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " + shown(s.surface.largest_side()) +
-         "): write " + write + in_place_of(s.options);
+         "): write " + write + in_place_of(s.options) + otherwise;
 }
 
 std::optional<std::string> advice_on_half_thickness(const Situation &s) {

@@ -35,10 +35,10 @@ The marked mesh is a copy of the input with its nodes in the input's order and t
 riis_distance (Float64) and riis_leaflet (Int32: -1 for none). With --prefix NAME they are NAME_marked and so on: a mesh takes
 the marks of several valves. Arrays that the mesh has already are replaced only with --replace.
 
-Lengths are in the mesh's unit. --unit says which one that is; the scale then follows from it. The parameters of the aortic and
-of the mitral valve are in centimetres. A file with a surface or with patches needs --surface-unit, its own unit. With --unit the
-half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit nothing is known of units, and
---scale is the factor from the surface's unit to the mesh's.
+Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of the
+mitral valve are in centimetres. For a file of a surface or of patches --unit needs --surface-unit, the file's own unit. With
+--unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit nothing is known of
+units, and --scale is the factor from the surface's unit to the mesh's.
 
 A line on stderr tells what looks wrong and what to write instead: when no node is marked, when all are, or hardly any, and when
 the half thickness does not go with the surface or with the edges of the mesh. --quiet does not silence it, since wrong marks
@@ -216,7 +216,7 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
   app.add_flag("--replace", options.replace, "Replace arrays of these names that the mesh has already")
       ->group(group)
       ->needs(output);
-  app.add_flag("--allow-none", options.allow_none, "That no node is marked is as good as any other result")
+  app.add_flag("--allow-none", options.allow_none, "Exit status 0 and no warning even if no node is marked")
       ->group(group);
   app.add_option("--surface-output", options.surface_output, "The placed triangles")
       ->type_name("OUT.vtp")

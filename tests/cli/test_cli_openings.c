@@ -111,7 +111,7 @@ static void test_between(void **state) {
   double area[3];
   for (int i = 0; i < 3; ++i) {
     RUN_FINE(scratch_path("in.vtu"), "--params-open", scratch_path("open.json"), "--opening", opening_texts[i],
-             "--stats", "-");
+             "--half-thickness", half_thickness, "--stats", "-");
     area[i] = json_number(program_out, "area");
     assert_true(json_has_text(program_out, "valve", "\"aortic\""));
   }

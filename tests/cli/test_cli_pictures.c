@@ -69,6 +69,10 @@ static void test_pictures(void **state) {
   assert_false(same_file("1.png", "2.png"));
   assert_false(same_file("1.png", "3.png"));
   assert_false(same_file("2.png", "3.png"));
+  /* Marks by another name are drawn alike. */
+  RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix", "left",
+           "--output", scratch_path("left.vtu"));
+  assert_true(same_file("3.png", "5.png"));
 }
 
 int main(int argc, char **argv) {

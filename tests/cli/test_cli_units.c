@@ -155,6 +155,20 @@ static void test_wrong_valve_units(void **state) {
   expect_cured(meshes[0], NULL);
 }
 
+/* A mesh of millimetres that would be large and coarse, but no nonsense, in centimetres: both are told. */
+static void test_coarse_or_other_unit(void **state) {
+  (void)state;
+  assert_int_equal(
+      shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
+  run_program(scratch_path("large.vtu"), NULL);
+  expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
+  expect_warning(program_exit_code, ": write --unit mm, or, if that is wrong, --half-thickness 0.");
+  RUN_FINE(scratch_path("large.vtu"), "--unit", "mm");
+  /* The unit of a file is not known, so its default half thickness says nothing. */
+  run_program(scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
+  expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
+}
+
 static void test_wrong_file_units(void **state) {
   (void)state;
   run_program(meshes[0], "--surface", surfaces[2], NULL);
@@ -238,8 +252,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_valves),           cmocka_unit_test(test_surface_files),
       cmocka_unit_test(test_patches),          cmocka_unit_test(test_wrong_valve_units),
-      cmocka_unit_test(test_wrong_file_units), cmocka_unit_test(test_half_thickness),
-      cmocka_unit_test(test_places),
+      cmocka_unit_test(test_wrong_file_units), cmocka_unit_test(test_coarse_or_other_unit),
+      cmocka_unit_test(test_half_thickness),   cmocka_unit_test(test_places),
   };
   return cmocka_run_group_tests(tests, make_files, scratch_teardown);
 }
