@@ -214,19 +214,24 @@ std::string picture_title(const Report &report) {
 void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
   const std::string title = picture_title(report);
   const std::vector<const char *> names = leaflet_names(options);
+  std::vector<int32_t> views;
+  std::vector<const char *> paths;
   for (const Picture &picture : options.pictures) {
-    const Stage stage("drawing " + picture.path, options.quiet);
-    const UnbrokenWrite unbroken;
-    riis_vtk_picture_options how;
-    check(riis_vtk_picture_options_init(&how, sizeof how));
-    how.view = picture.view;
-    how.title = title.c_str();
-    how.leaflet_names = names.data();
-    how.n_leaflet_names = static_cast<int64_t>(names.size());
-    check(riis_vtk_draw(surface, mesh, &how, picture.path.c_str()));
-    report.written.push_back(picture.path);
-    report.seconds.picture += stage.seconds();
+    views.push_back(picture.view);
+    paths.push_back(picture.path.c_str());
   }
+  const auto n_pictures = static_cast<int64_t>(paths.size());
+  if (n_pictures == 0) return;
+  const Stage stage("drawing " + options.pictures[0].path + (n_pictures > 1 ? ", ..." : ""), options.quiet);
+  const UnbrokenWrite unbroken;
+  riis_vtk_picture_options how;
+  check(riis_vtk_picture_options_init(&how, sizeof how));
+  how.title = title.c_str();
+  how.leaflet_names = names.data();
+  how.n_leaflet_names = static_cast<int64_t>(names.size());
+  check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
+  report.written.insert(report.written.end(), paths.begin(), paths.end());
+  report.seconds.picture = stage.seconds();
 }
 
 void write_stats(const Options &options, const Report &report) {
