@@ -28,6 +28,7 @@ struct Options {
   double far_distance = RIIS_FAR_DISTANCE;
   std::string output, surface_output, stats;  // "": not wanted
   std::vector<Picture> pictures;
+  std::int32_t n_steps = 0;  // to be timed
   bool print_params = false;
   bool quiet = false;
 };

@@ -73,6 +73,12 @@ void add_seconds(const Seconds &seconds, std::ostringstream &out) {
       << seconds.search << ", write " << seconds.write << ", picture " << seconds.picture << "\n";
 }
 
+void add_step(const StepTimes &step, std::ostringstream &out) {
+  out << std::setprecision(6) << "step      " << step.surface + step.marking << " s: surface " << step.surface << ", search "
+      << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat << opening_of_step
+      << " in opening, search " << search_name(step.search) << "\n";
+}
+
 }  // namespace
 
 std::string surface_title(const Report &report) {
@@ -111,6 +117,12 @@ std::string json_of(const Report &report) {
                  {"search", seconds.search},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
+  if (report.step) {
+    json["step"] = {{"n_steps", report.step->n_steps},
+                    {"search", search_name(report.step->search)},
+                    {"seconds_surface", report.step->surface},
+                    {"seconds_search", report.step->marking}};
+  }
   return json.dump(2) + "\n";
 }
 
@@ -124,6 +136,7 @@ std::string table_of(const Report &report) {
   out << "\n";
   if (!report.mesh_name.empty()) add_marks(report, out);
   add_seconds(report.seconds, out);
+  if (report.step) add_step(*report.step, out);
   for (const std::string &path : report.written) out << "written   " << path << "\n";
   return out.str();
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/steps.hpp"
+
 namespace riis::cli {
 
 struct Seconds {
@@ -32,6 +34,7 @@ struct Report {
   riis_mark_stats marks{};
   Seconds seconds;
   std::vector<std::string> written;  // files
+  std::optional<StepTimes> step;
 };
 
 // Such as "mitral valve, opening 0.5".

@@ -13,6 +13,7 @@
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
+#include "cli/steps.hpp"
 #include "cli/valve_file.hpp"
 
 namespace riis::cli {
@@ -261,6 +262,7 @@ void run(const Options &options) {
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) mark(options, surface.get(), mesh.get(), report);
+  if (options.n_steps > 0) report.step = time_steps(options, valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
     draw_pictures(options, surface.get(), mesh.get(), report);
