@@ -258,7 +258,7 @@ void MarksPanel::add_outline(vtkUnstructuredGrid *grid) {
 }
 
 void MarksPanel::look(const View &view, const Sight &sight) {
-  move_away(partly_, view, partly_length_);
+  move_away(partly_, view, 2 * partly_length_);
   if (leaks_) move_away(leaks_, view, -2 * sight.shown[2].half());
   for (vtkActor *actor : {skin_.Get(), outline_.Get()}) {
     actor->GetMapper()->RemoveAllClippingPlanes();

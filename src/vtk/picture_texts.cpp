@@ -101,7 +101,8 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   text.imbue(std::locale::classic());
   text << length << " " << unit << (length == 1 ? "" : "s");
   const double after = end + 0.6 * layout.letter();
-  add_text(renderer, text.str(), after, y, layout.letter(), grey);
+  const double right = layout.panel_left(layout.n_panels() - 1) + layout.panel_width();
+  add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
 }
 
 // The directions of x, y, z, each of the length that it has in the view. One that is looked along is named at the middle.
@@ -150,7 +151,7 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left
 }  // namespace
 
 Layout::Layout(int width, int height, int n_panels)
-    : width_(width), height_(height), n_panels_(n_panels), letter_(std::max(8, height / 36)) {
+    : width_(width), height_(height), n_panels_(n_panels), letter_(std::max(8, std::min(height / 36, width / n_panels / 32))) {
   if (height < least_height_with_texts) return;
   top_ = (1.6 * n_panels + 0.6) * letter_;
   bottom_ = 3.8 * letter_;
