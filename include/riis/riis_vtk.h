@@ -136,17 +136,34 @@ typedef struct riis_vtk_picture_options {
   const char *const *leaflet_names; /* (n_leaflet_names): by leaflet_id, for the key of the colours; NULL, the default, and
                              leaflets beyond: "leaflet 0", ... */
   int64_t n_leaflet_names;/* >= 0, default 0. Texts are ASCII; what is not is drawn as ? */
+  int64_t n_leaking_edges;/* >= 0, default 0 */
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): the ends of mesh edges that are drawn red, in front of all else, as
+                             node ids from 0. Default NULL: the picture does not mention leaks. Not NULL, with
+                             n_leaking_edges 0: the picture says that no edge leaks */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults; struct_size is sizeof(riis_vtk_picture_options) of the caller. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
-/* Draws two panels into a .png file: the surface with its leaflets in different colours, and the cells all of whose nodes
- * are marked, coloured by leaflet, in the faint outline of the mesh.
+/* Draws two panels into a .png file, both to the same scale. The left panel shows the surface, each leaflet in a colour of
+ * its own. The right panel shows marked cells in the faint outline of the mesh. A cell is whole if all its nodes are marked:
+ * it has the colour of the leaflet that is nearest to one of its nodes. A cell of which only some nodes are marked is pale.
+ * Only its far side is drawn, so that pale cells show around whole ones and in gaps between them. Captions count nodes and
+ * cells; if the mesh has volumes, the picture and the counts leave flat cells out. Axes and a scale bar stand below the panels.
+ * A mesh much longer than the surface is cut at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
  *   mesh  with marks set; NULL draws the surface alone, in one panel
  * Errors: RIIS_UNAVAILABLE without a usable X display (VTK itself would abort the process), after trying for about half a
- * second; RIIS_FILE_ERROR naming the file. */
+ * second; RIIS_FILE_ERROR naming the file; RIIS_INVALID_ARGUMENT for leaking_edges without a mesh, or outside of it. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
+
+/* Draws one picture for each view, as riis_vtk_draw does, but makes the geometry and opens the window only once.
+ *   n_views  >= 0
+ *   views    (n_views) RIIS_VTK_VIEW_*; options->view is not used
+ *   paths    (n_views) the files; pictures that were finished before an error stay
+ * Errors: as riis_vtk_draw. */
+RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis_vtk_mesh *mesh,
+                                         const riis_vtk_picture_options *options, int64_t n_views,
+                                         const int32_t *views, const char *const *paths);
 
 #ifdef __cplusplus
 }

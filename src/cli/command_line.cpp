@@ -90,7 +90,7 @@ const std::vector<std::string> distance_names = {"triangles", "sampling", "minim
 // What CLI11 collects, as text: numbers are parsed here, whatever the locale.
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening;
-  std::string distance_tolerance, unit, surface_unit;
+  std::string distance_tolerance, unit, surface_unit, steps;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
   std::vector<std::string> pictures, views;
@@ -202,6 +202,21 @@ void declare_marking(CLI::App &app, Texts &texts) {
   app.add_option("--threads", texts.threads, "Number of threads (the processors that the program may use)")
       ->type_name("N")
       ->group(group);
+}
+
+void declare_steps(CLI::App &app, Texts &texts) {
+  app.add_option("--steps", texts.steps,
+                 "Then move the opening N times by 0.02, mark after each, and say what one of these steps costs")
+      ->type_name("N")
+      ->group("Marking")
+      ->excludes(app.get_option("--surface"));
+}
+
+int32_t parse_steps(const std::string &text) {
+  if (text.empty()) return 0;
+  const int32_t n = parse_integer(text, "--steps");
+  if (n < 1) throw Refusal{exit_wrong_usage, "--steps: " + text + " is not above 0"};
+  return n;
 }
 
 void declare_output(CLI::App &app, Options &options, Texts &texts) {
@@ -359,7 +374,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   static const std::set<std::string> of_mesh = {
       "--output",         "--stats",        "--search",   "--threads",
       "--distance-limit", "--far-distance", "--distance", "--distance-tolerance",
-      "--allow-none"};
+      "--allow-none",     "--steps"};
   const bool prints = options.print_params || options.describe_params;
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {
@@ -457,6 +472,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   declare_surface(app, options, texts);
   declare_placement(app, texts);
   declare_marking(app, texts);
+  declare_steps(app, texts);
   declare_output(app, options, texts);
   check_equals_signs(argc, argv);
   try {
@@ -482,6 +498,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   check_prefix(options.prefix);
   parse_mark_options(texts, options.mark_options);
   options.pictures = pair_pictures(texts);
+  options.n_steps = parse_steps(texts.steps);
   check_purpose(options, given);
   return options;
 }

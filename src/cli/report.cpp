@@ -78,6 +78,12 @@ void add_seconds(const Seconds &seconds, std::ostringstream &out) {
       << "\n";
 }
 
+void add_step(const StepTimes &step, std::ostringstream &out) {
+  out << std::setprecision(6) << "step      " << step.surface + step.marking << " s: surface " << step.surface << ", search "
+      << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat << opening_of_step
+      << " in opening, search " << search_name(step.search) << "\n";
+}
+
 }  // namespace
 
 std::string grouped(int64_t n) {
@@ -133,6 +139,12 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
+  if (report.step) {
+    json["step"] = {{"n_steps", report.step->n_steps},
+                    {"search", search_name(report.step->search)},
+                    {"seconds_surface", report.step->surface},
+                    {"seconds_search", report.step->marking}};
+  }
   return json.dump(2) + "\n";
 }
 
@@ -150,6 +162,7 @@ std::string table_of(const Report &report) {
     add_leaks(report.leaks, out);
   }
   add_seconds(report.seconds, out);
+  if (report.step) add_step(*report.step, out);
   for (const std::string &path : report.written) out << "written   " << path << "\n";
   return out.str();
 }

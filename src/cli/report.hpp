@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/steps.hpp"
+
 namespace riis::cli {
 
 struct Seconds {
@@ -41,6 +43,7 @@ struct Report {
   LeakReport leaks;
   Seconds seconds;
   std::vector<std::string> written;  // files
+  std::optional<StepTimes> step;
 };
 
 // Such as "15,745", "1 node".

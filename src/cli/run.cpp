@@ -15,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
+#include "cli/steps.hpp"
 #include "cli/valve_file.hpp"
 #include "cli/warnings.hpp"
 
@@ -243,22 +244,36 @@ std::string picture_title(const Report &report) {
   return title;
 }
 
-void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
+// Leaking edges are drawn red. A picture of a mesh without them says so if the edges of all cells are known.
+void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vtk_picture_options &how) {
+  static constexpr int64_t none = 0;
+  check(riis_mark_result_leaking_edges(result, &how.n_leaking_edges, &how.leaking_edges, nullptr, nullptr));
+  if (how.n_leaking_edges == 0 && leaks.n_cells_left_out == 0) how.leaking_edges = &none;
+}
+
+void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh,
+                   const riis_mark_result *result, Report &report) {
   const std::string title = picture_title(report);
   const std::vector<const char *> names = leaflet_names(options);
+  std::vector<int32_t> views;
+  std::vector<const char *> paths;
   for (const Picture &picture : options.pictures) {
-    const Stage stage("drawing " + picture.path, options.quiet);
-    const UnbrokenWrite unbroken;
-    riis_vtk_picture_options how;
-    check(riis_vtk_picture_options_init(&how, sizeof how));
-    how.view = picture.view;
-    how.title = title.c_str();
-    how.leaflet_names = names.data();
-    how.n_leaflet_names = static_cast<int64_t>(names.size());
-    check(riis_vtk_draw(surface, mesh, &how, picture.path.c_str()));
-    report.written.push_back(picture.path);
-    report.seconds.picture += stage.seconds();
+    views.push_back(picture.view);
+    paths.push_back(picture.path.c_str());
   }
+  const auto n_pictures = static_cast<int64_t>(paths.size());
+  if (n_pictures == 0) return;
+  const Stage stage("drawing " + options.pictures[0].path + (n_pictures > 1 ? ", ..." : ""), options.quiet);
+  const UnbrokenWrite unbroken;
+  riis_vtk_picture_options how;
+  check(riis_vtk_picture_options_init(&how, sizeof how));
+  how.title = title.c_str();
+  how.leaflet_names = names.data();
+  how.n_leaflet_names = static_cast<int64_t>(names.size());
+  if (result) show_leaks(result, report.leaks, how);
+  check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
+  report.written.insert(report.written.end(), paths.begin(), paths.end());
+  report.seconds.picture = stage.seconds();
 }
 
 void write_stats(const Options &options, const Report &report) {
@@ -290,12 +305,13 @@ ExitCode run(const Options &options) {
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, mesh.get());
   const MarkResult result = mesh ? mark(options, surface.get(), valve.get(), mesh.get(), report) : nullptr;
+  if (options.n_steps > 0) report.step = time_steps(options, valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
     // The component draws the marks of these names; the file with the other ones is written.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance));
-    draw_pictures(options, surface.get(), mesh.get(), report);
+    draw_pictures(options, surface.get(), mesh.get(), result.get(), report);
   } catch (const Refusal &) {
     // The marks are good all the same.
     write_stats(options, report);

@@ -1,136 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to a .png file.
+// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files.
 #include <riis/riis_vtk.h>
 
-#include <algorithm>
 #include <array>
-#include <limits>
+#include <cstring>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <vtkCamera.h>
 #include <vtkErrorCode.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
-#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkWindowToImageFilter.h>
 
 #include "vtk/array_names.hpp"
 #include "vtk/display.hpp"
 #include "vtk/files.hpp"
 #include "vtk/mesh.hpp"
+#include "vtk/picture_options.hpp"
 #include "vtk/picture_panels.hpp"
+#include "vtk/picture_texts.hpp"
+#include "vtk/picture_view.hpp"
 #include "vtk/surface_polydata.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-struct View {
-  Vector direction, up;  // unit, perpendicular
-};
-
-View view_of(int32_t view) {
-  if (view == RIIS_VTK_VIEW_SIDE) return {{0, 1, 0}, {0, 0, 1}};
-  if (view == RIIS_VTK_VIEW_TOP) return {{0, 0, -1}, {0, 1, 0}};
-  View oblique = {{0.35, 0.55, -1.0}, {0, 0, 1}};
-  vtkMath::Normalize(oblique.direction.data());
-  const double along = oblique.direction[2];
-  for (std::size_t k = 0; k < 3; ++k) oblique.up[k] -= along * oblique.direction[k];
-  vtkMath::Normalize(oblique.up.data());
-  return oblique;
-}
-
-struct Extent {
-  double lower = std::numeric_limits<double>::max();
-  double upper = std::numeric_limits<double>::lowest();
-  double middle() const { return 0.5 * lower + 0.5 * upper; }
-  double half() const { return 0.5 * (upper - lower); }
-};
-
-Extent extent_along(vtkPointSet *data, const Vector &axis) {
-  Extent extent;
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
-    double point[3];
-    data->GetPoint(i, point);
-    const double t = vtkMath::Dot(point, axis.data());
-    extent.lower = std::min(extent.lower, t);
-    extent.upper = std::max(extent.upper, t);
-  }
-  return extent;
-}
-
-// What the camera fits: the surface; or the mesh around it, where that is not much larger, so that pictures of a valve that
-// moves in one mesh can be compared.
-vtkPointSet *in_sight(vtkPointSet *surface, vtkPointSet *mesh, const std::array<Vector, 3> &axes) {
-  if (!mesh) return surface;
-  double surface_size = 0, mesh_size = 0;
-  for (const Vector &axis : axes) {
-    const Extent inner = extent_along(surface, axis), outer = extent_along(mesh, axis);
-    if (outer.lower > inner.lower || outer.upper < inner.upper) return surface;
-    surface_size = std::max(surface_size, inner.half());
-    mesh_size = std::max(mesh_size, outer.half());
-  }
-  return mesh_size < 1.5 * surface_size ? mesh : surface;
-}
-
-// Without perspective, so that lengths can be compared between panels, and with room for the band and the texts.
-void fit_camera(vtkRenderer *renderer, const View &view, vtkPointSet *surface, vtkPointSet *mesh, double aspect) {
-  Vector right;
-  vtkMath::Cross(view.direction.data(), view.up.data(), right.data());
-  vtkPointSet *seen = in_sight(surface, mesh, {right, view.up, view.direction});
-  const Extent x = extent_along(seen, right);
-  const Extent y = extent_along(seen, view.up);
-  const Extent depth = extent_along(seen, view.direction);
-  const double size = std::max({x.half(), y.half(), depth.half()});
-  Vector focus, eye;
-  for (std::size_t k = 0; k < 3; ++k) {
-    focus[k] = x.middle() * right[k] + y.middle() * view.up[k] + depth.middle() * view.direction[k];
-    eye[k] = focus[k] - 4 * size * view.direction[k];
-  }
-  vtkCamera *camera = renderer->GetActiveCamera();
-  camera->ParallelProjectionOn();
-  camera->SetFocalPoint(focus.data());
-  camera->SetPosition(eye.data());
-  camera->SetViewUp(view.up.data());
-  camera->SetParallelScale((seen == surface ? 1.3 : 1.15) * std::max(y.half(), x.half() / aspect));
-  renderer->ResetCameraClippingRange();
-}
-
-void check_options(const riis_vtk_picture_options &options) {
-  if (options.struct_size != sizeof options) {
-    fail(RIIS_INVALID_STRUCT_SIZE, "options was not filled by riis_vtk_picture_options_init: struct_size " +
-                                       std::to_string(options.struct_size) + ", not " + std::to_string(sizeof options));
-  }
-  if (options.view < RIIS_VTK_VIEW_SIDE || options.view > RIIS_VTK_VIEW_OBLIQUE) {
-    fail(RIIS_INVALID_ARGUMENT, "options->view is " + std::to_string(options.view) + ", not a RIIS_VTK_VIEW_*");
-  }
-  const auto check_pixels = [](const char *name, int32_t n) {
-    if (n < 64 || n > 8192) {
-      fail(RIIS_INVALID_ARGUMENT, std::string("options->") + name + " is " + std::to_string(n) + ", not 64 to 8192");
-    }
-  };
-  check_pixels("width", options.width);
-  check_pixels("height", options.height);
-  if (options.n_leaflet_names < 0 || (options.n_leaflet_names > 0 && !options.leaflet_names)) {
-    fail(RIIS_INVALID_ARGUMENT, "options->n_leaflet_names is " + std::to_string(options.n_leaflet_names) +
-                                    (options.leaflet_names ? "" : ", options->leaflet_names is NULL"));
-  }
-  for (int64_t i = 0; i < options.n_leaflet_names; ++i) {
-    if (!options.leaflet_names[i])
-      fail(RIIS_INVALID_ARGUMENT, "options->leaflet_names[" + std::to_string(i) + "] is NULL");
-  }
-  if (options.reserved != 0) {
-    fail(RIIS_INVALID_ARGUMENT, "options->reserved is " + std::to_string(options.reserved) + ", not 0");
-  }
-}
 
 void check_has_marks(const riis_vtk_mesh *mesh) {
   for (const char *name : {marked_array, distance_array, leaflet_array}) {
@@ -140,29 +42,12 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
   }
 }
 
-// VTK knows other letters only as UTF-8, and would take a line break.
-std::string drawable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
-
-PanelTexts texts_of(const riis_vtk_picture_options &options, double panel_width) {
-  PanelTexts texts{std::max(8, options.height / 36),
-                   static_cast<int>(panel_width * options.width),
-                   options.title ? drawable(options.title) : "Surface",
-                   {}};
-  for (int64_t i = 0; i < options.n_leaflet_names; ++i) {
-    texts.leaflet_names.push_back(drawable(options.leaflet_names[i]));
-  }
-  return texts;
-}
-
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
   ReplacingFile file(path);
   vtkNew<vtkWindowToImageFilter> image;
   image->SetInput(window);
   image->ReadFrontBufferOff();
+  image->ShouldRerenderOff();
   // Into memory, since the PNG library itself prints when a file cannot be written.
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
@@ -175,28 +60,107 @@ void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOut
   file.commit("IEND");
 }
 
+// What a picture says of itself, all but what changes with its view.
+std::vector<PanelTexts> texts_of(const riis_vtk_picture_options &options, const SurfacePanel &surface, vtkIdType n_triangles,
+                                 const MarkCounts *marks) {
+  const std::string title = options.title ? drawable(options.title) : "Surface";
+  std::vector<PanelTexts> panels = {{{title + ": " + counted(n_triangles, "triangle")}, {}}};
+  for (const vtkIdType leaflet : surface.leaflets) {
+    const bool named = leaflet >= 0 && leaflet < options.n_leaflet_names;
+    panels[0].key.push_back({named ? drawable(options.leaflet_names[leaflet]) : "leaflet " + std::to_string(leaflet),
+                             colour_of_leaflet(leaflet)});
+  }
+  if (!marks) return panels;
+  std::string cells = grouped(marks->n_whole_cells) + " whole, " + grouped(marks->n_partly_cells) + " partly marked " +
+                      (marks->n_partly_cells == 1 ? "cell" : "cells");
+  std::vector<KeyEntry> key = {{"pale: partly marked", grey}};
+  if (options.leaking_edges) {
+    cells += ", " + counted(options.n_leaking_edges, "leaking edge");
+    if (options.n_leaking_edges > 0) key.push_back({"leaking edges", leak_colour});
+  }
+  panels.push_back(
+      {{"Marked: " + grouped(marks->n_marked_nodes) + " of " + counted(marks->n_nodes, "node"), cells}, key});
+  return panels;
+}
+
+// All that the views of one picture share.
+class Scene {
+ public:
+  Scene(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk_picture_options &options)
+      : layout_(options.width, options.height, mesh ? 2 : 1),
+        triangles_(polydata_of(surface)),
+        mesh_(mesh ? mesh->grid : nullptr),
+        surface_(surface_panel(triangles_)) {
+    if (mesh_) marks_.emplace(mesh_, options.n_leaking_edges, options.leaking_edges, layout_.line_width());
+    texts_ = texts_of(options, surface_, triangles_->GetNumberOfCells(), marks_ ? &marks_->counts() : nullptr);
+    window_->SetOffScreenRendering(1);
+    window_->SetMultiSamples(4);
+    window_->SetSize(options.width, options.height);
+    window_->SetNumberOfLayers(2);
+    add_panel(surface_.renderer, 0);
+    if (marks_) add_panel(marks_->renderer(), 1);
+  }
+
+  vtkRenderWindow *render(std::int32_t of) {
+    const View view(of);
+    const Extents surface = view.extents_of(triangles_);
+    const Extents mesh = mesh_ ? view.extents_of(mesh_) : surface;
+    const Sight sight = sight_of(surface, mesh_ ? &mesh : nullptr, layout_.panel_width() / layout_.panel_height());
+    aim_camera(camera_, view, sight);
+    std::vector<PanelTexts> texts = texts_;
+    if (marks_) {
+      marks_->look(view, sight);
+      if (sight.is_cut()) texts[1].key.push_back({"dashed: the mesh goes on", grey});
+    }
+    if (behind_) window_->RemoveRenderer(behind_);
+    behind_ = texts_of_picture(layout_, texts, view, sight, mesh_ ? "mesh unit" : "unit");
+    window_->AddRenderer(behind_);
+    surface_.renderer->ResetCameraClippingRange();
+    if (marks_) marks_->renderer()->ResetCameraClippingRange();
+    window_->Render();
+    return window_;
+  }
+
+ private:
+  void add_panel(vtkRenderer *renderer, int panel) {
+    const std::array<double, 4> part = layout_.viewport(panel);
+    renderer->SetViewport(part[0], part[1], part[2], part[3]);
+    renderer->SetLayer(1);
+    renderer->SetActiveCamera(camera_);
+    window_->AddRenderer(renderer);
+  }
+
+  Layout layout_;
+  vtkSmartPointer<vtkPolyData> triangles_;
+  vtkUnstructuredGrid *mesh_;
+  SurfacePanel surface_;
+  std::optional<MarksPanel> marks_;
+  std::vector<PanelTexts> texts_;
+  vtkNew<vtkCamera> camera_;
+  vtkNew<vtkRenderWindow> window_;
+  vtkSmartPointer<vtkRenderer> behind_;
+};
+
+struct Shot {
+  std::int32_t view;
+  std::string path;
+};
+
 void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk_picture_options &options,
-          const std::string &path, const CaughtOutput &caught) {
-  if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
+          const std::vector<Shot> &shots, const CaughtOutput &caught) {
+  for (const Shot &shot : shots) {
+    if (ending_of(shot.path) != "png") fail_file(shot.path, "the file's ending must be .png");
+  }
+  check_picture_options(options, mesh);
+  if (mesh) check_has_marks(mesh);
+  if (shots.empty()) return;
   const HeldDisplay display;
-  const vtkSmartPointer<vtkPolyData> triangles = polydata_of(surface);
-  const double panel_width = mesh ? 0.5 : 1.0;
-  const PanelTexts texts = texts_of(options, panel_width);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(8);
-  window->SetSize(options.width, options.height);
-  const auto add = [&](vtkRenderer *renderer, double left) {
-    renderer->SetViewport(left, 0, left + panel_width, 1);
-    window->AddRenderer(renderer);
-    fit_camera(renderer, view_of(options.view), triangles, mesh ? mesh->grid : nullptr,
-               panel_width * options.width / options.height);
-  };
-  add(surface_panel(triangles, texts), 0);
-  if (mesh) add(marks_panel(mesh->grid, texts), panel_width);
-  window->Render();
-  caught.check(path);
-  write_png(window, path, caught);
+  Scene scene(surface, mesh, options);
+  for (const Shot &shot : shots) {
+    vtkRenderWindow *window = scene.render(shot.view);
+    caught.check(shot.path);
+    write_png(window, shot.path, caught);
+  }
 }
 
 }  // namespace
@@ -209,11 +173,9 @@ extern "C" {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size) {
   return guarded([&](const CaughtOutput &) {
     require(options, "options");
-    if (struct_size != sizeof *options) {
-      fail(RIIS_INVALID_STRUCT_SIZE,
-           "struct_size is " + std::to_string(struct_size) + ", not " + std::to_string(sizeof *options));
-    }
-    *options = {struct_size, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, nullptr, nullptr, 0};
+    check_picture_options_size(struct_size);
+    std::memcpy(options, &default_picture_options(), static_cast<std::size_t>(struct_size));
+    options->struct_size = struct_size;
   });
 }
 
@@ -222,15 +184,29 @@ RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_m
   return guarded([&](const CaughtOutput &caught) {
     require(surface, "surface");
     require(path, "path");
-    riis_vtk_picture_options used{};
-    if (options) {
-      used = *options;
-    } else {
-      check_core(riis_vtk_picture_options_init(&used, sizeof used));
+    const riis_vtk_picture_options whole = completed_picture_options(options);
+    check_view(whole.view, "options->view");
+    draw(surface, mesh, whole, {{whole.view, path}}, caught);
+  });
+}
+
+RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis_vtk_mesh *mesh,
+                                         const riis_vtk_picture_options *options, int64_t n_views, const int32_t *views,
+                                         const char *const *paths) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(surface, "surface");
+    if (n_views < 0) fail(RIIS_INVALID_ARGUMENT, "n_views is " + std::to_string(n_views));
+    if (n_views > 0) {
+      require(views, "views");
+      require(paths, "paths");
     }
-    check_options(used);
-    if (mesh) check_has_marks(mesh);
-    draw(surface, mesh, used, path, caught);
+    std::vector<Shot> shots;
+    for (int64_t i = 0; i < n_views; ++i) {
+      const std::string place = "[" + std::to_string(i) + "]";
+      check_view(views[i], ("views" + place).c_str());
+      shots.push_back({views[i], require(paths[i], ("paths" + place).c_str())});
+    }
+    draw(surface, mesh, completed_picture_options(options), shots, caught);
   });
 }
 

@@ -1,91 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtk/picture_panels.hpp"
 
-#include <array>
-#include <set>
-#include <string>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
 
 #include <vtkActor.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkDataSetSurfaceFilter.h>
 #include <vtkFeatureEdges.h>
 #include <vtkIdList.h>
 #include <vtkLightKit.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTextActor.h>
-#include <vtkTextProperty.h>
-#include <vtkThreshold.h>
-#include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "vtk/array_names.hpp"
+#include "vtk/picture_cut.hpp"
+#include "vtk/picture_faces.hpp"
 
 namespace riis::vtk {
 namespace {
 
-using Colour = std::array<unsigned char, 3>;
-
 // Blue, orange, bluish green, reddish purple, vermilion, sky blue: told apart with any colour vision (Okabe, Ito 2008).
-constexpr std::array<Colour, 6> leaflet_colours = {
-    {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167}, {213, 94, 0}, {86, 180, 233}}};
-constexpr double text_grey = 0.2;
+constexpr unsigned char leaflet_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
+                                                {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
+constexpr double pale = 0.62;  // how much white partly marked cells have in their colour
 constexpr double outline_grey = 0.45;
 
-Colour colour_of(vtkIdType leaflet) {
-  return leaflet_colours[static_cast<std::size_t>(leaflet) % leaflet_colours.size()];
-}
-
-std::string grouped(vtkIdType n) {
-  std::string digits = std::to_string(n);
-  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
-  return digits;
-}
-
-void add_text(vtkRenderer *renderer, const std::string &text, double x, double y, int size, const double (&colour)[3]) {
-  vtkNew<vtkTextActor> actor;
-  actor->SetInput(text.c_str());
-  actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  actor->SetPosition(x, y);
-  vtkTextProperty *property = actor->GetTextProperty();
-  property->SetFontFamilyToArial();
-  property->SetFontSize(size);
-  property->SetColor(colour[0], colour[1], colour[2]);
-  // A large mesh runs behind the texts.
-  property->SetBackgroundColor(1, 1, 1);
-  property->SetBackgroundOpacity(0.8);
-  renderer->AddViewProp(actor);
-}
-
-void add_caption(vtkRenderer *renderer, const std::string &text, int size) {
-  add_text(renderer, text, 0.03, 0.94, size, {text_grey, text_grey, text_grey});
-}
-
-std::string name_of(vtkIdType leaflet, const PanelTexts &texts) {
-  const auto at = static_cast<std::size_t>(leaflet);
-  return at < texts.leaflet_names.size() ? texts.leaflet_names[at] : "leaflet " + std::to_string(leaflet);
-}
-
-// The names of the leaflets in their colours, along the lower edge, as many as fit.
-void add_key(vtkRenderer *renderer, const std::set<vtkIdType> &leaflets, const PanelTexts &texts) {
-  double x = 0.03;
-  for (const vtkIdType leaflet : leaflets) {
-    const std::string name = name_of(leaflet, texts);
-    // Letters are half as wide as they are high, on average less.
-    const double width = 0.55 * texts.size * static_cast<double>(name.size()) / texts.panel_width;
-    if (x + width > 1) break;
-    const Colour colour = colour_of(leaflet);
-    add_text(renderer, name, x, 0.03, texts.size, {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0});
-    x += width + 1.5 * texts.size / texts.panel_width;
-  }
-}
+enum MarkedPart : std::uint8_t { not_marked, partly_marked, whole_marked };
 
 vtkSmartPointer<vtkRenderer> empty_panel() {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
@@ -104,23 +58,28 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data) {
   return actor;
 }
 
-// Gives every face the colour of its leaflet, and returns which leaflets there are.
-std::set<vtkIdType> colour_faces(vtkPolyData *faces) {
-  vtkDataArray *leaflet = faces->GetCellData()->GetArray(leaflet_array);
+vtkSmartPointer<vtkActor> flat_actor(vtkPolyData *data, const Colour &colour) {
+  const vtkSmartPointer<vtkActor> actor = actor_of(data);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->LightingOff();
+  return actor;
+}
+
+// Gives every face the colour of its leaflet, with so much white in it.
+void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, double white) {
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetName("colour");
   colours->SetNumberOfComponents(3);
-  std::set<vtkIdType> leaflets;
-  for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
-    const auto id = static_cast<vtkIdType>(leaflet->GetTuple1(i));
-    leaflets.insert(id);
-    colours->InsertNextTypedTuple(colour_of(id).data());
+  for (const vtkIdType leaflet : leaflets) {
+    const Colour colour = colour_of_leaflet(leaflet);
+    for (const double part : colour) {
+      colours->InsertNextValue(static_cast<unsigned char>(255 * (part + white * (1 - part)) + 0.5));
+    }
   }
   faces->GetCellData()->SetScalars(colours);
-  return leaflets;
 }
 
-void add_coloured(vtkRenderer *renderer, vtkPolyData *faces) {
+vtkSmartPointer<vtkActor> coloured_actor(vtkPolyData *faces) {
   const vtkSmartPointer<vtkActor> actor = actor_of(faces);
   actor->GetMapper()->SetScalarModeToUseCellData();
   actor->GetMapper()->SetColorModeToDirectScalars();
@@ -129,108 +88,184 @@ void add_coloured(vtkRenderer *renderer, vtkPolyData *faces) {
   actor->GetProperty()->SetDiffuse(0.85);
   actor->GetProperty()->SetSpecular(0.15);
   actor->GetProperty()->SetSpecularPower(20);
-  renderer->AddActor(actor);
+  return actor;
 }
 
-// For each cell the leaflet of its closest node if all its nodes are marked, else -1.
-vtkSmartPointer<vtkTypeInt32Array> leaflets_of_cells(vtkUnstructuredGrid *grid) {
+std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
   vtkDataArray *marked = grid->GetPointData()->GetArray(marked_array);
+  std::vector<std::uint8_t> nodes(static_cast<std::size_t>(grid->GetNumberOfPoints()));
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    nodes[node] = marked->GetComponent(static_cast<vtkIdType>(node), 0) != 0;
+  }
+  return nodes;
+}
+
+// By cell; cells of less than the largest dimension count as not marked.
+std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
+  const CellDimensions dimensions(grid);
+  std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    const auto cell = static_cast<vtkIdType>(at);
+    if (!dimensions.is_largest(grid->GetCellType(cell))) continue;
+    vtkIdType n = 0;
+    const vtkIdType *nodes = nullptr;
+    grid->GetCells()->GetCellAtId(cell, n, nodes);
+    const auto n_marked =
+        std::count_if(nodes, nodes + n, [&](vtkIdType node) { return marked[static_cast<std::size_t>(node)] != 0; });
+    if (n_marked > 0) parts[at] = n_marked == n ? whole_marked : partly_marked;
+  }
+  return parts;
+}
+
+// For each of the cells the leaflet of its closest node.
+std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<vtkIdType> &cells) {
   vtkDataArray *distance = grid->GetPointData()->GetArray(distance_array);
   vtkDataArray *leaflet = grid->GetPointData()->GetArray(leaflet_array);
-  const auto leaflets = vtkSmartPointer<vtkTypeInt32Array>::New();
-  leaflets->SetName(leaflet_array);
-  leaflets->SetNumberOfValues(grid->GetNumberOfCells());
+  vtkDataArray *marked = grid->GetPointData()->GetArray(marked_array);
+  std::vector<vtkIdType> leaflets;
+  leaflets.reserve(cells.size());
   vtkNew<vtkIdList> nodes;
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+  for (const vtkIdType cell : cells) {
     grid->GetCellPoints(cell, nodes);
     vtkIdType closest = -1;
-    bool all_marked = true;
     for (const vtkIdType node : *nodes) {
-      all_marked = all_marked && marked->GetTuple1(node) != 0;
-      if (closest < 0 || distance->GetTuple1(node) < distance->GetTuple1(closest)) closest = node;
+      // Of nodes that are not marked the far distance may be any number.
+      if (marked->GetComponent(node, 0) == 0) continue;
+      if (closest < 0 || distance->GetComponent(node, 0) < distance->GetComponent(closest, 0)) closest = node;
     }
-    leaflets->SetValue(cell, all_marked && closest >= 0 ? static_cast<vtkTypeInt32>(leaflet->GetTuple1(closest)) : -1);
+    leaflets.push_back(closest < 0 ? 0 : static_cast<vtkIdType>(leaflet->GetComponent(closest, 0)));
   }
   return leaflets;
 }
 
-// The outside of the marked cells.
-vtkSmartPointer<vtkPolyData> marked_faces(vtkUnstructuredGrid *grid, vtkIdType &n_cells) {
-  vtkNew<vtkUnstructuredGrid> coloured;
-  coloured->CopyStructure(grid);
-  coloured->GetCellData()->AddArray(leaflets_of_cells(grid));
-  vtkNew<vtkThreshold> threshold;
-  threshold->SetInputData(coloured);
-  threshold->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, leaflet_array);
-  threshold->SetThresholdFunction(vtkThreshold::THRESHOLD_UPPER);
-  threshold->SetUpperThreshold(0);
-  vtkNew<vtkDataSetSurfaceFilter> outside;
-  outside->SetInputConnection(threshold->GetOutputPort());
-  outside->Update();
-  n_cells = threshold->GetOutput()->GetNumberOfCells();
-  return outside->GetOutput();
+double mean_edge_length(vtkPolyData *faces) {
+  double sum = 0;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType face = 0; face < faces->GetNumberOfCells(); ++face) {
+    faces->GetCellPoints(face, corners);
+    double a[3], b[3];
+    faces->GetPoint(corners->GetId(0), a);
+    faces->GetPoint(corners->GetId(1), b);
+    sum += std::sqrt(vtkMath::Distance2BetweenPoints(a, b));
+  }
+  return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-void add_outline(vtkRenderer *renderer, vtkUnstructuredGrid *grid) {
-  vtkNew<vtkUnstructuredGrid> bare;
-  bare->CopyStructure(grid);
-  vtkNew<vtkDataSetSurfaceFilter> boundary;
-  boundary->SetInputData(bare);
-  vtkNew<vtkFeatureEdges> edges;
-  edges->SetInputConnection(boundary->GetOutputPort());
-  edges->SetFeatureAngle(30);
-  edges->NonManifoldEdgesOff();
-  edges->ManifoldEdgesOff();
-  edges->ColoringOff();
-  edges->Update();
-
-  const vtkSmartPointer<vtkActor> skin = actor_of(boundary->GetOutput());
-  skin->GetProperty()->SetColor(outline_grey, outline_grey, outline_grey);
-  skin->GetProperty()->SetOpacity(0.08);
-  skin->GetProperty()->LightingOff();
-  renderer->AddActor(skin);
-  const vtkSmartPointer<vtkActor> lines = actor_of(edges->GetOutput());
-  lines->GetProperty()->SetColor(outline_grey, outline_grey, outline_grey);
-  lines->GetProperty()->LightingOff();
-  lines->GetProperty()->SetLineWidth(1.5F);
-  renderer->AddActor(lines);
-}
-
-vtkIdType n_marked_nodes(vtkUnstructuredGrid *grid) {
-  vtkDataArray *marked = grid->GetPointData()->GetArray(marked_array);
-  vtkIdType n = 0;
-  for (vtkIdType node = 0; node < grid->GetNumberOfPoints(); ++node) n += marked->GetTuple1(node) != 0;
-  return n;
+// Without perspective this changes nothing but what hides what.
+void move_away(vtkActor *actor, const View &view, double length) {
+  actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }
 
 }  // namespace
 
-vtkSmartPointer<vtkRenderer> surface_panel(vtkPolyData *surface, const PanelTexts &texts) {
-  const vtkSmartPointer<vtkRenderer> renderer = empty_panel();
-  const std::set<vtkIdType> leaflets = colour_faces(surface);
+Colour colour_of_leaflet(vtkIdType leaflet) {
+  const unsigned char *bytes = leaflet_colours[static_cast<std::size_t>(leaflet) % std::size(leaflet_colours)];
+  return {bytes[0] / 255.0, bytes[1] / 255.0, bytes[2] / 255.0};
+}
+
+SurfacePanel surface_panel(vtkPolyData *surface) {
+  SurfacePanel panel{empty_panel(), {}};
+  vtkDataArray *leaflet = surface->GetCellData()->GetArray(leaflet_array);
+  std::vector<vtkIdType> leaflets;
+  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i) {
+    leaflets.push_back(static_cast<vtkIdType>(leaflet->GetComponent(i, 0)));
+    panel.leaflets.insert(leaflets.back());
+  }
+  colour_faces(surface, leaflets, 0);
   vtkNew<vtkPolyDataNormals> smooth;
   smooth->SetInputData(surface);
   smooth->SetFeatureAngle(40);
   smooth->ConsistencyOff();
   smooth->Update();
-  add_coloured(renderer, smooth->GetOutput());
-  add_caption(renderer, texts.title + ": " + grouped(surface->GetNumberOfCells()) + " triangles", texts.size);
-  add_key(renderer, leaflets, texts);
-  return renderer;
+  panel.renderer->AddActor(coloured_actor(smooth->GetOutput()));
+  return panel;
 }
 
-vtkSmartPointer<vtkRenderer> marks_panel(vtkUnstructuredGrid *grid, const PanelTexts &texts) {
-  const vtkSmartPointer<vtkRenderer> renderer = empty_panel();
-  vtkIdType n_cells = 0;
-  const vtkSmartPointer<vtkPolyData> faces = marked_faces(grid, n_cells);
-  colour_faces(faces);
-  add_coloured(renderer, faces);
-  add_outline(renderer, grid);
-  add_caption(renderer,
-              "Marked: " + grouped(n_marked_nodes(grid)) + " of " + grouped(grid->GetNumberOfPoints()) + " nodes, " +
-                  grouped(n_cells) + " whole cells",
-              texts.size);
-  return renderer;
+MarksPanel::MarksPanel(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges,
+                       double pixels)
+    : renderer_(empty_panel()), pixels_(pixels) {
+  add_marks(grid);
+  add_leaks(grid, n_leaking_edges, leaking_edges);
+  add_outline(grid);
+}
+
+void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
+  const std::vector<std::uint8_t> marked = marked_nodes(grid);
+  std::vector<std::uint8_t> parts = marked_parts(grid, marked);
+  counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
+             std::count(parts.begin(), parts.end(), whole_marked), std::count(parts.begin(), parts.end(), partly_marked)};
+  // The partly marked cells lie around the whole ones: of their faces those that no cell of either kind has.
+  std::vector<std::uint8_t> chosen(parts.size());
+  std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
+  const Outside partly = outside_of(grid, &parts, &chosen);
+  colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
+  partly_length_ = mean_edge_length(partly.faces);
+  partly_ = coloured_actor(partly.faces);
+  // Faces towards the eye would hide the whole cells. Those away from it show around whole cells, and where these leave a hole.
+  partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
+  partly_->GetProperty()->SetAmbient(0.6);
+  partly_->GetProperty()->SetDiffuse(0.45);
+  renderer_->AddActor(partly_);
+  std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == whole_marked; });
+  const Outside whole = outside_of(grid, &chosen, nullptr);
+  colour_faces(whole.faces, leaflets_of(grid, whole.cell_id), 0);
+  renderer_->AddActor(coloured_actor(whole.faces));
+}
+
+void MarksPanel::add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std::int64_t *edges) {
+  if (n == 0) return;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines, dots;
+  for (std::int64_t i = 0; i < n; ++i) {
+    double a[3], b[3];
+    grid->GetPoint(edges[2 * i], a);
+    grid->GetPoint(edges[2 * i + 1], b);
+    const double middle[3] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+    const vtkIdType ends[2] = {points->InsertNextPoint(a), points->InsertNextPoint(b)};
+    const vtkIdType dot = points->InsertNextPoint(middle);
+    lines->InsertNextCell(2, ends);
+    dots->InsertNextCell(1, &dot);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(lines);
+  data->SetVerts(dots);  // an edge that is looked along, or shorter than a pixel, is still seen
+  leaks_ = flat_actor(data, leak_colour);
+  leaks_->GetProperty()->SetLineWidth(static_cast<float>(2 * pixels_));
+  leaks_->GetProperty()->SetPointSize(static_cast<float>(3 * pixels_));
+  renderer_->AddActor(leaks_);
+}
+
+void MarksPanel::add_outline(vtkUnstructuredGrid *grid) {
+  const Colour colour = {outline_grey, outline_grey, outline_grey};
+  const Outside boundary = outside_of(grid, nullptr, nullptr);
+  vtkNew<vtkFeatureEdges> edges;
+  edges->SetInputData(boundary.faces);
+  edges->SetFeatureAngle(30);
+  edges->NonManifoldEdgesOff();
+  edges->ManifoldEdgesOff();
+  edges->ColoringOff();
+  edges->Update();
+  skin_ = flat_actor(boundary.faces, colour);
+  skin_->GetProperty()->SetOpacity(0.08);
+  outline_ = flat_actor(edges->GetOutput(), colour);
+  outline_->GetProperty()->SetLineWidth(static_cast<float>(pixels_));
+  vtkNew<vtkPolyData> nothing;
+  cut_ = flat_actor(nothing, colour);
+  cut_->GetProperty()->SetLineWidth(static_cast<float>(pixels_));
+  for (vtkActor *actor : {skin_.Get(), outline_.Get(), cut_.Get()}) renderer_->AddActor(actor);
+}
+
+void MarksPanel::look(const View &view, const Sight &sight) {
+  move_away(partly_, view, 2 * partly_length_);
+  if (leaks_) move_away(leaks_, view, -2 * sight.shown[2].half());
+  for (vtkActor *actor : {skin_.Get(), outline_.Get()}) {
+    actor->GetMapper()->RemoveAllClippingPlanes();
+    for (vtkPlane *plane : cutting_planes(view, sight)) actor->GetMapper()->AddClippingPlane(plane);
+  }
+  vtkPolyDataMapper::SafeDownCast(cut_->GetMapper())
+      ->SetInputData(dashes_where_cut(view, sight, vtkPolyDataMapper::SafeDownCast(skin_->GetMapper())->GetInput()));
 }
 
 }  // namespace riis::vtk

@@ -1,30 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface's triangles, a marked mesh. Out: the two panels of a picture, as VTK renderers without a camera
-// position.
+// In: a surface's triangles, a marked mesh. Out: the two panels of a picture, made once for all views.
 #pragma once
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
-#include <string>
-#include <vector>
+#include <cstdint>
+#include <memory>
+#include <set>
 
+#include "vtk/picture_view.hpp"
+
+class vtkActor;
 class vtkPolyData;
 class vtkRenderer;
 class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-struct PanelTexts {
-  int size, panel_width;  // pixels
-  std::string title;
-  std::vector<std::string> leaflet_names;  // by leaflet; others are numbered
+// red, green, blue from 0 to 1
+using Colour = std::array<double, 3>;
+
+Colour colour_of_leaflet(vtkIdType leaflet);
+constexpr Colour leak_colour = {0.86, 0.0, 0.0};
+constexpr Colour grey = {0.2, 0.2, 0.2};
+
+struct SurfacePanel {
+  vtkSmartPointer<vtkRenderer> renderer;
+  std::set<vtkIdType> leaflets;
 };
 
-// The surface, each leaflet in its colour, with a key of the colours.
-vtkSmartPointer<vtkRenderer> surface_panel(vtkPolyData *surface, const PanelTexts &texts);
+// The surface, each leaflet in its colour.
+SurfacePanel surface_panel(vtkPolyData *surface);
 
-// The cells all of whose nodes are marked, each in the colour of its closest node's leaflet, in the faint boundary of
-// the mesh. The grid has the marking's point arrays.
-vtkSmartPointer<vtkRenderer> marks_panel(vtkUnstructuredGrid *grid, const PanelTexts &texts);
+struct MarkCounts {
+  vtkIdType n_nodes = 0, n_marked_nodes = 0;
+  vtkIdType n_whole_cells = 0;   // all of whose nodes are marked
+  vtkIdType n_partly_cells = 0;  // of which some are, not all
+};
+
+// Marked cells, whole ones in the colour of their closest node's leaflet, partly marked ones paler, edges that leak in red, in the faint
+// boundary of the mesh. Cells of less than the grid's largest dimension are left out.
+class MarksPanel {
+ public:
+  // The grid has the marking's point arrays. leaking_edges(2, n_leaking_edges) are node ids, checked.
+  MarksPanel(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges, double pixels);
+  vtkRenderer *renderer() const { return renderer_; }
+  const MarkCounts &counts() const { return counts_; }
+  // Turns to a view: cuts a mesh that goes on beyond the panel, and puts what leaks before all else.
+  void look(const View &view, const Sight &sight);
+
+ private:
+  void add_marks(vtkUnstructuredGrid *grid);
+  void add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std::int64_t *edges);
+  void add_outline(vtkUnstructuredGrid *grid);
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  MarkCounts counts_;
+  double pixels_;             // the width of a line
+  double partly_length_ = 0;  // of the edges of partly marked cells, on average
+  vtkSmartPointer<vtkActor> partly_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
+};
 
 }  // namespace riis::vtk

@@ -174,7 +174,7 @@ static void test_structs(void **state) {
   FIELD(riis_leaks, half_thickness, 56, 8);
   FIELD(riis_leaks, seconds, 64, 8);
 
-  SIZE(riis_vtk_picture_options, 48);
+  SIZE(riis_vtk_picture_options, 64);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, view, 8, 4);
   FIELD(riis_vtk_picture_options, width, 12, 4);
@@ -183,6 +183,8 @@ static void test_structs(void **state) {
   FIELD(riis_vtk_picture_options, title, 24, 8);
   FIELD(riis_vtk_picture_options, leaflet_names, 32, 8);
   FIELD(riis_vtk_picture_options, n_leaflet_names, 40, 8);
+  FIELD(riis_vtk_picture_options, n_leaking_edges, 48, 8);
+  FIELD(riis_vtk_picture_options, leaking_edges, 56, 8);
 }
 
 static void test_constants(void **state) {
@@ -319,6 +321,9 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_picture_options_init, int32_t, (riis_vtk_picture_options *, int64_t));
   SIGNATURE(riis_vtk_draw, int32_t,
             (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, const char *));
+  SIGNATURE(riis_vtk_draw_views, int32_t,
+            (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, int64_t, const int32_t *,
+             const char *const *));
 }
 
 int main(void) {

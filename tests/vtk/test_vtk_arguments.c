@@ -79,9 +79,69 @@ static void test_struct_sizes(void **state) {
   expect_refused(riis_vtk_surface_arrays(file, NULL), RIIS_INVALID_ARGUMENT, "arrays is NULL");
   expect_refused(riis_vtk_surface_arrays(file, &arrays), RIIS_INVALID_STRUCT_SIZE, "struct_size 0");
   riis_vtk_surface_destroy(&file);
-  expect_refused(riis_vtk_picture_options_init(&options, 4), RIIS_INVALID_STRUCT_SIZE, "struct_size is 4");
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_STRUCT_SIZE,
-                 "struct_size 0");
+  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 72, INT64_MAX};
+  for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i) {
+    char text[64];
+    snprintf(text, sizeof text, "the struct size of options is %lld; ", (long long)bad_sizes[i]);
+    expect_refused(riis_vtk_picture_options_init(&options, bad_sizes[i]), RIIS_INVALID_STRUCT_SIZE, text);
+    assert_int_equal(options.struct_size, 0);
+    options.struct_size = bad_sizes[i];
+    expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_STRUCT_SIZE, text);
+    options.struct_size = 0;
+  }
+}
+
+/* A caller of the first release: its struct ends where the fields do that came later, and what lies behind it is its own. */
+static void test_first_picture_options(void **state) {
+  (void)state;
+  enum { first_size = 48 };
+  unsigned char bytes[sizeof(riis_vtk_picture_options)];
+  memset(bytes, 0xA5, sizeof bytes);
+  riis_vtk_picture_options *options = (riis_vtk_picture_options *)(void *)bytes;
+  expect_fine(riis_vtk_picture_options_init(options, first_size));
+  assert_int_equal(options->struct_size, first_size);
+  for (size_t i = first_size; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0xA5);
+  /* What the library makes of it is taken: the refusal is that of the file. */
+  expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.jpg")), RIIS_FILE_ERROR, "must be .png");
+  options->width = 1;
+  expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
+}
+
+static void expect_bad_edges(const char *part_of_text, const riis_vtk_mesh *drawn, int64_t n, const int64_t *edges) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_true(options.n_leaking_edges == 0 && !options.leaking_edges);
+  options.n_leaking_edges = n;
+  options.leaking_edges = edges;
+  expect_refused(riis_vtk_draw(surface, drawn, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
+  assert_int_equal(scratch_exists("a.png"), 0);
+}
+
+static void test_leaking_edges(void **state) {
+  (void)state;
+  const int64_t fine[4] = {0, 1, 25, 26}, below[4] = {0, 1, -1, 2}, above[4] = {0, 1, 2, 27};
+  expect_bad_edges("n_leaking_edges is -1", mesh, -1, fine);
+  expect_bad_edges("n_leaking_edges is 2, options->leaking_edges is NULL", mesh, 2, NULL);
+  expect_bad_edges("n_leaking_edges is 2, and mesh is NULL", NULL, 2, fine);
+  expect_bad_edges("leaking_edges[2] is -1; the mesh has 27 nodes", mesh, 2, below);
+  expect_bad_edges("leaking_edges[3] is 27; the mesh has 27 nodes", mesh, 2, above);
+  expect_bad_edges("mesh has no marks", mesh, 2, fine);
+}
+
+static void test_many_views(void **state) {
+  (void)state;
+  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 3};
+  const char *paths[2] = {scratch_path("a.png"), NULL}, *jpg[1] = {scratch_path("a.jpg")};
+  expect_refused(riis_vtk_draw_views(NULL, NULL, NULL, 1, views, paths), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, -1, views, paths), RIIS_INVALID_ARGUMENT, "n_views is -1");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, NULL, paths), RIIS_INVALID_ARGUMENT, "views is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, views, NULL), RIIS_INVALID_ARGUMENT, "paths is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 3");
+  const int32_t fine[2] = {0, 1};
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, fine, paths), RIIS_INVALID_ARGUMENT, "paths[1] is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, fine, jpg), RIIS_FILE_ERROR, "must be .png");
+  expect_fine(riis_vtk_draw_views(surface, NULL, NULL, 0, NULL, NULL));
+  assert_int_equal(scratch_exists("a.png"), 0);
 }
 
 static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t width, int32_t height,
@@ -151,6 +211,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_null),
       cmocka_unit_test(test_struct_sizes),
+      cmocka_unit_test(test_first_picture_options),
+      cmocka_unit_test(test_leaking_edges),
+      cmocka_unit_test(test_many_views),
       cmocka_unit_test(test_picture_options),
       cmocka_unit_test(test_odd_names),
       cmocka_unit_test(test_floating_point_environment),

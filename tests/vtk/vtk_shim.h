@@ -53,6 +53,13 @@ int shim_read_array(const char *path, char where, const char *name, char type[32
  * corner's colour. */
 int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_coloured[2]);
 
+/* The picture's pixels, rgb (3, width, height), the lower left corner first, for free(); NULL if it cannot be read. */
+unsigned char *shim_read_pixels(const char *path, int *width, int *height);
+
+/* Compares the outside of the volumes of a grid, as pictures draw it, with VTK's. Returns how many faces are only in one of them, or -1
+ * where the grid cannot be read; *n_faces gets how many the pictures have, *n_inwards how many look into their cell. */
+int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwards);
+
 /* Distances of points to triangles by VTK's own searches. */
 enum { SHIM_STATIC_LOCATOR, SHIM_CELL_LOCATOR, SHIM_IMPLICIT_DISTANCE };
 void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: where a picture is looked at from, and the boxes of what it shows. Out: what is in sight, for the camera and for what is drawn
+// beside the scene.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+class vtkCamera;
+class vtkPointSet;
+
+namespace riis::vtk {
+
+using Vector = std::array<double, 3>;
+
+struct Extent {
+  double lower, upper;
+  double middle() const { return 0.5 * lower + 0.5 * upper; }
+  double half() const { return 0.5 * upper - 0.5 * lower; }
+  bool contains(const Extent &other) const { return lower <= other.lower && other.upper <= upper; }
+  bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
+};
+
+// Along the axes of a view: to the right, upwards, away from the eye.
+using Extents = std::array<Extent, 3>;
+
+// A view without perspective, so that lengths can be compared: right, up, away are unit vectors, perpendicular to each other.
+struct View {
+  std::array<Vector, 3> axes;
+
+  explicit View(std::int32_t view);
+  const Vector &right() const { return axes[0]; }
+  const Vector &up() const { return axes[1]; }
+  const Vector &away() const { return axes[2]; }
+  Extents extents_of(vtkPointSet *data) const;
+};
+
+// The part of space that a panel shows, along the axes of its view.
+struct Sight {
+  Extents shown;                 // x and y to the panel's edges; depth of all there is
+  std::array<Extent, 2> uncut;   // x and y up to which a mesh is drawn that goes on further
+  std::array<bool, 2> cut_below; // whether it goes on to the left, downwards
+  std::array<bool, 2> cut_above; // to the right, upwards
+  bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
+};
+
+// The surface and, where it is not much larger, the mesh: pictures of a valve that moves in one mesh can then be compared. Of a mesh that
+// is much longer the surface's neighbourhood is shown. aspect is the panel's width over its height. mesh may be NULL.
+Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);
+
+void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
+
+}  // namespace riis::vtk
