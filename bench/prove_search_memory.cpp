@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its third part: the memory of the process stays while a small mesh is marked again and again, by every search,
-// with 1, 2 and 4 threads, on processors that other processes keep busy. There threads come late to a search of less than a
-// millisecond, and TBB keeps what it made for them. Prints a table; fails where memory grows. argv[1]: another number of markings.
+// ./run bench proof, its third part: the memory of the process stays while a small mesh is marked again and again, by every
+// search, with 1, 2 and 4 threads, on processors that other processes keep busy. There threads come late to a search of less
+// than a millisecond, and TBB keeps what it made for them. Prints a table; fails where memory grows.
+// argv[1]: another number of markings.
 // OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or all takes many times as long.
 #include <sched.h>
 #include <sys/prctl.h>
@@ -61,8 +62,8 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// When the handles of a marking are made: a solver keeps them, a solver whose mesh moves may make the mesh each time, and a subroutine
-// that keeps nothing between its calls makes all of them.
+// When the handles of a marking are made: a solver keeps them, a solver whose mesh moves may make the mesh each time, and a
+// subroutine that keeps nothing between its calls makes all of them.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {

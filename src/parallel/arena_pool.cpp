@@ -77,11 +77,11 @@ KeepsArenas::~KeepsArenas() {
   PooledArena *first = nullptr;
   {
     const std::lock_guard<std::mutex> lock(pool.mutex);
-    if (--pool.n_keepers > 0) return;
-    for (const PooledArena *arena = pool.idle; arena; arena = arena->next) --pool.n_arenas;
-    first = std::exchange(pool.idle, nullptr);
+    --pool.n_keepers;
     // A child of fork() has none of the workers, and TBB may wait there for what they held.
-    if (getpid() != pool.process) return;
+    if (pool.n_keepers > 0 || getpid() != pool.process) return;
+    first = std::exchange(pool.idle, nullptr);
+    for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;
   }
   if (first) destroy(first);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arenas that walks run in. An arena is kept after its walk, for the next one: TBB frees an arena only after the workers that
-// it called have come and have found nothing to do. On a busy machine they do not come to a short walk, and an arena for each walk
-// grew the process by some kilobytes a walk, for ever (TBB 2021.8).
+// The arenas that walks run in. An arena is kept after its walk, for the next one: TBB frees an arena only after the workers
+// that it called have come and have found nothing to do. On a busy machine they do not come to a short walk, and an arena for
+// each walk grew the process by some kilobytes a walk, for ever (TBB 2021.8).
 #pragma once
 
 #include <tbb/task_arena.h>

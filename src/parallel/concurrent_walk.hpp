@@ -24,8 +24,8 @@
 namespace riis {
 
 // An arena of up to n_threads threads, the calling one among them, lent by the pool for as long as this lives. TBB gives no more
-// threads than it may have in the process: where that is fewer it may have more for as long as this lives, unless it was the caller
-// who said so. An arena of more than there can be would be announced on stderr.
+// threads than it may have in the process: where that is fewer it may have more for as long as this lives, unless it was the
+// caller who said so. An arena of more than there can be would be announced on stderr.
 class Arena {
  public:
   explicit Arena(int n_threads) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Walks of src/parallel as several callers make them, with a C interface: a failed assertion leaves by longjmp, which must not cross
- * TBB's frames. A walk here takes 32 numbers and adds 32 more. It is right if it met each number once. */
+ * Walks of src/parallel as several callers make them, with a C interface: a failed assertion leaves by longjmp, which must not
+ * cross TBB's frames. A walk here takes 32 numbers and adds 32 more. It is right if it met each number once. */
 #ifndef RIIS_TEST_ARENAS_H
 #define RIIS_TEST_ARENAS_H
 
@@ -26,10 +26,11 @@ walk_seen walk_once(int n_threads);
 walk_seen walk_under_limit(int limit, int n_threads);
 /* Every body throws; 1 if the exception arrives. */
 int walk_that_throws(int n_threads);
-/* The caller has n_callers threads, and each makes n_walks walks with 2 and 3 threads by turns. All are inside their first walk, of
- * 2 threads, at the same time. 1 if all walks are right. */
+/* The caller has n_callers threads, and each makes n_walks walks with 2 and 3 threads by turns. All are inside their first walk,
+ * of 2 threads, at the same time. 1 if all walks are right. */
 int walk_at_once(int n_callers, int n_walks);
-/* Each of n_tasks tasks of the caller's own TBB walks, in an arena of four threads. 1 if all walks are right, and leave the arena. */
+/* Each of n_tasks tasks of the caller's own TBB walks, in an arena of four threads. 1 if all walks are right and the tasks stay in
+ * their arena. */
 int walk_in_tasks(int n_tasks);
 /* 1 if a sort by two threads is right. */
 int sort_once(void);

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What every test needs under the thread sanitizer: riis_test_environment, and time, riis_test_timeout.
+# What every test needs under the thread sanitizer: riis_test_environment.
 set(riis_test_environment "")
-set(riis_test_timeout 120)
 if(NOT RIIS_SANITIZE MATCHES "thread")
   return()
 endif()
@@ -19,4 +18,3 @@ set(riis_tsan_options ignore_noninstrumented_modules=1 history_size=7 external_s
   suppressions='${CMAKE_CURRENT_LIST_DIR}/suppressions.txt')
 list(JOIN riis_tsan_options " " riis_tsan_options)
 set(riis_test_environment "TSAN_OPTIONS=${riis_tsan_options}" "OMP_TOOL_LIBRARIES=${RIIS_ARCHER}")
-set(riis_test_timeout 480)
