@@ -236,11 +236,27 @@ std::vector<const char *> leaflet_names(const Options &options) {
   return {};
 }
 
+// Whether the valve is the paper's aortic valve as it stands there, which nobody should take for a closed one (docs/meshes.md).
+bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
+  if (!valve || options.valve != "aortic") return false;
+  int64_t n_parameters = 0;
+  check(riis_valve_n_parameters(valve, &n_parameters));
+  for (int64_t i = 0; i < n_parameters; ++i) {
+    riis_parameter parameter;
+    double values[3] = {0, 0, 0};
+    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+    if (!std::equal(values, values + 3, parameter.default_values)) return false;
+  }
+  return true;
+}
+
 // Of a file the name without its folders; of a kind of valve the name with a capital, like the other captions.
-std::string picture_title(const Report &report) {
+std::string picture_title(const Options &options, const riis_valve *valve, const Report &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);
   if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  if (is_papers_aortic_valve(options, valve)) title += " (the paper's, not closed)";
   return title;
 }
 
@@ -251,9 +267,9 @@ void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vt
   if (how.n_leaking_edges == 0 && leaks.n_cells_left_out == 0) how.leaking_edges = &none;
 }
 
-void draw_pictures(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh,
-                   const riis_mark_result *result, Report &report) {
-  const std::string title = picture_title(report);
+void draw_pictures(const Options &options, const riis_valve *valve, const riis_surface *surface,
+                   const riis_vtk_mesh *mesh, const riis_mark_result *result, Report &report) {
+  const std::string title = picture_title(options, valve, report);
   const std::vector<const char *> names = leaflet_names(options);
   std::vector<int32_t> views;
   std::vector<const char *> paths;
@@ -311,7 +327,7 @@ ExitCode run(const Options &options) {
     // The component draws the marks of these names; the file with the other ones is written.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance));
-    draw_pictures(options, surface.get(), mesh.get(), result.get(), report);
+    draw_pictures(options, valve.get(), surface.get(), mesh.get(), result.get(), report);
   } catch (const Refusal &) {
     // The marks are good all the same.
     write_stats(options, report);

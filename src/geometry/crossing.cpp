@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounds.hpp"
+
 namespace riis {
 namespace {
 
@@ -190,6 +192,13 @@ Vec3 without_negligible(Vec3 p) {
   return {keep(p.x), keep(p.y), keep(p.z)};
 }
 
+bool boxes_overlap(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
+  Bounds segment, triangle;
+  for (const Vec3 p : {a, b}) segment.add(p);
+  for (const Vec3 p : corners) triangle.add(p);
+  return overlap(segment, triangle);
+}
+
 }  // namespace
 
 bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
@@ -197,6 +206,7 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   b = without_negligible(b);
   const std::array<Vec3, 3> c = {without_negligible(corners[0]), without_negligible(corners[1]),
                                  without_negligible(corners[2])};
+  if (!boxes_overlap(a, b, c)) return false;
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);

@@ -52,11 +52,28 @@ struct alignas(64) Finder {
     return crosses;
   }
 
+  // False only where no point of the surface is within the radius of p: one query saves many. Rounding is counted more than once, that
+  // of p, too, which is somewhere near the surface.
+  bool may_be_within(Vec3 p, double radius) const {
+    const TriangleScene &scene = request->surface.scene();
+    return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
+  }
+
+  void search_block(const EdgeBlocks::Block &block, std::int64_t begin) {
+    const Bounds &bounds = block.bounds;
+    if (block.longest <= too_short || !overlap(bounds, request->surface.scene().bounds())) return;
+    if (!may_be_within(bounds.middle(), length(bounds.half_extent()))) return;
+    const std::int64_t end = std::min(begin + EdgeBlocks::rows_per_block, request->mesh.nodes().n);
+    for (std::int64_t i = begin; i < end; ++i) search_row(i);
+  }
+
   void search_row(std::int64_t i) {
     const StridedPoints &nodes = request->mesh.nodes();
     const Adjacency &adjacency = *request->mesh.adjacency();
-    if (!is_open(i)) return;
     const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+    double longest = 0;
+    adjacency.for_each_neighbor(i, [&](std::int64_t j) { longest = std::max(longest, distance(p, nodes[j])); });
+    if (longest <= too_short || !is_open(i) || !may_be_within(p, longest)) return;
     adjacency.for_each_neighbor(i, [&](std::int64_t j) {
       if (j < i && adjacency.has_neighbor(j, i)) return;  // found in that row
       const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
@@ -81,15 +98,10 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const MarkResult &
     finder.too_short = too_short;
   }
   const auto n_blocks = static_cast<std::int64_t>(edges.blocks.size());
-  const std::int64_t n_nodes = request.mesh.nodes().n;
   const auto search = [&](const Range &range, int thread) {
-    for (std::int64_t k = range.begin; k < range.end; ++k) {
-      const EdgeBlocks::Block &block = edges.blocks[static_cast<std::size_t>(k)];
-      if (block.longest <= too_short || !overlap(block.bounds, request.surface.scene().bounds())) continue;
-      const std::int64_t begin = k * EdgeBlocks::rows_per_block;
-      const std::int64_t end = std::min(begin + EdgeBlocks::rows_per_block, n_nodes);
-      for (std::int64_t i = begin; i < end; ++i) finders[static_cast<std::size_t>(thread)].search_row(i);
-    }
+    for (std::int64_t k = range.begin; k < range.end; ++k)
+      finders[static_cast<std::size_t>(thread)].search_block(edges.blocks[static_cast<std::size_t>(k)],
+                                                             k * EdgeBlocks::rows_per_block);
   };
   parallel_for_ranges(n_blocks, blocks_per_task, request.n_threads, search);
   for (const Finder &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());

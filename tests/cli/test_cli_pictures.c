@@ -2,9 +2,11 @@
  *
  * --picture: without a display one line and exit code 1, not an abort; with one, a file for each, each with its view.
  */
+#include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "expect.h"
 #include "program.h"
 #include "scratch.h"
 #include "virtual_display.h"
@@ -75,12 +77,40 @@ static void test_pictures(void **state) {
   assert_true(same_file("3.png", "5.png"));
 }
 
+/* A picture by the program, and one by the C interface with the title that it should have. */
+static void expect_title(const char *title, const char *setting, const char *value) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_vtk_picture_options options;
+  static const char *const names[3] = {"right", "left", "non-coronary"};
+  RUN_FINE("--picture", scratch_path("by_program.png"), setting, value);
+  expect_fine(riis_valve_create("aortic", &valve));
+  if (strcmp(value, "leaflet_angle=60") == 0) expect_fine(riis_valve_set_scalar(valve, "leaflet_angle", 60));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.title = title;
+  options.leaflet_names = names;
+  options.n_leaflet_names = 3;
+  expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
+  assert_true(same_file("by_program.png", "by_c.png"));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+/* Nobody is to take the paper's aortic valve for a closed one. */
+static void test_titles(void **state) {
+  (void)state;
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
+  expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
+}
+
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_without_display),
       cmocka_unit_test(test_pictures),
+      cmocka_unit_test(test_titles),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// ./run bench leaks: how fine a mesh must be, as the tables of docs/meshes.md. Edges that cross a closed valve and leak, against the
+// longest edge; what of the aortic valve's cross-section its triangles leave open; what riis_find_leaks costs beside a marking.
+// argv[1], if there is one: thousands of nodes for the last. Random places are those of printed seeds.
+#include <riis/riis.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "cylinder.hpp"
+
+namespace {
+
+using namespace bench;
+using Point = std::array<double, 3>;
+
+constexpr double half_thickness = 0.1;
+constexpr int n_seeds = 5;
+
+Surface surface_of(const char *kind, double opening) {
+  const Valve valve = make_valve(kind);
+  check(riis_valve_set_scalar(valve.get(), "opening", opening));
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve.get(), nullptr, &surface));
+  return Surface(surface);
+}
+
+riis_surface_info info_of(const Surface &surface) {
+  riis_surface_info info;
+  check(riis_surface_get_info(surface.get(), &info, sizeof info));
+  return info;
+}
+
+// The same triangles with another half thickness.
+Surface with_half_thickness(const Surface &surface, double thickness) {
+  riis_surface_arrays arrays;
+  check(riis_surface_arrays_init(&arrays, sizeof arrays));
+  const double *xyz = nullptr;
+  const std::int64_t *ids = nullptr;
+  check(riis_surface_vertices(surface.get(), &arrays.n_vertices, &xyz));
+  check(riis_surface_triangles(surface.get(), &arrays.n_faces, &ids, nullptr, nullptr, nullptr));
+  arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
+  arrays.stride = 3;
+  arrays.vertex_ids = ids;
+  arrays.vertex_id_bits = 64;
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = thickness;
+  riis_surface *made = nullptr;
+  check(riis_surface_create_from_arrays(&arrays, &options, &made));
+  return Surface(made);
+}
+
+// A cube of nodes at the corners and in the middles of small cubes, turned and shifted at random; cut into tetrahedra all alike, whose
+// edges are the cubes' own, of this length, and 0.87 times that from a middle to the eight corners round it.
+struct Crystal {
+  std::vector<double> xyz;
+  std::vector<std::int64_t> offsets{0}, columns;
+  std::int64_t n = 0;
+};
+
+std::array<Point, 3> random_rotation(std::mt19937_64 &random) {
+  std::normal_distribution<double> normal;
+  double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+  const double length = std::sqrt(w * w + x * x + y * y + z * z);
+  w /= length, x /= length, y /= length, z /= length;
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+           {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+           {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
+}
+
+Crystal crystal_round(const riis_surface_info &info, double edge, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const std::array<Point, 3> rotation = random_rotation(random);
+  std::uniform_real_distribution<double> share(0, 1);
+  double reach = 0;  // of a ball round the surface
+  Point middle, shift;
+  for (std::size_t i = 0; i < 3; ++i) {
+    middle[i] = 0.5 * (info.lower[i] + info.upper[i]);
+    reach += std::pow(info.upper[i] - middle[i], 2);
+    shift[i] = share(random);
+  }
+  const auto half = static_cast<std::int64_t>(std::sqrt(reach) / edge) + 3;
+  const std::int64_t side = 2 * half + 1, n_corners = side * side * side;
+  Crystal made;
+  made.n = 2 * n_corners;  // corners, then middles
+  for (std::int64_t i = 0; i < made.n; ++i) {
+    const bool is_middle = i >= n_corners;
+    const std::int64_t k = i % n_corners, at[3] = {k % side, k / side % side, k / side / side};
+    Point q;
+    for (std::size_t c = 0; c < 3; ++c)
+      q[c] = edge * (static_cast<double>(at[c] - half) + shift[c] + (is_middle ? 0.5 : 0));
+    for (std::size_t c = 0; c < 3; ++c)
+      made.xyz.push_back(middle[c] + rotation[c][0] * q[0] + rotation[c][1] * q[1] + rotation[c][2] * q[2]);
+    const auto join = [&](std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t first) {
+      if (x >= 0 && y >= 0 && z >= 0 && x < side && y < side && z < side)
+        made.columns.push_back(first + x + side * (y + side * z));
+    };
+    for (int step : {-1, 1}) {
+      join(at[0] + step, at[1], at[2], is_middle ? n_corners : 0);
+      join(at[0], at[1] + step, at[2], is_middle ? n_corners : 0);
+      join(at[0], at[1], at[2] + step, is_middle ? n_corners : 0);
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      const int to = is_middle ? 0 : -1;
+      join(at[0] + to + corner % 2, at[1] + to + corner / 2 % 2, at[2] + to + corner / 4, is_middle ? 0 : n_corners);
+    }
+    made.offsets.push_back(static_cast<std::int64_t>(made.columns.size()));
+  }
+  return made;
+}
+
+Mesh mesh_over(const Crystal &crystal) {
+  riis_mesh *mesh = nullptr;
+  const double *xyz = crystal.xyz.data();
+  check(riis_mesh_create(crystal.n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  riis_csr rows;
+  check(riis_csr_init(&rows, sizeof rows));
+  rows.n_rows = crystal.n;
+  rows.offsets = crystal.offsets.data();
+  rows.columns = crystal.columns.data();
+  rows.offset_bits = rows.column_bits = 64;
+  check(riis_mesh_set_adjacency(mesh, &rows));
+  return Mesh(mesh);
+}
+
+riis_leaks leaks_of(const Surface &surface, const Mesh &mesh) {
+  const Result result = make_result();
+  riis_leaks leaks;
+  check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));
+  check(riis_find_leaks(surface.get(), mesh.get(), nullptr, result.get(), &leaks, sizeof leaks));
+  return leaks;
+}
+
+void print_leaks(const char *kind) {
+  const Surface surface = surface_of(kind, 0), thin = with_half_thickness(surface, 1e-9);
+  const riis_surface_info info = info_of(surface);
+  for (const double ratio : {0.8, 1.0, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0, 3.0}) {
+    std::int64_t n_crossing = 0, n_leaking = 0;
+    double closing = 0;
+    for (std::uint64_t seed = 1; seed <= n_seeds; ++seed) {
+      const Crystal crystal = crystal_round(info, 2 * half_thickness * ratio, seed);
+      const Mesh mesh = mesh_over(crystal);
+      const riis_leaks leaks = leaks_of(surface, mesh);
+      n_crossing += leaks_of(thin, mesh).n_edges;
+      n_leaking += leaks.n_edges;
+      closing = std::max(closing, leaks.half_thickness);
+    }
+    std::printf("| %s | %.2f | %lld | %lld | %.3g %% | %s |\n", kind, 2 * ratio, static_cast<long long>(n_crossing),
+                static_cast<long long>(n_leaking),
+                100 * static_cast<double>(n_leaking) / static_cast<double>(n_crossing),
+                n_leaking ? (std::to_string(closing / half_thickness).substr(0, 4)).c_str() : "-");
+  }
+}
+
+// The share of a disc round the axis that no triangle covers, seen along the axis: on a square grid of points.
+double open_share(const Surface &surface, double radius, int n_per_radius) {
+  const int side = 2 * n_per_radius + 1;
+  const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };
+  std::vector<char> is_covered(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  std::int64_t n = 0;
+  const double *xyz = nullptr;
+  const std::int64_t *ids = nullptr;
+  check(riis_surface_vertices(surface.get(), nullptr, &xyz));
+  check(riis_surface_triangles(surface.get(), &n, &ids, nullptr, nullptr, nullptr));
+  for (std::int64_t t = 0; t < n; ++t) {
+    const double *a = xyz + 3 * ids[3 * t], *b = xyz + 3 * ids[3 * t + 1], *c = xyz + 3 * ids[3 * t + 2];
+    const auto to_grid = [&](double x) { return x / radius * n_per_radius + n_per_radius; };
+    const auto from = [&](int k) {
+      return std::max(0, static_cast<int>(std::floor(to_grid(std::min({a[k], b[k], c[k]})))));
+    };
+    const auto to = [&](int k) {
+      return std::min(side - 1, static_cast<int>(std::ceil(to_grid(std::max({a[k], b[k], c[k]})))));
+    };
+    const auto turn = [](const double *p, const double *q, double x, double y) {
+      return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+    };
+    for (int j = from(1); j <= to(1); ++j)
+      for (int i = from(0); i <= to(0); ++i) {
+        const double u = turn(a, b, place(i), place(j)), v = turn(b, c, place(i), place(j)),
+                     w = turn(c, a, place(i), place(j));
+        if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))
+          is_covered[static_cast<std::size_t>(i) + static_cast<std::size_t>(side) * static_cast<std::size_t>(j)] = 1;
+      }
+  }
+  std::int64_t n_disc = 0, n_open = 0;
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) {
+      if (std::hypot(place(i), place(j)) > radius) continue;
+      ++n_disc;
+      n_open += !is_covered[static_cast<std::size_t>(i) + static_cast<std::size_t>(side) * static_cast<std::size_t>(j)];
+    }
+  return static_cast<double>(n_open) / static_cast<double>(n_disc);
+}
+
+double shortest(
+    const std::function<void()> &call, const std::function<void()> &before = [] {}) {
+  double least = 1e300;
+  for (int i = 0; i < 7; ++i) {
+    before();
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return 1e3 * least;
+}
+
+// In milliseconds: a marking by clusters, a first search for leaks, and one when the edges are known.
+void print_cost(double thickness, const CylinderMesh &nodes) {
+  const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
+  const double *xyz = nodes.xyz().data();
+  riis_mesh *handle = nullptr;
+  check(riis_mesh_create(nodes.n_nodes(), xyz, xyz + 1, xyz + 2, 3, &handle));
+  const Mesh mesh(handle);
+  const riis_csr rows = nodes.rows();
+  const Result result = make_result();
+  riis_mark_options options;
+  check(riis_mark_options_init(&options, sizeof options));
+  options.n_threads = 1;
+  check(riis_mesh_prepare(mesh.get(), 1));
+  const double marking = shortest([&] { check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get())); });
+  riis_leaks leaks;
+  const auto find = [&] {
+    check(riis_find_leaks(surface.get(), mesh.get(), &options, result.get(), &leaks, sizeof leaks));
+  };
+  const double first = shortest(find, [&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); });
+  std::printf("| %g | %lld | %.2f | %.1f | %.3f |\n", thickness, static_cast<long long>(leaks.n_edges), marking, first,
+              shortest(find));
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const std::int64_t about_n_nodes = 1000 * (argc > 1 ? std::strtoll(argv[1], nullptr, 10) : 1000);
+  if (about_n_nodes < 1000) {
+    std::fprintf(stderr, "%s: not a number of thousands of nodes: %s\n", argv[0], argv[1]);
+    return 2;
+  }
+  std::printf(
+      "Closed valves, seeds 1 to %d:\n\n| valve | longest edge / half thickness | edges across | of these leak | share "
+      "| closed by, half thicknesses |\n|---|---|---|---|---|---|\n",
+      n_seeds);
+  print_leaks("mitral");
+  print_leaks("aortic");
+  std::printf(
+      "\nAortic valve at opening 0, seen along its axis: of a disc of radius\n\n| radius | is open |\n|---|---|\n");
+  const Surface aortic = surface_of("aortic", 0);
+  for (const double radius : {0.6, 0.9, 1.2})
+    std::printf("| %.1f | %.1f %% |\n", radius, 100 * open_share(aortic, radius, 1200));
+  std::printf(
+      "\nAortic valve, about %lld nodes, 1 thread, milliseconds:\n\n| half thickness | edges that leak | marking | "
+      "first "
+      "riis_find_leaks | later ones |\n|---|---|---|---|---|\n",
+      static_cast<long long>(about_n_nodes));
+  const CylinderMesh nodes(cylinders[0], about_n_nodes);
+  for (const double thickness : {0.1, 0.01}) print_cost(thickness, nodes);
+  return 0;
+}
