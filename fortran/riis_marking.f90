@@ -27,6 +27,7 @@ module riis_marking
     generic :: nodes_within_limit => within_int32, within_int64         !< Copies of those within the limit, counted from 1.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< One entry a node, into the caller's arrays.
     procedure, non_overridable :: get_stats => result_get_stats         !< How the last marking went.
+    procedure, non_overridable :: leaking_edges => result_leaking_edges !< Pointers to what riis_find_leaks found.
     procedure, non_overridable :: is_created => result_is_created       !< Whether there is anything in it.
     procedure, non_overridable :: c_handle => result_c_handle           !< For calls of riis_c.
     procedure, non_overridable :: destroy => result_destroy             !< Frees what it holds.
@@ -57,7 +58,7 @@ module riis_marking
   ! What a pointer points to where there is nothing: its size can be asked for.
   real(c_double), target, save :: no_reals(0)
   integer(int32), target, save :: no_int32(0)
-  integer(int64), target, save :: no_int64(0)
+  integer(int64), target, save :: no_int64(0), no_edges(2, 0)
 
 contains
 
@@ -510,6 +511,39 @@ contains
     if (code == RIIS_OK) code = riis_mark_result_stats(this%handle, stats, c_sizeof(stats))
     call finish(code, status)
   end subroutine result_get_stats
+
+  !> Points to the result's own arrays of the edges that riis_find_leaks found last, ascending: no copy. Valid until the next
+  !! riis_find_leaks or riis_mark_nodes with the result or its destruction; not to be written to. With no such edge, and on an
+  !! error, their sizes are 0.
+  subroutine result_leaking_edges(this, node_id, length, distance, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_find_leaks.
+    integer(int64), pointer, intent(out), optional :: node_id(:, :) !< (2, n), from 0: node_id + 1 are columns of xyz.
+    real(c_double), pointer, intent(out), optional :: length(:) !< (n), mesh units.
+    real(c_double), pointer, intent(out), optional :: distance(:) !< (n): of the nearer of its nodes, mesh units.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_ptr) :: ids, lengths, distances
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = 0
+    ids = c_null_ptr
+    lengths = c_null_ptr
+    distances = c_null_ptr
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = riis_mark_result_leaking_edges(this%handle, n, ids, lengths, distances)
+    if (present(node_id)) then
+      node_id => no_edges
+      if (n > 0) call c_f_pointer(ids, node_id, [2_int64, n])
+    end if
+    if (present(length)) then
+      length => no_reals
+      if (n > 0) call c_f_pointer(lengths, length, [n])
+    end if
+    if (present(distance)) then
+      distance => no_reals
+      if (n > 0) call c_f_pointer(distances, distance, [n])
+    end if
+    call finish(code, status)
+  end subroutine result_leaking_edges
 
   !> Whether there is anything in the result.
   pure function result_is_created(this) result(is_created)

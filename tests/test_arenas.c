@@ -28,7 +28,6 @@ static void one_caller_has_one_arena(void **state) {
   (void)state;
   for (int i = 0; i < 200; ++i) {
     expect_walk(walk_once(2), 2);
-    assert_true(sort_once());
   }
   assert_int_equal(arenas_made(), 1);
   assert_true(walk_once(1).is_right); /* without TBB */

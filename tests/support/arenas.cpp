@@ -114,15 +114,6 @@ int walk_in_tasks(int n_tasks) {
   return is_right;
 }
 
-int sort_once() {
-  std::vector<int> values(5000);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int>(i * 7919 % values.size());
-  riis::concurrent_sort(values.begin(), values.end(), 2, std::less<int>());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] != static_cast<int>(i)) return 0;
-  return 1;
-}
-
 int end_tbb() {
   tbb::task_scheduler_handle handle{tbb::attach{}};
   return tbb::finalize(handle, std::nothrow);

@@ -32,8 +32,6 @@ int walk_at_once(int n_callers, int n_walks);
 /* Each of n_tasks tasks of the caller's own TBB walks, in an arena of four threads. 1 if all walks are right and the tasks stay in
  * their arena. */
 int walk_in_tasks(int n_tasks);
-/* 1 if a sort by two threads is right. */
-int sort_once(void);
 /* 1 if TBB can be ended, which it refuses while there are arenas. */
 int end_tbb(void);
 
