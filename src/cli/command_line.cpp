@@ -172,7 +172,7 @@ void declare_marking(CLI::App &app, Texts &texts) {
 
 void declare_steps(CLI::App &app, Texts &texts) {
   app.add_option("--steps", texts.steps,
-                 "Then move the opening N times by 0.02, mark after each, and say what one of these steps costs")
+                 "Also time N steps of a moving valve: the opening changes by 0.02, the nodes are marked again")
       ->type_name("N")
       ->group("Marking")
       ->excludes(app.get_option("--surface"));
@@ -300,7 +300,8 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
                                                       "--set",          "--opening", "--quiet"};
   static const std::set<std::string> of_mesh = {
       "--output",         "--stats",        "--search",   "--threads",
-      "--distance-limit", "--far-distance", "--distance", "--distance-tolerance", "--steps"};
+      "--distance-limit", "--far-distance", "--distance", "--distance-tolerance",
+      "--steps"};
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {
     const std::string name = option->get_name();
