@@ -249,7 +249,7 @@ void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();
   for (auto _ : state) {
-    const riis::Mesh fresh(riis::StridedPoints{mesh.n_nodes(), xyz, xyz + 1, xyz + 2, 3});
+    const riis::Mesh fresh(riis::StridedPoints{mesh.n_nodes(), xyz, xyz + 1, xyz + 2, 3}, riis::Bounds());
     benchmark::DoNotOptimize(&fresh.balls(threads_of(state)));
   }
   state.counters["nodes"] = static_cast<double>(mesh.n_nodes());

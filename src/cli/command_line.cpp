@@ -211,7 +211,7 @@ void declare_marking(CLI::App &app, Texts &texts) {
 
 void declare_steps(CLI::App &app, Texts &texts) {
   app.add_option("--steps", texts.steps,
-                 "Then move the opening N times by 0.02, mark after each, and say what one of these steps costs")
+                 "Also time N steps of a moving valve: the opening changes by 0.02, the nodes are marked again")
       ->type_name("N")
       ->group("Marking")
       ->excludes(app.get_option("--surface"));

@@ -79,9 +79,9 @@ void add_seconds(const Seconds &seconds, std::ostringstream &out) {
 }
 
 void add_step(const StepTimes &step, std::ostringstream &out) {
-  out << std::setprecision(6) << "step      " << step.surface + step.marking << " s: surface " << step.surface << ", search "
-      << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat << opening_of_step
-      << " in opening, search " << search_name(step.search) << "\n";
+  out << std::setprecision(6) << "step      " << step.surface + step.marking << " s: surface " << step.surface
+      << ", search " << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat
+      << opening_of_step << " in opening, search " << search_name(step.search) << "\n";
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void set_opening(riis_valve *valve, double opening) { check(riis_valve_set_scalar(valve, "opening", opening), "--steps"); }
+void set_opening(riis_valve *valve, double opening) {
+  check(riis_valve_set_scalar(valve, "opening", opening), "--steps");
+}
 
 // The opening goes up to 1 and down to 0 again, wherever it begins.
 class Swing {
@@ -102,7 +104,8 @@ StepTimes time_steps(const Options &options, riis_valve *valve, const riis_vtk_m
     set_opening(valve, swing.next());
     check(riis_surface_update(steps.surface.get(), valve, nullptr), "--steps");
     const double updated = seconds_since(begin);
-    check(riis_mark_nodes(steps.surface.get(), steps.mesh.get(), &options.mark_options, steps.result.get()), options.mesh);
+    check(riis_mark_nodes(steps.surface.get(), steps.mesh.get(), &options.mark_options, steps.result.get()),
+          options.mesh);
     const double marked = seconds_since(begin);
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);

@@ -13,15 +13,15 @@ namespace riis::cli {
 // Of one step, as medians.
 struct StepTimes {
   std::int32_t n_steps;
-  std::int32_t search;  // RIIS_SEARCH_*
+  std::int32_t search;      // RIIS_SEARCH_*
   double surface, marking;  // seconds
 };
 
 // How far the opening moves in a step: a valve that opens within 50 steps.
 inline constexpr double opening_of_step = 0.02;
 
-// Moves the opening to and fro between 0 and 1, and marks the nodes of the file anew after each step. The valve is as before afterwards;
-// marks of other results do not change. Throws a Refusal for a valve that cannot move.
+// Moves the opening to and fro between 0 and 1 and marks the nodes of the file after each step. The valve is as before
+// afterwards; other surfaces and results do not change. Throws a Refusal for a valve that cannot move.
 StepTimes time_steps(const Options &options, riis_valve *valve, const riis_vtk_mesh *file);
 
 }  // namespace riis::cli

@@ -61,8 +61,8 @@ void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOut
 }
 
 // What a picture says of itself, all but what changes with its view.
-std::vector<PanelTexts> texts_of(const riis_vtk_picture_options &options, const SurfacePanel &surface, vtkIdType n_triangles,
-                                 const MarkCounts *marks) {
+std::vector<PanelTexts> texts_of(const riis_vtk_picture_options &options, const SurfacePanel &surface,
+                                 vtkIdType n_triangles, const MarkCounts *marks) {
   const std::string title = options.title ? drawable(options.title) : "Surface";
   std::vector<PanelTexts> panels = {{{title + ": " + counted(n_triangles, "triangle")}, {}}};
   for (const vtkIdType leaflet : surface.leaflets) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK has two filters for this; both take several times as long as all else of a picture.
+// VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, take longer than all else of a picture.
 #include "vtk/picture_faces.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using Corners = std::vector<vtkIdType>;
 
-// Corners of the faces of one type of cells, seen from outside against the clock; triangles end with -1.
+// The corners of the faces of one type of cells, anticlockwise seen from outside; triangles end with -1.
 using FaceTable = std::vector<std::array<int, 4>>;
 
 const FaceTable *faces_of_type(int type) {
@@ -47,7 +47,7 @@ const FaceTable *faces_of_type(int type) {
   }
 }
 
-// The cells of a grid as polygons of corners. VTK answers for the types that no table above has.
+// A grid's cells as polygons of corners. VTK describes the types that no table above has.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -111,7 +111,7 @@ struct Face {
   int number;  // in its cell
 };
 
-// Faces that were seen once so far. Neighbours mostly follow each other in a mesh, so few are kept at a time.
+// The faces of one cell only, so far. Neighbours mostly follow each other in a mesh, so this keeps few faces at a time.
 class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
@@ -139,7 +139,8 @@ class LoneFaces {
   template <class Visit>
   void for_each(Visit &&visit) const {
     for (std::int64_t at : first_) {
-      for (; at >= 0; at = entries_[static_cast<std::size_t>(at)].next) visit(entries_[static_cast<std::size_t>(at)].face);
+      for (; at >= 0; at = entries_[static_cast<std::size_t>(at)].next)
+        visit(entries_[static_cast<std::size_t>(at)].face);
     }
   }
 
@@ -200,7 +201,7 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Turns a face over that is seen with the clock from outside of its cell, as those of a cell that is inside out are.
+// Turns a face over whose corners run clockwise seen from outside of its cell. A cell that is inside out has such faces.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);

@@ -15,7 +15,7 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// What the cells of a grid are: points, lines, flat cells or volumes. Where there are volumes, flat cells are their boundary or less.
+// The dimensions of a grid's cells. In a grid with volumes, flat cells repeat the boundary and are not drawn.
 class CellDimensions {
  public:
   explicit CellDimensions(vtkUnstructuredGrid *grid);
@@ -31,12 +31,13 @@ class CellDimensions {
 struct Outside {
   vtkSmartPointer<vtkPolyData> faces;  // with the points that the faces use, no others
   std::vector<vtkIdType> cell_id;      // of each face the cell that it belongs to
-  bool of_volumes = false;             // the corners of each face then run against the clock, seen from outside
+  bool of_volumes = false;             // corners then run anticlockwise, seen from outside
 };
 
-// Volumes give the faces that no other wanted volume has; where the grid has no volumes, flat cells are faces themselves. Other cells
-// give none. wanted is by cell; with face_wanted only the faces of such cells are kept. NULL: all.
-// Only corners count: faces of cells of higher order are drawn straight.
+// Volumes give the faces that no other wanted volume has. In a grid without volumes, each flat cell is a face.
+// Faces of cells of higher order become straight, between their corners.
+//   wanted       by cell; NULL: all
+//   face_wanted  by cell: only faces of these cells are kept; NULL: all
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,
                    const std::vector<std::uint8_t> *face_wanted);
 

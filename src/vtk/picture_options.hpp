@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the caller's picture options, of whatever release. Out: the options of this one, checked, or a failure that names the field and its
-// value.
+// In: the caller's picture options, of whatever release. Out: the options of this release, checked. A failure names the
+// field and its value.
 #pragma once
 
 #include <riis/riis_vtk.h>

@@ -193,15 +193,16 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   const std::vector<std::uint8_t> marked = marked_nodes(grid);
   std::vector<std::uint8_t> parts = marked_parts(grid, marked);
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
-             std::count(parts.begin(), parts.end(), whole_marked), std::count(parts.begin(), parts.end(), partly_marked)};
-  // The partly marked cells lie around the whole ones: of their faces those that no cell of either kind has.
+             std::count(parts.begin(), parts.end(), whole_marked),
+             std::count(parts.begin(), parts.end(), partly_marked)};
+  // The partly marked cells lie around the whole ones. Faces between the two kinds are never seen.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces towards the eye would hide the whole cells. Those away from it show around whole cells, and where these leave a hole.
+  // Faces towards the eye would hide the whole cells. The other faces show around whole cells and in gaps between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

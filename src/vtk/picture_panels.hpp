@@ -39,15 +39,15 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // of which some are, not all
 };
 
-// Marked cells, whole ones in the colour of their closest node's leaflet, partly marked ones paler, edges that leak in red, in the faint
-// boundary of the mesh. Cells of less than the grid's largest dimension are left out.
+// Marked cells in the faint boundary of the mesh. A cell has the colour of its closest node's leaflet; a partly marked
+// cell is paler. Edges that leak are red. Cells of less than the grid's largest dimension are left out.
 class MarksPanel {
  public:
   // The grid has the marking's point arrays. leaking_edges(2, n_leaking_edges) are node ids, checked.
   MarksPanel(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges, double pixels);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }
-  // Turns to a view: cuts a mesh that goes on beyond the panel, and puts what leaks before all else.
+  // Turns to a view: cuts a mesh that goes on beyond the panel, and moves leaking edges before all else.
   void look(const View &view, const Sight &sight);
 
  private:
@@ -57,8 +57,8 @@ class MarksPanel {
 
   vtkSmartPointer<vtkRenderer> renderer_;
   MarkCounts counts_;
-  double pixels_;             // the width of a line
-  double partly_length_ = 0;  // of the edges of partly marked cells, on average
+  double pixels_;                                                    // the width of a line
+  double partly_length_ = 0;                                         // of the edges of partly marked cells, on average
   vtkSmartPointer<vtkActor> partly_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
 };
 

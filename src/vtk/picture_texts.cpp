@@ -126,8 +126,9 @@ void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, d
 
 void add_caption(vtkRenderer *renderer, const Layout &layout, int panel, const std::vector<std::string> &lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    add_fitting_text(renderer, lines[i], layout.panel_left(panel) + layout.margin(), layout.caption_line(static_cast<int>(i)),
-                     layout.panel_width() - 2 * layout.margin(), layout.letter());
+    add_fitting_text(renderer, lines[i], layout.panel_left(panel) + layout.margin(),
+                     layout.caption_line(static_cast<int>(i)), layout.panel_width() - 2 * layout.margin(),
+                     layout.letter());
   }
 }
 
@@ -151,7 +152,10 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left
 }  // namespace
 
 Layout::Layout(int width, int height, int n_panels)
-    : width_(width), height_(height), n_panels_(n_panels), letter_(std::max(8, std::min(height / 36, width / n_panels / 32))) {
+    : width_(width),
+      height_(height),
+      n_panels_(n_panels),
+      letter_(std::max(8, std::min(height / 36, width / n_panels / 32))) {
   if (height < least_height_with_texts) return;
   top_ = (1.6 * n_panels + 0.6) * letter_;
   bottom_ = 3.8 * letter_;
@@ -164,8 +168,8 @@ std::array<double, 4> Layout::viewport(int panel) const {
 
 double Layout::line_width() const { return std::max(1.0, height_ / 500.0); }
 
-vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels, const View &view,
-                                              const Sight &sight, const std::string &unit) {
+vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
+                                              const View &view, const Sight &sight, const std::string &unit) {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetBackground(1, 1, 1);
   if (!layout.has_texts()) return renderer;
@@ -195,7 +199,9 @@ std::string grouped(vtkIdType n) {
   return digits;
 }
 
-std::string counted(vtkIdType n, const std::string &singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
+std::string counted(vtkIdType n, const std::string &singular) {
+  return grouped(n) + " " + singular + (n == 1 ? "" : "s");
+}
 
 double round_length(double limit) {
   const double power = std::pow(10, std::floor(std::log10(limit)));

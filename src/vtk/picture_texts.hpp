@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what is to be said of a picture. Out: the bands above and below its panels, with captions, the key of colours, axes and a scale bar.
+// In: what a picture says. Out: the bands above and below its panels, with captions, the key of colours, axes and a
+// scale bar.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -49,8 +50,8 @@ struct PanelTexts {
 };
 
 // All texts of a picture, behind its panels. unit follows the number at the scale bar.
-vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels, const View &view,
-                                              const Sight &sight, const std::string &unit);
+vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
+                                              const View &view, const Sight &sight, const std::string &unit);
 
 // What VTK can draw of a text in one line: it knows other letters than ASCII only as UTF-8.
 std::string drawable(std::string text);

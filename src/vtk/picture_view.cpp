@@ -14,9 +14,9 @@ namespace riis::vtk {
 namespace {
 
 constexpr double not_much_larger = 1.6;
-constexpr double margin = 1.08;         // of the whole picture around what it fits
-constexpr double neighbourhood = 1.3;   // around the surface where the mesh goes on
-constexpr double cut_at = 0.94;         // of the way from the middle to the panel's edge
+constexpr double margin = 1.08;        // of the whole picture around what it fits
+constexpr double neighbourhood = 1.3;  // around the surface where the mesh goes on
+constexpr double cut_at = 0.94;        // of the way from the middle to the panel's edge
 
 Extent hull(const Extent &a, const Extent &b) { return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)}; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: where a picture is looked at from, and the boxes of what it shows. Out: what is in sight, for the camera and for what is drawn
-// beside the scene.
+// In: where the eye is, and the extents of the surface and the mesh. Out: what is in sight, for the camera, the cut and
+// the scale bar.
 #pragma once
 
 #include <array>
@@ -37,15 +37,17 @@ struct View {
 
 // The part of space that a panel shows, along the axes of its view.
 struct Sight {
-  Extents shown;                 // x and y to the panel's edges; depth of all there is
-  std::array<Extent, 2> uncut;   // x and y up to which a mesh is drawn that goes on further
-  std::array<bool, 2> cut_below; // whether it goes on to the left, downwards
-  std::array<bool, 2> cut_above; // to the right, upwards
+  Extents shown;                  // x and y to the panel's edges; depth of all there is
+  std::array<Extent, 2> uncut;    // x and y up to which a mesh is drawn that goes on further
+  std::array<bool, 2> cut_below;  // whether it goes on to the left, downwards
+  std::array<bool, 2> cut_above;  // to the right, upwards
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// The surface and, where it is not much larger, the mesh: pictures of a valve that moves in one mesh can then be compared. Of a mesh that
-// is much longer the surface's neighbourhood is shown. aspect is the panel's width over its height. mesh may be NULL.
+// The sight holds the surface. It also holds the mesh along each axis where the mesh is not much larger, so that pictures
+// of a valve that moves in one mesh can be compared. Along other axes it holds the surface's neighbourhood.
+//   mesh    NULL: none
+//   aspect  the panel's width over its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);

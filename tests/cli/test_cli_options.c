@@ -45,6 +45,7 @@ static void test_help(void **state) {
                          "clusters or paper",
                          "auto is exhaustive",
                          "--threads",
+                         "--steps",
                          "--output",
                          "--surface-output",
                          "--picture",

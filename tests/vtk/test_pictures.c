@@ -16,29 +16,36 @@
 static riis_surface *surface;
 static riis_vtk_mesh *mesh;
 
+/* A box of n x n x n nodes, marked. */
+static riis_vtk_mesh *marked_box(const char *name, int n, const double lower[3], const double upper[3]) {
+  riis_vtk_mesh *box = NULL;
+  riis_mesh *nodes = NULL;
+  riis_mark_result *result = NULL;
+  int64_t n_nodes = 0;
+  const double *xyz = NULL;
+  assert_int_equal(shim_write_box(scratch_path(name), SHIM_RAW, n, lower, upper, 0), 1);
+  expect_fine(riis_vtk_mesh_read(scratch_path(name), &box));
+  expect_fine(riis_vtk_mesh_nodes(box, &n_nodes, NULL, &xyz));
+  expect_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &nodes));
+  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
+  expect_fine(riis_vtk_mesh_set_marks(box, result, -1));
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&nodes);
+  return box;
+}
+
 static int make_all(void **state) {
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
   riis_valve *valve = NULL;
-  riis_mesh *nodes = NULL;
-  riis_mark_result *result = NULL;
   riis_surface_options options;
-  int64_t n = 0;
-  const double *xyz = NULL;
   scratch_setup(state);
   expect_fine(riis_valve_create("aortic", &valve));
   expect_fine(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = 0.2;
   expect_fine(riis_surface_create(valve, &options, &surface));
   riis_valve_destroy(&valve);
-  assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, 21, lower, upper, 0), 1);
-  expect_fine(riis_vtk_mesh_read(scratch_path("in.vtu"), &mesh));
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
-  expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
-  expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
-  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1));
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&nodes);
+  mesh = marked_box("in.vtu", 21, lower, upper);
   return 0;
 }
 
@@ -144,22 +151,218 @@ static void test_texts(void **state) {
 static void test_nothing_marked(void **state) {
   (void)state;
   const double lower[3] = {5, 5, 5}, upper[3] = {6, 6, 6};
-  riis_vtk_mesh *other = NULL;
-  riis_mesh *nodes = NULL;
-  riis_mark_result *result = NULL;
-  const double *xyz = NULL;
-  assert_int_equal(shim_write_box(scratch_path("far.vtu"), SHIM_RAW, 3, lower, upper, 0), 1);
-  expect_fine(riis_vtk_mesh_read(scratch_path("far.vtu"), &other));
-  expect_fine(riis_vtk_mesh_nodes(other, NULL, NULL, &xyz));
-  expect_fine(riis_mesh_create(27, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
-  expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
-  expect_fine(riis_vtk_mesh_set_marks(other, result, -1));
+  riis_vtk_mesh *other = marked_box("far.vtu", 3, lower, upper);
   draw("far.png", other, RIIS_VTK_VIEW_OBLIQUE, 400, 200);
   assert_int_equal(scratch_exists("far.png"), 1);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&nodes);
   riis_vtk_mesh_destroy(&other);
+}
+
+/* Pixels of a picture, from below. */
+typedef struct {
+  int width, height;
+  unsigned char *rgb;
+} pixels;
+
+static pixels read_pixels(const char *name) {
+  pixels picture = {0, 0, NULL};
+  picture.rgb = shim_read_pixels(scratch_path(name), &picture.width, &picture.height);
+  assert_non_null(picture.rgb);
+  return picture;
+}
+
+static const unsigned char *pixel_at(const pixels *picture, int x, int y) {
+  return picture->rgb + 3 * ((size_t)y * (size_t)picture->width + (size_t)x);
+}
+
+/* The bands of texts: two lines above the panels, axes and keys below. */
+enum { upper_band = 85, lower_band = 83 }; /* pixels of a picture 800 high */
+
+static int is_red(const unsigned char *rgb) { return rgb[0] > 180 && rgb[1] < 40 && rgb[2] < 40; }
+static int is_skin(const unsigned char *rgb) {
+  return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
+}
+/* Much colour, or little. */
+static int is_full(const unsigned char *rgb) {
+  const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
+  const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);
+  return 2 * (most - least) > most;
+}
+static int is_pale(const unsigned char *rgb) {
+  const int most = rgb[0] > rgb[2] ? rgb[0] : rgb[2], least = rgb[0] < rgb[2] ? rgb[0] : rgb[2];
+  return most > 100 && most - least > 20 && !is_full(rgb);
+}
+
+/* How many pixels of a panel, 0 or 1, are of a kind. */
+static int count_pixels(const char *name, int panel, int (*is_kind)(const unsigned char *)) {
+  pixels picture = read_pixels(name);
+  int n = 0;
+  for (int y = lower_band; y < picture.height - upper_band; ++y)
+    for (int x = 0; x < picture.width / 2; ++x) n += is_kind(pixel_at(&picture, panel * picture.width / 2 + x, y));
+  free(picture.rgb);
+  return n;
+}
+
+/* Views of one scene are the pictures that calls of their own draw. */
+static void test_one_scene(void **state) {
+  (void)state;
+  const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_OBLIQUE, RIIS_VTK_VIEW_TOP};
+  const char *paths[4] = {scratch_path("s0.png"), scratch_path("s1.png"), scratch_path("s2.png"),
+                          scratch_path("s3.png")};
+  const char *const names[4] = {"s0.png", "s1.png", "s2.png", "s3.png"};
+  const int64_t edge[2] = {0, 1};
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.n_leaking_edges = 1;
+  options.leaking_edges = edge;
+  scratch_watch_output();
+  const riis_status status = riis_vtk_draw_views(surface, mesh, &options, 4, views, paths);
+  assert_int_equal(scratch_end_watch(), 0);
+  expect_fine(status);
+  for (int i = 0; i < 4; ++i) {
+    options.view = views[i];
+    expect_fine(riis_vtk_draw(surface, mesh, &options, scratch_path("alone.png")));
+    assert_true(same_file(names[i], "alone.png"));
+  }
+  assert_false(same_file("s0.png", "s1.png"));
+}
+
+/* In a mesh too coarse for whole cells the marked nodes are seen all the same; in a fine one whole cells are not covered. */
+static void test_partly_marked(void **state) {
+  (void)state;
+  const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
+  riis_vtk_mesh *coarse = marked_box("coarse.vtu", 5, lower, upper);
+  const int32_t views[3] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_OBLIQUE};
+  for (int i = 0; i < 3; ++i) {
+    draw("coarse.png", coarse, views[i], 1600, 800);
+    assert_int_equal(count_pixels("coarse.png", 1, is_full), 0);
+    assert_true(count_pixels("coarse.png", 1, is_pale) > 20000);
+    draw("fine.png", mesh, views[i], 1600, 800);
+    const int n_full = count_pixels("fine.png", 1, is_full), n_pale = count_pixels("fine.png", 1, is_pale);
+    assert_true(n_pale > 1000);
+    assert_true(n_full > 2 * n_pale);
+  }
+  riis_vtk_mesh_destroy(&coarse);
+}
+
+/* Where two nodes are marked, the number of each; the mesh has no nodes at the same place. */
+static void two_nodes(int64_t edge[2]) {
+  const double *xyz = NULL;
+  int64_t n = 0;
+  double closest[2] = {1e9, 1e9};
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  const double wanted[2][3] = {{0, 0, -0.45}, {0.17, 0, -0.45}};
+  for (int64_t i = 0; i < n; ++i)
+    for (int k = 0; k < 2; ++k) {
+      double squared = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double d = xyz[3 * i + axis] - wanted[k][axis];
+        squared += d * d;
+      }
+      if (squared >= closest[k]) continue;
+      closest[k] = squared;
+      edge[k] = i;
+    }
+  assert_true(edge[0] != edge[1]);
+}
+
+/* An edge in the middle of the mesh is seen from everywhere; the caption mentions leaks only where they are known. */
+static void test_leaks(void **state) {
+  (void)state;
+  const char *paths[3] = {scratch_path("l0.png"), scratch_path("l1.png"), scratch_path("l2.png")};
+  const char *const names[3] = {"l0.png", "l1.png", "l2.png"};
+  const int32_t views[3] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_OBLIQUE};
+  int64_t edge[2] = {0, 0};
+  two_nodes(edge);
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  expect_fine(
+      riis_vtk_draw_views(surface, mesh, &options, 1, views, (const char *const[]){scratch_path("unknown.png")}));
+  assert_int_equal(count_pixels("unknown.png", 1, is_red), 0);
+  options.leaking_edges = edge;
+  expect_fine(riis_vtk_draw_views(surface, mesh, &options, 1, views, (const char *const[]){scratch_path("none.png")}));
+  assert_int_equal(count_pixels("none.png", 1, is_red), 0);
+  assert_false(same_file("unknown.png", "none.png"));
+  options.n_leaking_edges = 1;
+  expect_fine(riis_vtk_draw_views(surface, mesh, &options, 3, views, paths));
+  for (int i = 0; i < 3; ++i) {
+    const int n = count_pixels(names[i], 1, is_red);
+    assert_true(n > 20 && n < 2000);
+    assert_int_equal(count_pixels(names[i], 0, is_red), 0);
+  }
+}
+
+/* The longest run of dark pixels in the rows from..to of the right panel. */
+static int longest_dark_run(const pixels *picture, int from, int to) {
+  int longest = 0;
+  for (int y = from; y < to; ++y) {
+    int run = 0;
+    for (int x = picture->width / 2; x < picture->width; ++x) {
+      run = pixel_at(picture, x, y)[0] < 130 ? run + 1 : 0;
+      if (run > longest) longest = run;
+    }
+  }
+  return longest;
+}
+
+/* From above the mesh is 3.4 wide: that gives the pixels of the scale bar, which is 1 long. No mesh is behind the texts. */
+static void test_scale_and_bands(void **state) {
+  (void)state;
+  draw("bands.png", mesh, RIIS_VTK_VIEW_TOP, 1600, 800);
+  pixels picture = read_pixels("bands.png");
+  int left = picture.width, right = 0, n_skin_in_bands = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = picture.width / 2; x < picture.width; ++x) {
+      if (!is_skin(pixel_at(&picture, x, y))) continue;
+      if (y < lower_band || y >= picture.height - upper_band) {
+        n_skin_in_bands += pixel_at(&picture, x, y)[0] == 233;
+        continue;
+      }
+      if (x < left) left = x;
+      if (x > right) right = x;
+    }
+  const double per_length = (right - left) / 3.4;
+  const int bar = longest_dark_run(&picture, 0, lower_band);
+  assert_true(bar > 0.98 * per_length && bar < 1.02 * per_length + 2);
+  /* A letter's edge may have any grey. */
+  assert_true(n_skin_in_bands < 200);
+  free(picture.rgb);
+}
+
+static int is_line(const unsigned char *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] < 200; }
+
+/* How often a row of the right panel changes between line and no line. */
+static int most_changes_in_a_row(const pixels *picture, int *row) {
+  int most = 0;
+  for (int y = lower_band; y < picture->height - upper_band; ++y) {
+    int n = 0;
+    for (int x = picture->width / 2 + 1; x < picture->width; ++x)
+      n += is_line(pixel_at(picture, x, y)) != is_line(pixel_at(picture, x - 1, y));
+    if (n > most) *row = y;
+    if (n > most) most = n;
+  }
+  return most;
+}
+
+/* Of a tube 20 times as long as wide, the valve's neighbourhood is shown as large as in a short one, and cut at dashes. */
+static void test_long_mesh(void **state) {
+  (void)state;
+  const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
+  riis_vtk_mesh *tube = marked_box("tube.vtu", 21, lower, upper);
+  draw("short.png", mesh, RIIS_VTK_VIEW_SIDE, 1600, 800);
+  draw("long.png", tube, RIIS_VTK_VIEW_SIDE, 1600, 800);
+  const int n_short = count_pixels("short.png", 0, is_full), n_long = count_pixels("long.png", 0, is_full);
+  assert_true(n_long > 0.9 * n_short && n_long < 1.1 * n_short);
+  pixels picture = read_pixels("long.png");
+  int row = 0;
+  assert_true(most_changes_in_a_row(&picture, &row) > 40);
+  /* Between the dashes and the panel's edge there is nothing of the mesh. */
+  const int end = row < picture.height / 2 ? lower_band + 4 : picture.height - upper_band - 5;
+  for (int x = picture.width / 2; x < picture.width; ++x) assert_true(pixel_at(&picture, x, end)[0] > 250);
+  free(picture.rgb);
+  picture = read_pixels("short.png");
+  assert_true(most_changes_in_a_row(&picture, &row) < 20);
+  free(picture.rgb);
+  riis_vtk_mesh_destroy(&tube);
 }
 
 /* With room for n_bytes a file, as on a disk that fills up, there is no picture and nothing beside it. */
@@ -196,8 +399,12 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_texts),          cmocka_unit_test(test_views),     cmocka_unit_test(test_one_panel),
-      cmocka_unit_test(test_nothing_marked), cmocka_unit_test(test_full_disk), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_texts),           cmocka_unit_test(test_views),
+      cmocka_unit_test(test_one_panel),       cmocka_unit_test(test_nothing_marked),
+      cmocka_unit_test(test_full_disk),       cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_one_scene),       cmocka_unit_test(test_leaks),
+      cmocka_unit_test(test_partly_marked),   cmocka_unit_test(test_long_mesh),
+      cmocka_unit_test(test_scale_and_bands),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }

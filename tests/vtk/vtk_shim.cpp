@@ -364,7 +364,8 @@ unsigned char *shim_read_pixels(const char *path, int *width, int *height) {
   *height = size[1];
   auto *pixels = static_cast<unsigned char *>(std::malloc(static_cast<std::size_t>(3 * size[0] * size[1])));
   for (int i = 0; pixels && i < size[0] * size[1]; ++i)
-    std::copy_n(static_cast<const unsigned char *>(image->GetScalarPointer(i % size[0], i / size[0], 0)), 3, pixels + 3 * i);
+    std::copy_n(static_cast<const unsigned char *>(image->GetScalarPointer(i % size[0], i / size[0], 0)), 3,
+                pixels + 3 * i);
   return pixels;
 }
 

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --steps: what a step of a moving valve costs is said, and nothing else changes. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "program.h"
+#include "scratch.h"
+
+static void expect_same_file(const char *a, const char *b) {
+  size_t size[2] = {0, 0};
+  char *bytes[2] = {scratch_read(scratch_path(a), &size[0]), scratch_read(scratch_path(b), &size[1])};
+  assert_int_equal(size[0], size[1]);
+  assert_memory_equal(bytes[0], bytes[1], size[0]);
+  free(bytes[0]);
+  free(bytes[1]);
+}
+
+static const struct {
+  const char *option, *search;
+} searches[] = {{"auto", "\"clusters\""},
+                {"exhaustive", "\"exhaustive\""},
+                {"neighbor", "\"neighbor\""},
+                {"clusters", "\"clusters\""}};
+
+static void test_steps(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof searches / sizeof searches[0]; ++i) {
+    const char *const search = searches[i].option;
+    RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
+             scratch_path("without.vtu"), "--surface-output", scratch_path("without.vtp"), "--stats", "-");
+    assert_null(strstr(program_out, "\"step\""));
+    RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
+             scratch_path("with.vtu"), "--surface-output", scratch_path("with.vtp"), "--steps", "5", "--stats", "-");
+    assert_true(json_number(program_out, "n_steps") == 5);
+    assert_true(json_number(program_out, "seconds_surface") > 0);
+    assert_true(json_number(program_out, "seconds_search") > 0);
+    assert_true(json_number(program_out, "opening") == 0.99);
+    assert_true(json_has_text(strstr(program_out, "\"step\""), "search", searches[i].search));
+    expect_same_file("with.vtu", "without.vtu");
+    expect_same_file("with.vtp", "without.vtp");
+  }
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--steps", "1");
+  assert_non_null(strstr(program_out, "\nstep      "));
+  assert_non_null(strstr(program_out, "median of 1 step of 0.02 in opening, search clusters\n"));
+}
+
+static void test_refusals(void **state) {
+  (void)state;
+  const char *mesh = scratch_path("in.vtu");
+  RUN_REFUSED(2, "--steps: 0 is not above 0", mesh, "--valve", "mitral", "--steps", "0");
+  RUN_REFUSED(2, "--steps: -3 is not above 0", mesh, "--valve", "mitral", "--steps", "-3");
+  RUN_REFUSED(2, "--steps", mesh, "--valve", "mitral", "--steps", "2.5");
+  RUN_REFUSED(2, "--steps needs a MESH", "--valve", "mitral", "--steps", "2", "--surface-output",
+              scratch_path("a.vtp"));
+  RUN_REFUSED(2, "--steps has no effect with --print-params", "--valve", "mitral", "--steps", "2", "--print-params");
+  RUN_REFUSED(2, "--surface excludes --steps", mesh, "--surface", scratch_path("a.vtp"), "--steps", "2");
+  /* A valve that cannot move. */
+  RUN_REFUSED(1, "--steps: opening is 0.02, but the aortic valve has one state only", mesh, "--steps", "2");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_steps), cmocka_unit_test(test_refusals)};
+  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
+}
