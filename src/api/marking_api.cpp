@@ -91,9 +91,11 @@ void check_is_of_marking(const riis::SearchRequest &request, const riis::MarkRes
   if (result.stats.n_nodes == 0)
     riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
   if (result.stats.n_nodes != request.mesh.nodes().n)
-    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ", request.mesh.nodes().n);
+    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ",
+               request.mesh.nodes().n);
   if (result.half_thickness != request.surface.half_thickness())
-    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a surface with the half thickness ", result.half_thickness, ", surface has ", request.surface.half_thickness(), ": mark the nodes again");
+    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a surface with the half thickness ", result.half_thickness,
+               ", surface has ", request.surface.half_thickness(), ": mark the nodes again");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Options {
   double far_distance = RIIS_FAR_DISTANCE;
   std::string output, surface_output, stats;  // "": not wanted
   std::vector<Picture> pictures;
-  std::int32_t n_steps = 0;  // to be timed
+  std::int32_t n_steps = 0;     // to be timed
   std::string prefix = "riis";  // of the arrays in the output
   bool replace = false;         // arrays of these names
   bool allow_none = false;

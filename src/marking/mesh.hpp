@@ -12,9 +12,9 @@
 #include "geometry/strided.hpp"
 #include "marking/adjacency.hpp"
 #include "marking/clusters.hpp"
+#include "marking/edges.hpp"
 #include "marking/node_balls.hpp"
 #include "marking/proportions.hpp"
-#include "marking/edges.hpp"
 
 namespace riis {
 
