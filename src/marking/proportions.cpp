@@ -48,8 +48,10 @@ void check_proportions(const Sizes &sizes, std::uint64_t surface_number, Warned 
   const double mesh = largest_side(sizes.mesh), surface = largest_side(sizes.surface);
   const char *what = misfit(mesh, surface, sizes.half_thickness);
   if (!what || warned.has(surface_number) || !is_logging() || !warned.is_first(surface_number)) return;
-  log_message(RIIS_LOG_WARNING, what, ": largest sides of their boxes are ", rounded(mesh, 4), " (mesh of ",
-              sizes.n_nodes, " nodes) and ", surface, " (surface), the half thickness is ", sizes.half_thickness,
+  constexpr int digits = 6;
+  log_message(RIIS_LOG_WARNING, what, ": largest sides of their boxes are ", rounded(mesh, digits), " (mesh of ",
+              sizes.n_nodes, " nodes) and ", rounded(surface, digits), " (surface), the half thickness is ",
+              rounded(sizes.half_thickness, digits),
               "; are all in one unit? See scale and half_thickness of riis_surface_options");
 }
 

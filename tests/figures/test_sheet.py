@@ -6,13 +6,14 @@ import os
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src", "figures", "parameters"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "figures", "parameters"))
 try:
-    import sheet
+    import matplotlib  # noqa: F401, the only module that may be missing
 except ImportError as error:
     print(f"skipped: {error} (Debian: python3-matplotlib)")
     sys.exit(77)
 import bezier
+import sheet
 
 PARAMETERS = [
     {"name": "width", "unit": "length", "values": [2.0], "description": ""},

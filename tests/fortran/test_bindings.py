@@ -183,8 +183,8 @@ class Constants(Planted):
                       self.text(FIXED))
 
     def test_an_enum_of_its_own(self):
-        self.plant(HEADER, "/* How nodes are marked. */", "enum {\n  RIIS_PLANTED_A = 0, /* , */\n  RIIS_PLANTED_B = 12\n};\n"
-                                                          "/* How nodes are marked. */")
+        self.plant(HEADER, "/* Options of a marking. */", "enum {\n  RIIS_PLANTED_A = 0, /* , */\n  RIIS_PLANTED_B = 12\n};\n"
+                                                          "/* Options of a marking. */")
         self.writes()
         self.assertIn("\n\n  integer(c_int32_t), parameter :: RIIS_PLANTED_A = 0\n"
                       "  integer(c_int32_t), parameter :: RIIS_PLANTED_B = 12\n\n", self.text(MODULE))
@@ -335,7 +335,7 @@ riis_valve_planted  What it does not say elsewhere.
         self.refuses("riis_valve_planted: no argument can have the name of the result, status")
 
     def test_no_semicolon(self):
-        self.plant(HEADER, "int64_t struct_size);\n\n#ifdef __cplusplus", "int64_t struct_size)\n\n#ifdef __cplusplus")
+        self.plant(HEADER, "const double **distance);\n\n#ifdef __cplusplus", "const double **distance)\n\n#ifdef __cplusplus")
         self.refuses("no semicolon ends what begins here")
 
 
