@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/errors.hpp"
 
-#include <cstdio>
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <stdexcept>
@@ -16,7 +16,9 @@ thread_local char last_error[message_size] = "";
 }  // namespace
 
 riis_status record_error(riis_status status, const char *text) noexcept {
-  std::snprintf(last_error, sizeof last_error, "%s", text);
+  const std::size_t n = std::min(std::strlen(text), message_size - 1);
+  std::memmove(last_error, text, n);  // a component may pass the last error on
+  last_error[n] = '\0';
   return status;
 }
 
