@@ -1,4 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_f77_leaks.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for leaks. The conventions are those of riis_f77.f90.
 
 !> Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes: flow passes along it. An
@@ -37,7 +38,8 @@ end subroutine riisf_find_leaks
 subroutine riisf_leaking_edges(result, length, n, node_num, status)
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_mark_result_leaking_edges
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, &
+    riis_mark_result_leaking_edges
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of a call of riisf_find_leaks.
@@ -67,11 +69,12 @@ subroutine riisf_leaking_edges(result, length, n, node_num, status)
   node_num(:, :n) = int(ids + 1, int32)
 end subroutine riisf_leaking_edges
 
-!> The same.
+!> The same with INTEGER*8.
 subroutine riisf_leaking_edges_64(result, length, n, node_num, status)
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_leaking_edges
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, &
+    riis_mark_result_leaking_edges
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of a call of riisf_find_leaks.
@@ -86,12 +89,12 @@ subroutine riisf_leaking_edges_64(result, length, n, node_num, status)
   found = 0
   status = riis_mark_result_leaking_edges(c_handle_of(result), found, node_ids)
   if (status /= RIIS_OK) return
-  n = found
+  n = int(min(found, int(huge(n), int64)), int64)
   if (found > length) then
     status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges that leak: ' // text_of(found))
     return
   end if
   if (found == 0) return
   call c_f_pointer(node_ids, ids, [2_int64, found])
-  node_num(:, :n) = ids + 1
+  node_num(:, :n) = int(ids + 1, int64)
 end subroutine riisf_leaking_edges_64
