@@ -128,7 +128,7 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// A new result every time: no last marking to start from, no memory to reuse. The mesh has its groups.
+// A new result every time: no last marking to start from, no memory to reuse. The mesh has its balls.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -244,7 +244,7 @@ void search_paper_neighbor(benchmark::State &state) {
   state.counters["triangles"] = static_cast<double>(triangles.n());
 }
 
-// What a mesh costs once, before its first neighbour search: its nodes in groups.
+// The first neighbour search of a mesh sorts its nodes into balls: this is its cost.
 void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();

@@ -29,7 +29,7 @@ NodeBox box_of(const Boxes &boxes) {
   return box;
 }
 
-// The box of lanes that there are not: far from everything, finite.
+// Unused lanes have empty boxes: their bounds are infinite, so that nothing is near them.
 Boxes no_boxes() {
   Boxes boxes;
   for (int i = 0; i < 3; ++i)

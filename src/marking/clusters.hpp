@@ -44,7 +44,7 @@ struct Clusters {
 // More nodes than have numbers in a leaf.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// Both fail with RIIS_INVALID_MESH for a coordinate that is not finite. Clusters of no nodes are none yet.
+// Both fail with RIIS_INVALID_MESH for a coordinate that is not finite. Clusters without nodes have not been made yet.
 void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
 // The nodes of the clusters where they are now.
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);

@@ -14,7 +14,7 @@ double largest_side(const Bounds &bounds) {
   return std::max({extent.x, extent.y, extent.z});
 }
 
-// What does not fit, or NULL.
+// Returns words for the sizes that do not fit, or NULL.
 const char *misfit(double mesh, double surface, double half_thickness) {
   constexpr double most = 50;
   if (surface > most * mesh) return "the surface is more than 50 times as large as the mesh";
