@@ -135,6 +135,8 @@ typedef struct riis_valve riis_valve;
  *   kind  "aortic", three cusps, or "mitral", two leaflets
  * Errors: RIIS_INVALID_PARAMETER for an unknown kind. */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
+/* Makes a second valve with the same parameters, patches and states. Each is destroyed on its own. */
+RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
 /* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
@@ -325,6 +327,22 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
  * Errors: as riis_surface_create; a positive status leaves the surface as it was. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
+/* Replaces the surface's content as riis_surface_update does, with the same triangles to the last bit, and gives
+ * every vertex a velocity: from the point with the same patch, u and v of an earlier state to the vertex, over the
+ * time between. Nothing is remembered from call to call, so that sub-iterations, rejected steps, restarts and
+ * valves that run backwards need no rule. A valve at rest is its own state before.
+ *   valve_before    the state before: of the same kind; a valve from patches has the same curves and sides. Read
+ *                   during the call only
+ *   seconds         from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
+ *   options_before  scale, rotation and translation before; its other fields do not count. NULL: those of now
+ * The mean velocity over the time between is that of its middle to second order, that of either end to first.
+ * Where two leaflets touch, the velocity is that of the triangle with the lowest id, and jumps there.
+ * Errors: as riis_surface_update; RIIS_INVALID_ARGUMENT for seconds out of range; RIIS_INVALID_PARAMETER for a
+ * valve_before of another kind or build, or whose parameters do not go together. */
+RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
+                                                const riis_valve *valve_before, double seconds,
+                                                const riis_surface_options *options,
+                                                const riis_surface_options *options_before);
 /* Replaces the surface's content from arrays. Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
@@ -354,6 +372,10 @@ RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t 
  * Lifetime as riis_surface_vertices. */
 RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **uv);
+/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL unless the last update gave velocities.
+ * Lifetime as riis_surface_vertices. */
+RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices,
+                                                    const double **velocity);
 /* Gives the triangles that answer queries. Any pointer may be NULL. Lifetime as riis_surface_vertices.
  *   vertex_id    (3, n_triangles), from 0
  *   triangle_id  (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve

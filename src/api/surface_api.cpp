@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "api/handles.hpp"
@@ -26,9 +27,9 @@ const riis_surface_options default_options{
 const riis_surface_arrays default_arrays{
     sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr};
 
-void check_range(const char *name, double value, double minimum, double maximum) {
+void check_range(const char *options, const char *name, double value, double minimum, double maximum) {
   if (!(value >= minimum && value <= maximum))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be from ", minimum, " to ", maximum);
+    riis::fail(RIIS_INVALID_ARGUMENT, options, ".", name, " is ", value, "; it must be from ", minimum, " to ", maximum);
 }
 
 void check_flag(const char *name, std::int32_t value) {
@@ -36,23 +37,29 @@ void check_flag(const char *name, std::int32_t value) {
     riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
 }
 
-void check_options(const riis_surface_options &options) {
-  check_range("scale", options.scale, 1e-12, 1e12);
-  if (options.half_thickness != RIIS_AUTO) check_range("half_thickness", options.half_thickness, 1e-50, 1e50);
-  check_range("tolerance", options.tolerance, 1e-6, 1.0);
-  check_range("rotation_angle", options.rotation_angle, -1e6, 1e6);
-  for (const double value : options.rotation_axis) check_range("rotation_axis", value, -1e50, 1e50);
-  for (const double value : options.translation) check_range("translation", value, -1e50, 1e50);
+// `name` is the argument's.
+void check_placement(const riis_surface_options &options, const char *name) {
+  check_range(name, "scale", options.scale, 1e-12, 1e12);
+  check_range(name, "rotation_angle", options.rotation_angle, -1e6, 1e6);
+  for (const double value : options.rotation_axis) check_range(name, "rotation_axis", value, -1e50, 1e50);
+  for (const double value : options.translation) check_range(name, "translation", value, -1e50, 1e50);
   const double *axis = options.rotation_axis;
   if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2],
+    riis::fail(RIIS_INVALID_ARGUMENT, name, ".rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2],
                "); it must be at least 1e-50 long");
+}
+
+void check_options(const riis_surface_options &options) {
+  check_placement(options, "options");
+  if (options.half_thickness != RIIS_AUTO) check_range("options", "half_thickness", options.half_thickness, 1e-50, 1e50);
+  check_range("options", "tolerance", options.tolerance, 1e-6, 1.0);
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
   if (options.distance < RIIS_DISTANCE_TRIANGLES || options.distance > RIIS_DISTANCE_MINIMIZATION)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance, "; it must be one of RIIS_DISTANCE_*");
   riis::threads_asked_for(options.n_threads, "options.n_threads");
-  if (options.distance_tolerance != RIIS_AUTO) check_range("distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
+  if (options.distance_tolerance != RIIS_AUTO)
+    check_range("options", "distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
 }
 
 riis::Placement placement_of(const riis_surface_options &options) {
@@ -115,16 +122,38 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
   if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
 }
 
-void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options) {
+// The state before a moving update, and the arguments that it comes from.
+struct MotionArguments {
+  const riis_valve *valve_before;
+  double seconds;
+  const riis_surface_options *options_before;
+};
+
+riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
+  require_handle(motion.valve_before, "valve_before");
+  // A state that lasts less than that, or longer, is a mistake, and the velocity stays far from overflow.
+  if (!(std::abs(motion.seconds) >= 1e-30 && std::abs(motion.seconds) <= 1e30))
+    riis::fail(RIIS_INVALID_ARGUMENT, "seconds is ", motion.seconds,
+               "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");
+  const riis_surface_options before = riis::completed<options_size>(
+      motion.options_before, "options_before", motion.options_before ? default_options : options_now);
+  check_placement(before, "options_before");
+  return {motion.valve_before->valve, placement_of(before), motion.seconds};
+}
+
+void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options,
+                     const MotionArguments *motion = nullptr) {
   require_handle(valve, "valve");
   check_options(options);
+  std::optional<riis::ValveMotion> valve_motion;
+  if (motion) valve_motion.emplace(motion_of(*motion, options));
   const riis::ValveAccuracy accuracy{options.tolerance * half_thickness_of(options), options.distance,
                                      distance_error_of(options)};
   check_precision(options, "tolerance", accuracy.triangle_error);
   if (options.distance != RIIS_DISTANCE_TRIANGLES)
     check_precision(options, "distance_tolerance", accuracy.distance_error);
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
-    return riis::make_surface(valve->valve, request, accuracy, made);
+    return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
   });
 }
 
@@ -183,6 +212,18 @@ riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, 
   });
 }
 
+riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve, const riis_valve *valve_before,
+                                       double seconds, const riis_surface_options *options,
+                                       const riis_surface_options *options_before) {
+  return guarded([&] {
+    require_handle(surface, "surface");
+    const MotionArguments motion{valve_before, seconds, options_before};
+    fill_from_valve(*surface, valve,
+                    riis::completed<options_size>(options, "options", options ? default_options : surface->options),
+                    &motion);
+  });
+}
+
 riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                             const riis_surface_options *options) {
   return guarded([&] {
@@ -225,6 +266,14 @@ riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t 
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
     riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
     riis::put(uv, set.uv.empty() ? nullptr : set.uv.data());
+  });
+}
+
+riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices, const double **velocity) {
+  return guarded([&] {
+    const riis::TriangleSet &set = riis::content_of(surface).triangles();
+    riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    riis::put(velocity, set.velocity.empty() ? nullptr : set.velocity.data());
   });
 }
 

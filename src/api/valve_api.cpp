@@ -25,6 +25,13 @@ riis_status riis_valve_create(const char *kind, riis_valve **valve) {
   });
 }
 
+riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy) {
+  return guarded([&] {
+    require(copy, "copy");
+    *copy = new riis_valve{{}, require_handle(valve, "valve")->valve};
+  });
+}
+
 void riis_valve_destroy(riis_valve **valve) { riis::destroy_handle(valve, "valve"); }
 
 riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values) {

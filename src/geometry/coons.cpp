@@ -127,7 +127,7 @@ std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &si
   return lines;
 }
 
-QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
+QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines) {
   const std::vector<GridLine> u_lines = lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift);
   const std::vector<GridLine> v_lines = lines_between(*sides.side_u0, *sides.side_u1, max_merge_shift);
 
@@ -164,6 +164,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift) {
     for (std::size_t i = 0; i < error_v0.size(); ++i)
       grid.errors.push_back(larger_mix(error_v0[i], error_v1[i], grid.v[j], grid.v[j + 1]) +
                             larger_mix(error_u0[j], error_u1[j], grid.u[i], grid.u[i + 1]));
+  if (lines) *lines = {u_lines, v_lines};
   return grid;
 }
 
@@ -211,6 +212,12 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
                             largest_arc_weight(grid.v[j], grid.v[j + 1]) * lines.errors[i] + 0.5 * row * row * offset);
     }
   return grid;
+}
+
+GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid) {
+  GridLines made{lines.u_lines, {}};
+  for (const double v : grid.v) made.v.push_back({v, v, v});
+  return made;
 }
 
 std::size_t interval_of(const std::vector<double> &values, double x) {

@@ -29,6 +29,11 @@ struct GridLine {
 // length contributes none.
 std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
 
+// The lines that a grid was made from.
+struct GridLines {
+  std::vector<GridLine> u, v;
+};
+
 struct QuadGrid {
   std::vector<double> u, v;  // ascending from 0 to 1
   std::vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
@@ -36,13 +41,15 @@ struct QuadGrid {
       errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
                // may be, at equal (u,v), from the patch of the curves that the sides stand for
 
+  std::vector<Vec3> displacements{};  // of the points since an earlier state (surface/displacement.hpp); empty without one
+
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }
 };
 
 // Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if
-// that moves a point by at most max_merge_shift along a side.
-QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift);
+// that moves a point by at most max_merge_shift along a side. Writes the lines where they are wanted.
+QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
 // (geometry/bulge.hpp). It is made in two steps, because patches that share an arc must agree on the number of rows.
@@ -66,6 +73,9 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 
 // Makes rows of equal height h. An arc is at most |O| / 2 times h squared from its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
+
+// Returns the lines of that grid.
+GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 
 // Returns the index of the interval of ascending values that holds x. A value belongs to the interval behind it, the
 // upper end to the last interval.

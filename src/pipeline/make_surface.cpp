@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -38,15 +39,23 @@ SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
 
 }  // namespace
 
-SurfaceSeconds make_surface(const Valve &valve, const SurfaceRequest &request, const ValveAccuracy &accuracy,
-                            Surface &surface) {
+SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
+                            const ValveAccuracy &accuracy, Surface &surface) {
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
   // Parameters become curves and patches.
   const PatchSet patches = valve.make_patches();
+  // So do those of the state before, whose points have the same u and v.
+  std::optional<PatchSet> patches_before;
+  std::optional<Motion> motion;
+  if (moved) {
+    patches_before = valve.make_patches_before(moved->before);
+    motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
+  }
   // Curves become polylines, patches become quads, and quads become triangles.
   TriangleSet triangles = triangulate(patches, accuracy.triangle_error / placement.scale, placement,
-                                      request.flip_normals, request.n_threads, surface.take_triangles());
+                                      request.flip_normals, request.n_threads, surface.take_triangles(),
+                                      motion ? &*motion : nullptr);
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
   // Another method for distances is made before the surface, because it may be refused.

@@ -28,14 +28,22 @@ struct ValveAccuracy {
   double distance_error;  // unused if triangles measure distances
 };
 
+// The state of a valve before the one that a surface is made of, for the velocity of the surface.
+struct ValveMotion {
+  const Valve &before;
+  Placement placement_before;
+  double seconds;  // from there to now, not 0
+};
+
 struct SurfaceSeconds {
   double triangles, scene;
 };
 
 // Both replace the content of `surface` and reuse its memory. After a failure the surface can only be made again.
-// The first fails as the stages of the pipeline do, and with RIIS_INVALID_PARAMETER for a valve without area.
-SurfaceSeconds make_surface(const Valve &valve, const SurfaceRequest &request, const ValveAccuracy &accuracy,
-                            Surface &surface);
+// The first fails as the stages of the pipeline do, and with RIIS_INVALID_PARAMETER for a valve without area or for a motion
+// between two valves of different builds. Without a motion the vertices have no velocity.
+SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
+                            const ValveAccuracy &accuracy, Surface &surface);
 SurfaceSeconds make_surface(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request,
                             Surface &surface);
 

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
+#include "surface/displacement.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -23,8 +24,10 @@ constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 class GridMaker {
  public:
-  GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness, int n_threads)
+  GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness, int n_threads,
+            const PatchSet *before)
       : set_(set),
+        before_(before),
         max_error_(max_error),
         n_threads_(n_threads),
         errors_(set.curves.size(), infinity),
@@ -61,10 +64,7 @@ class GridMaker {
     for (std::size_t i = 0; i < n_patches; ++i) n += n_triangles(i, n_rows);
     check_count(n, max_error_);
     std::vector<QuadGrid> grids(n_patches);
-    for_each_patch(0, n_patches, [&](std::size_t i) {
-      grids[i] = set_.patches[i].bulge != 0 ? make_arc_grid(sides_[i], lines_[i], static_cast<std::size_t>(n_rows))
-                                            : make_quad_grid(sides_[i], merge_share * max_error_);
-    });
+    for_each_patch(0, n_patches, [&](std::size_t i) { grids[i] = grid(i, static_cast<std::size_t>(n_rows)); });
     return grids;
   }
 
@@ -73,6 +73,17 @@ class GridMaker {
   // A curve may have a million points, and a valve a million patches. So the polylines of at most this many patches are made
   // before they are counted. The number is fixed so that the count at a failure does not depend on the number of threads.
   static constexpr std::size_t patches_at_once = 16;
+
+  QuadGrid grid(std::size_t i, std::size_t n_rows) const {
+    const bool is_arcs = set_.patches[i].bulge != 0;
+    GridLines lines;
+    QuadGrid made = is_arcs ? make_arc_grid(sides_[i], lines_[i], n_rows)
+                            : make_quad_grid(sides_[i], merge_share * max_error_, before_ ? &lines : nullptr);
+    if (!before_) return made;
+    if (is_arcs) lines = lines_of_arc_grid(lines_[i], made);
+    made.displacements = displacements({set_, *before_, i, sides_[i], is_arcs ? &lines_[i].offsets : nullptr}, lines);
+    return made;
+  }
 
   void allow(const Side &side, double share) {
     errors_[side.curve] = std::min(errors_[side.curve], share * max_error_);
@@ -166,6 +177,7 @@ class GridMaker {
   }
 
   const PatchSet &set_;
+  const PatchSet *before_;  // an earlier state, or null
   double max_error_;
   int n_threads_;
   std::vector<double> errors_;  // allowed error of each curve; infinity: needs no polyline
@@ -177,8 +189,8 @@ class GridMaker {
 }  // namespace
 
 std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness,
-                                 int n_threads) {
-  return GridMaker(set, max_error, tightness, n_threads).make();
+                                 int n_threads, const PatchSet *before) {
+  return GridMaker(set, max_error, tightness, n_threads, before).make();
 }
 
 void check_count(double n_triangles, double max_error) {

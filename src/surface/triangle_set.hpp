@@ -21,6 +21,7 @@ struct Grouping {
 struct TriangleSet {
   std::vector<double> xyz;                // (3, n_vertices), placed
   std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
+  std::vector<double> velocity;           // (3, n_vertices), placed, empty if the maker of the triangles knows none
   std::vector<std::int64_t> vertex_id;    // (3, n_triangles)
   std::vector<std::int64_t> triangle_id;  // (n_triangles), ascending
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
@@ -30,7 +31,7 @@ struct TriangleSet {
 
   // Empties the set and keeps its memory.
   void clear() {
-    for (auto *numbers : {&xyz, &uv}) numbers->clear();
+    for (auto *numbers : {&xyz, &uv, &velocity}) numbers->clear();
     for (auto *ids : {&vertex_id, &triangle_id}) ids->clear();
     for (auto *ids : {&leaflet_id, &patch_id, &grouping.order, &grouping.end}) ids->clear();
     n_zero_area = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -83,14 +84,23 @@ struct Piece {
 
 class PieceBuilder {
  public:
-  PieceBuilder(Piece &piece, const Placement &placement, bool flip_normals, TriangleSet &set)
-      : piece_(piece), grid_(piece.levelled->grid), placement_(placement), flip_normals_(flip_normals), set_(set) {}
+  // The motion is that of the piece's image, or null.
+  PieceBuilder(Piece &piece, const Placement &placement, bool flip_normals, const ImageMotion *motion, TriangleSet &set)
+      : piece_(piece),
+        grid_(piece.levelled->grid),
+        placement_(placement),
+        flip_normals_(flip_normals),
+        motion_(motion),
+        set_(set) {}
 
   void build() {
     auto level_of_next = piece_.levelled->levels.begin();
     const std::size_t n_u = grid_.u.size(), n_v = grid_.v.size();
     for (std::size_t j = 0; j < n_v; ++j)
-      for (std::size_t i = 0; i < n_u; ++i) add_vertex(grid_.point(i, j), grid_.u[i], grid_.v[j]);
+      for (std::size_t i = 0; i < n_u; ++i) {
+        add_velocity(grid_.point(i, j), [&] { return grid_.displacements[j * n_u + i]; });
+        add_vertex(grid_.point(i, j), grid_.u[i], grid_.v[j]);
+      }
     const auto grid_vertex = [&](std::size_t i, std::size_t j) {
       return piece_.first_vertex + static_cast<std::int64_t>(j * n_u + i);
     };
@@ -150,6 +160,15 @@ class PieceBuilder {
     }
   }
 
+  // The velocity of the vertex that is added next, from its place on the patch and its displacement.
+  template <class Displacement>
+  void add_velocity(Vec3 p, const Displacement &displacement) {
+    if (!motion_) return;
+    const Vec3 velocity = motion_->velocity(p, displacement());
+    double *to = set_.velocity.data() + 3 * (piece_.first_vertex + n_vertices_);
+    to[0] = velocity.x, to[1] = velocity.y, to[2] = velocity.z;
+  }
+
   void add_vertex(Vec3 p, double u, double v) {
     const auto at = static_cast<std::size_t>(piece_.first_vertex + n_vertices_++);
     const Vec3 placed = place(placement_, place(*piece_.image, p));
@@ -163,10 +182,16 @@ class PieceBuilder {
   void add_subdivided_quad(std::size_t i, std::size_t j, int level) {
     const int n = 1 << level;
     const Quad quad = quad_of(grid_, i, j);
+    const auto displacement = [&](std::size_t di, std::size_t dj) {
+      return grid_.displacements[(j + dj) * grid_.u.size() + i + di];
+    };
     const std::int64_t first = piece_.first_vertex + n_vertices_;
     for (int row = 0; row <= n; ++row) {
       for (int column = 0; column <= n; ++column) {
         const double s = static_cast<double>(column) / n, t = static_cast<double>(row) / n;
+        add_velocity(quad.at(s, t), [&] {
+          return Quad{displacement(0, 0), displacement(1, 0), displacement(1, 1), displacement(0, 1)}.at(s, t);
+        });
         add_vertex(quad.at(s, t), (1 - s) * grid_.u[i] + s * grid_.u[i + 1], (1 - t) * grid_.v[j] + t * grid_.v[j + 1]);
       }
     }
@@ -212,15 +237,17 @@ class PieceBuilder {
   const QuadGrid &grid_;
   const Placement &placement_;
   bool flip_normals_;
+  const ImageMotion *motion_;
   TriangleSet &set_;
   std::int64_t n_vertices_ = 0;
   std::vector<std::int32_t> first_of_quad_;
 };
 
 // Makes room for all pieces. The old contents may stay: the pieces write everything.
-void make_room(std::int64_t n_vertices, std::int64_t n_triangles, TriangleSet &set) {
+void make_room(std::int64_t n_vertices, std::int64_t n_triangles, bool has_velocities, TriangleSet &set) {
   set.xyz.resize(3 * static_cast<std::size_t>(n_vertices));
   set.uv.resize(2 * static_cast<std::size_t>(n_vertices));
+  set.velocity.resize(has_velocities ? 3 * static_cast<std::size_t>(n_vertices) : 0);
   set.vertex_id.resize(3 * static_cast<std::size_t>(n_triangles));
   set.leaflet_id.resize(static_cast<std::size_t>(n_triangles));
   set.patch_id.resize(static_cast<std::size_t>(n_triangles));
@@ -256,9 +283,18 @@ void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
   std::iota(set.triangle_id.begin(), set.triangle_id.end(), std::int64_t{0});
 }
 
+// The same image of the same patch in an earlier state.
+const PatchImage &image_before(const Piece &piece, const std::vector<LevelledGrid> &grids, const PatchSet &now,
+                               const PatchSet &before) {
+  const auto patch = static_cast<std::size_t>(piece.levelled - grids.data());
+  const std::ptrdiff_t image = piece.image - now.patches[patch].images.data();
+  return before.patches[patch].images[static_cast<std::size_t>(image)];
+}
+
 std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error,
-                                              const std::vector<double> &tightness, int n_threads) {
-  std::vector<QuadGrid> grids = make_grids(set, max_error, tightness, n_threads);
+                                              const std::vector<double> &tightness, int n_threads,
+                                              const PatchSet *before) {
+  std::vector<QuadGrid> grids = make_grids(set, max_error, tightness, n_threads, before);
   std::vector<LevelledGrid> levelled(grids.size());
   parallel_for(static_cast<std::int64_t>(grids.size()), n_threads, [&](std::int64_t i, int) {
     const auto at = static_cast<std::size_t>(i);
@@ -284,11 +320,13 @@ double split_error(const Quad &q) {
 }
 
 TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals,
-                        int n_threads, TriangleSet memory) {
+                        int n_threads, TriangleSet memory, const Motion *motion) {
+  const PatchSet *before = motion ? &motion->patches_before : nullptr;
+  if (before) check_same_build(set, *before);
   std::vector<double> tightness(set.curves.size(), 1);
   TriangleSet triangles = std::move(memory);
   for (int attempt = 0;; ++attempt) {
-    const std::vector<LevelledGrid> grids = make_levelled_grids(set, max_error, tightness, n_threads);
+    const std::vector<LevelledGrid> grids = make_levelled_grids(set, max_error, tightness, n_threads, before);
     std::vector<Piece> pieces;
     std::int64_t n_triangles = 0, n_vertices = 0;
     for (std::size_t i = 0; i < grids.size(); ++i)
@@ -298,9 +336,12 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
         n_vertices += grids[i].n_vertices;
         check_count(static_cast<double>(n_triangles), max_error);
       }
-    make_room(n_vertices, n_triangles, triangles);
+    make_room(n_vertices, n_triangles, motion != nullptr, triangles);
     parallel_for(static_cast<std::int64_t>(pieces.size()), n_threads, [&](std::int64_t i, int) {
-      PieceBuilder(pieces[static_cast<std::size_t>(i)], placement, flip_normals, triangles).build();
+      Piece &piece = pieces[static_cast<std::size_t>(i)];
+      std::optional<ImageMotion> image_motion;
+      if (motion) image_motion.emplace(*piece.image, image_before(piece, grids, set, *before), placement, *motion);
+      PieceBuilder(piece, placement, flip_normals, image_motion ? &*image_motion : nullptr, triangles).build();
     });
     std::vector<std::size_t> vanished;
     for (const Piece &piece : pieces) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "geometry/placement.hpp"
+#include "surface/displacement.hpp"
 #include "surface/triangle_set.hpp"
 #include "valve/patches.hpp"
 
@@ -11,9 +12,10 @@ namespace riis {
 
 // Makes triangles in the memory of triangles that are no longer wanted. max_error bounds the distance between them and
 // the smooth surface, in the patches' units (before placement). Fails with RIIS_LIMIT_EXCEEDED for more than
-// max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
+// max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area. With a motion the vertices have velocities: the
+// triangles are the same, bit for bit.
 TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals,
-                        int n_threads, TriangleSet memory = {});
+                        int n_threads, TriangleSet memory = {}, const Motion *motion = nullptr);
 
 // A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into triangles along p00 p11.
 struct Quad {

@@ -119,23 +119,23 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   return set;
 }
 
-void check_states(const ValveState &closed, const ValveState &open) {
-  const PatchSet &from = closed.patches, &to = open.patches;
+void check_states(const ValveState &valve, const ValveState &other, const char *name) {
+  const PatchSet &from = valve.patches, &to = other.patches;
   if (from.curves.size() != to.curves.size() || from.patches.size() != to.patches.size())
-    fail(RIIS_INVALID_PARAMETER, "the open state has ", to.curves.size(), " curves and ", to.patches.size(),
+    fail(RIIS_INVALID_PARAMETER, name, " has ", to.curves.size(), " curves and ", to.patches.size(),
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(), ": they must be built alike");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
     // Lines are quadratics here, and a line may become a quadratic.
-    const int degree = from.curves[i].pieces().front().degree, open_degree = to.curves[i].pieces().front().degree;
-    if (degree != open_degree)
-      fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in the ", open_degree == 3 ? "open state" : "valve",
+    const int degree = from.curves[i].pieces().front().degree, other_degree = to.curves[i].pieces().front().degree;
+    if (degree != other_degree)
+      fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",
            " only: the degree must be the same");
   }
   for (std::size_t i = 0; i < from.patches.size(); ++i) {
     const Patch &a = from.patches[i], &b = to.patches[i];
     const auto same = [](const Side &s, const Side &t) { return s.curve == t.curve && s.reversed == t.reversed; };
     if (!same(a.v0, b.v0) || !same(a.v1, b.v1) || !same(a.u0, b.u0) || !same(a.u1, b.u1))
-      fail(RIIS_INVALID_PARAMETER, "patch ", i, " has other sides in the open state than in the valve");
+      fail(RIIS_INVALID_PARAMETER, "patch ", i, " has other sides in ", name, " than in the valve");
   }
 }
 

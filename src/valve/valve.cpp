@@ -96,7 +96,7 @@ void Valve::set_open_state(const Valve &open) {
   if (open.kind_ != kind_)
     fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
          kind_->name, ": a valve opens to one of its own");
-  if (kind_->check_states) kind_->check_states(state_, open.state_);
+  if (kind_->check_states) kind_->check_states(state_, open.state_, "the open state");
   open_ = ValveState(open.state_);  // copied aside first: an assignment member by member could stop half way
 }
 
@@ -111,6 +111,18 @@ PatchSet Valve::make_patches() const {
     if (open_) check_open_values();
   }
   return kind_->make_patches(state_, open_ ? *open_ : state_, opening);
+}
+
+PatchSet Valve::make_patches_before(const Valve &before) const {
+  if (before.kind_ != kind_)
+    fail(RIIS_INVALID_PARAMETER, "valve_before is of the kind ", before.kind_->name, ", valve of the kind ", kind_->name,
+         ": they must be two states of one valve");
+  if (kind_->check_states) kind_->check_states(state_, before.state_, "valve_before");
+  try {
+    return before.make_patches();
+  } catch (const Error &error) {
+    fail(error.status, "in valve_before: ", error.message.text());
+  }
 }
 
 void Valve::check_open_values() const {

@@ -43,8 +43,9 @@ struct ValveKind {
   // Makes the patches at an opening from 0, the closed state, to 1, the open state, by blending control points. Both
   // states have been checked; they may be the same.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses an open state that is not built like the closed one. NULL: all states of the kind are built alike.
-  void (*check_states)(const ValveState &closed, const ValveState &open);
+  // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
+  // states of the kind are built alike.
+  void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
 };
 
 // Returns the kind of that name. Fails with RIIS_INVALID_PARAMETER and names the existing kinds.
@@ -67,6 +68,8 @@ class Valve {
 
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
+  // Makes the patches of another valve, of the same kind and built like this one: an earlier state of it.
+  PatchSet make_patches_before(const Valve &before) const;
 
  private:
   void check_open_values() const;
