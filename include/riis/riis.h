@@ -619,6 +619,19 @@ enum {
   RIIS_INSTRUCTIONS_AVX512 = 3    /* F, DQ, BW, VL */
 };
 
+/* Fields of the closest point that a marking keeps on request. The values are added. Distances by sampling or
+ * minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
+enum {
+  RIIS_FIELD_POINT = 1,
+  RIIS_FIELD_NORMAL = 2,
+  RIIS_FIELD_BARYCENTRIC = 4,
+  RIIS_FIELD_SIDE = 8,
+  RIIS_FIELD_RIM = 16,
+  RIIS_FIELD_UV = 32,        /* refused for surfaces from arrays */
+  RIIS_FIELD_VELOCITY = 64,  /* refused unless the last update gave velocities */
+  RIIS_FIELD_PATCH = 128
+};
+
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
@@ -633,6 +646,9 @@ typedef struct riis_mark_options {
                                 RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE where the processor lacks them.
                                 Distances by sampling or minimisation use the baseline's */
   int32_t reserved;          /* 0 */
+  int32_t fields;            /* a sum of RIIS_FIELD_*: what the result knows of every node within the distance
+                                limit, see riis_mark_fields. Default 0: nothing, which costs nothing */
+  int32_t reserved2;         /* 0 */
 } riis_mark_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size);
@@ -662,6 +678,31 @@ RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int
 RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within,
                                                    const int64_t **node_id, const double **distance,
                                                    const int64_t **triangle_id, const int32_t **leaflet_id);
+
+/* What a marking keeps of the closest points, by options.fields; NULL for fields that were not asked for. All
+ * equal what riis_closest_point answers for the node, to the last bit. */
+typedef struct riis_mark_fields {
+  int64_t n_nodes;           /* n_marked or n_within, as of the call that gave the fields */
+  const double *point;       /* (3, n_nodes): the closest point of the surface */
+  const double *normal;      /* (3, n_nodes): the unit normal of its triangle */
+  const double *barycentric; /* (3, n_nodes): its weights of the triangle's vertices */
+  const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal, but
+                                against it on mirrored patches (aortic: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9),
+                                and the other way round for flipped normals */
+  const double *velocity;    /* (3, n_nodes): the velocity of the surface there */
+  const int32_t *side;       /* (n_nodes): as riis_closest.side */
+  const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
+                                consists of the sides of patches that no other patch has, such as free edges and
+                                the annulus; that of arrays of the edges of one triangle, where vertices with equal
+                                coordinates are one */
+  const int32_t *patch_id;   /* (n_nodes): as riis_surface_triangles gives it */
+} riis_mark_fields;
+/* Gives the fields of the marked nodes, in the order of riis_mark_result_marked. Lifetime as there. */
+RIIS_API riis_status riis_mark_result_marked_fields(const riis_mark_result *result, riis_mark_fields *fields,
+                                                    int64_t struct_size);
+/* Gives the fields of the nodes within the limit, in the order of riis_mark_result_within_limit. */
+RIIS_API riis_status riis_mark_result_within_limit_fields(const riis_mark_result *result,
+                                                          riis_mark_fields *fields, int64_t struct_size);
 
 /* Writes the result to dense arrays of the caller's, one entry a node; NULL for arrays that are not wanted.
  *   n_nodes       length of the arrays: the number of nodes of the marking
@@ -696,6 +737,72 @@ typedef struct riis_mark_stats {
 /* Tells how the last marking with the result went; all 0 for an empty result. */
 RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats,
                                             int64_t struct_size);
+
+/* -------------------------------------------------------------------------------------------------------- *
+ * Resistance: the term K (u - u_surface) of the momentum equation (paper, 2.1; docs/theory.md, "Resistance")
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* How the band around the surface ends at its rim. */
+enum {
+  RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
+  RIIS_RIM_CUT = 1    /* nodes whose closest point is on the rim do not; needs RIIS_FIELD_RIM */
+};
+
+/* A resistance K = (R / eps) delta(d), delta(d) = (1 + cos(pi d / eps)) / (2 eps), at the distance d < eps. */
+typedef struct riis_resistance {
+  int64_t struct_size;   /* set by the init function */
+  double resistance;     /* R, 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of velocity
+                            u has a pressure drop of (R / eps) u. No default: the init function sets NaN, which is
+                            refused */
+  double half_thickness; /* eps, mesh units, at most the distance limit of the marking. Default RIIS_AUTO: the half
+                            thickness of the marking */
+  int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
+  int32_t reserved;      /* 0 */
+} riis_resistance;
+/* Fills *resistance with the defaults. */
+RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size);
+
+/* Adds K and K u_surface to arrays of the caller's, so that several valves add up: a scheme takes
+ * (sum of K) u - (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points.
+ *   result       of riis_mark_nodes
+ *   n_nodes      the number of nodes of the marking
+ *   coefficient  (n_nodes), K is added; NULL if not wanted
+ *   momentum     (3, n_nodes), K u_surface is added; needs RIIS_FIELD_VELOCITY. NULL: the surface's velocity is
+ *                not wanted
+ * Errors: RIIS_INVALID_ARGUMENT for a field out of range, another n_nodes, or a field that the result lacks; the
+ * arrays are then as they were. */
+RIIS_API riis_status riis_mark_result_add_resistance(const riis_mark_result *result,
+                                                     const riis_resistance *resistance, int64_t n_nodes,
+                                                     double *coefficient, double *momentum);
+
+/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks add theirs
+ * by a reduction. u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise.
+ *   n_nodes   the number of nodes of the marking
+ *   velocity  (3, n_nodes), of the flow
+ *   weight    (n_nodes), the volume that a node stands for; 0 for the nodes of other ranks
+ *   force     (3), added to
+ * Errors: as riis_mark_result_add_resistance. */
+RIIS_API riis_status riis_mark_result_add_reaction(const riis_mark_result *result,
+                                                   const riis_resistance *resistance, int64_t n_nodes,
+                                                   const double *velocity, const double *weight, double *force);
+
+/* Sums over the nodes on either side of the surface: entry 0 is upstream, side -1, entry 1 downstream. The mean is
+ * sum / weight, after ranks have added theirs. */
+typedef struct riis_band_sums {
+  double sum[2];      /* of weight * value */
+  double weight[2];   /* of weight */
+  int64_t n_nodes[2]; /* nodes in the band */
+} riis_band_sums;
+/* Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest
+ * point is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning.
+ *   inner, outer  mesh units, 0 <= inner <= outer <= distance limit of the marking
+ *   n_nodes       the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM
+ *   value         (n_nodes)
+ *   weight        (n_nodes), the volume that a node stands for; 0 for the nodes of other ranks
+ * Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another n_nodes, or a field that the result lacks. */
+RIIS_API riis_status riis_mark_result_band_sums(const riis_mark_result *result, double inner, double outer,
+                                                int64_t n_nodes, const double *value, const double *weight,
+                                                riis_band_sums *sums, int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis_mesh_*, riis_adjacency_*, riis_mark_*: argument checks around marking.
+#include <limits>
+
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "marking/leaks.hpp"
 #include "marking/mark_nodes.hpp"
+#include "marking/resistance.hpp"
 
 using riis::guarded;
 using riis::require;
@@ -14,10 +17,12 @@ namespace {
 
 // Sizes of the first release.
 constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
-                      leaks_size = 72;
+                      leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
 
 const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0,
-                                        RIIS_INSTRUCTIONS_AUTO,    0};
+                                        RIIS_INSTRUCTIONS_AUTO,    0,         0,       0};
+const riis_resistance default_resistance{sizeof(riis_resistance), std::numeric_limits<double>::quiet_NaN(), RIIS_AUTO,
+                                         RIIS_RIM_ROUND, 0};
 
 const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
 const riis_cells default_cells{sizeof(riis_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
@@ -65,9 +70,29 @@ void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **
   riis::put(leaflet_id, empty ? nullptr : list.leaflet_id.data());
 }
 
+void get_fields(const riis::NodeFields &made, std::size_t n, riis_mark_fields *fields, int64_t struct_size) {
+  const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
+  riis::write_struct<fields_size>(
+      fields, struct_size, "fields",
+      riis_mark_fields{static_cast<std::int64_t>(n), array(made.point), array(made.normal), array(made.barycentric),
+                       array(made.uv), array(made.velocity), array(made.side), array(made.rim), array(made.patch_id)});
+}
+
+void check_n_nodes(std::int64_t n_nodes, const riis::MarkResult &result) {
+  if (n_nodes != result.stats.n_nodes)
+    riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is ", n_nodes, "; the result is of a mesh with ", result.stats.n_nodes,
+               " nodes");
+}
+
+riis::Resistance resistance_of(const riis_resistance *resistance, const riis::MarkResult &result) {
+  return riis::checked_resistance(
+      riis::completed<resistance_size>(require(resistance, "resistance"), "resistance", default_resistance), result);
+}
+
 // The surface and the mesh are asked for before the result is, and all of them before the options.
 riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *result,
-                                    const riis_mark_options *options, std::int32_t &search) {
+                                    const riis_mark_options *options, std::int32_t &search,
+                                    std::int32_t *fields = nullptr) {
   const riis::Surface &content = riis::content_of(surface);
   require_handle(mesh, "mesh");
   require_handle(result, "result");
@@ -80,7 +105,9 @@ riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh
                                     instructions_asked_for(whole.instructions)};
   check_search(whole.search);
   riis::check_reserved("options.reserved", whole.reserved);
+  riis::check_reserved("options.reserved2", whole.reserved2);
   search = whole.search;
+  riis::put(fields, whole.fields);
   return request;
 }
 
@@ -210,9 +237,9 @@ riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_si
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_mark_result *result) {
   return guarded([&] {
-    std::int32_t search = RIIS_SEARCH_AUTO;
-    const riis::SearchRequest request = checked_request(surface, mesh, result, options, search);
-    riis::mark_nodes(request, search, result->result);
+    std::int32_t search = RIIS_SEARCH_AUTO, fields = 0;
+    const riis::SearchRequest request = checked_request(surface, mesh, result, options, search, &fields);
+    riis::mark_nodes(request, search, fields, result->result);
     riis::check_proportions(
         {mesh->mesh.nodes().n, mesh->mesh.bounds(), request.surface.scene().bounds(), request.surface.half_thickness()},
         surface->number, mesh->mesh.warned());
@@ -235,13 +262,72 @@ riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_
   });
 }
 
+riis_status riis_mark_result_marked_fields(const riis_mark_result *result, riis_mark_fields *fields,
+                                           int64_t struct_size) {
+  return guarded([&] {
+    const riis::MarkResult &content = require_handle(result, "result")->result;
+    get_fields(content.marked_fields(), content.marked_nodes().size(), fields, struct_size);
+  });
+}
+
+riis_status riis_mark_result_within_limit_fields(const riis_mark_result *result, riis_mark_fields *fields,
+                                                 int64_t struct_size) {
+  return guarded([&] {
+    const riis::MarkResult &content = require_handle(result, "result")->result;
+    get_fields(content.fields_within, content.within.size(), fields, struct_size);
+  });
+}
+
+riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size) {
+  return guarded([&] {
+    riis::init_struct<resistance_size>(resistance, struct_size, "resistance", default_resistance);
+  });
+}
+
+riis_status riis_mark_result_add_resistance(const riis_mark_result *result, const riis_resistance *resistance,
+                                            int64_t n_nodes, double *coefficient, double *momentum) {
+  return guarded([&] {
+    const riis::MarkResult &content = require_handle(result, "result")->result;
+    const riis::Resistance checked = resistance_of(resistance, content);
+    check_n_nodes(n_nodes, content);
+    riis::add_resistance(content, checked, coefficient, momentum);
+  });
+}
+
+riis_status riis_mark_result_add_reaction(const riis_mark_result *result, const riis_resistance *resistance,
+                                          int64_t n_nodes, const double *velocity, const double *weight,
+                                          double *force) {
+  return guarded([&] {
+    const riis::MarkResult &content = require_handle(result, "result")->result;
+    const riis::Resistance checked = resistance_of(resistance, content);
+    check_n_nodes(n_nodes, content);
+    riis::add_reaction(content, checked, require(velocity, "velocity"), require(weight, "weight"),
+                       require(force, "force"));
+  });
+}
+
+riis_status riis_mark_result_band_sums(const riis_mark_result *result, double inner, double outer, int64_t n_nodes,
+                                       const double *value, const double *weight, riis_band_sums *sums,
+                                       int64_t struct_size) {
+  return guarded([&] {
+    const riis::MarkResult &content = require_handle(result, "result")->result;
+    check_n_nodes(n_nodes, content);
+    if (!(inner >= 0 && inner <= outer))
+      riis::fail(RIIS_INVALID_ARGUMENT, "inner is ", inner, "; it must be from 0 to outer, which is ", outer);
+    if (!(outer <= content.distance_limit))
+      riis::fail(RIIS_INVALID_ARGUMENT, "outer is ", outer, "; it must be at most the distance limit of the marking, ",
+                 content.distance_limit);
+    riis::write_struct<band_sums_size>(
+        sums, struct_size, "sums",
+        riis::band_sums(content, inner, outer, require(value, "value"), require(weight, "weight")));
+  });
+}
+
 riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes, double far_distance, uint8_t *mark,
                                    double *distance, int64_t *triangle_id, int32_t *leaflet_id) {
   return guarded([&] {
     const riis::MarkResult &content = require_handle(result, "result")->result;
-    if (n_nodes != content.stats.n_nodes)
-      riis::fail(RIIS_INVALID_ARGUMENT, "n_nodes is ", n_nodes, "; the result is of a mesh with ",
-                 content.stats.n_nodes, " nodes");
+    check_n_nodes(n_nodes, content);
     riis::check_far_distance("far_distance", far_distance, content.distance_limit);
     riis::write_dense(content, far_distance, mark, distance, triangle_id, leaflet_id);
   });

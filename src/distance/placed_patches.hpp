@@ -18,7 +18,7 @@ namespace riis {
 // S(u,v), bilinear in every quad of a grid with placed points.
 struct PlacedPatch {
   QuadGrid grid;
-  std::int32_t leaflet_id;
+  std::int32_t leaflet_id, patch_id;
   bool is_turned_over;  // S_u x S_v points against the normal
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }

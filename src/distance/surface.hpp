@@ -38,6 +38,11 @@ class Surface {
   // triangle. Several threads may call this function at once.
   int side(Vec3 p, std::size_t triangle, const PointOnTriangle &closest) const;
 
+  // Returns whether the closest point of a triangle lies on the rim of the surface. Several threads may call it at once.
+  bool is_on_rim(std::size_t triangle, const PointOnTriangle &closest) const {
+    return pseudonormals().is_on_rim(triangle, closest.barycentric);
+  }
+
   // Makes the normals for sides, once. Otherwise the first query of a side makes them.
   void prepare_sides() const { pseudonormals(); }
 

@@ -68,12 +68,21 @@ Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
 
 }  // namespace
 
-void mark_nodes(const SearchRequest &request, std::int32_t asked_for, MarkResult &result) {
+void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32_t fields, MarkResult &result) {
   const auto start = std::chrono::steady_clock::now();
+  check_fields(request.surface, fields);
   const auto [search, report] = run(request, search_for(request, asked_for), result);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
+  // What may fail comes before the first list is overwritten.
+  result.fields_within.reserve(fields, result.found.size());
+  if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
+  if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) request.surface.prepare_sides();
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                result.order_scratch, result.within, result.marked);
+  make_fields(request, fields, result.within, result.fields_within);
+  if (limit_is_wider)
+    select_fields(fields, result.within, result.fields_within, result.marked, result.fields_marked);
+  result.fields = fields;
   result.limit_is_wider = limit_is_wider;
   result.distance_limit = request.distance_limit;
   result.half_thickness = request.surface.half_thickness();

@@ -7,8 +7,8 @@
 
 namespace riis {
 
-// search: RIIS_SEARCH_*. A failure leaves the content of the result as it was.
-void mark_nodes(const SearchRequest &request, std::int32_t search, MarkResult &result);
+// search: RIIS_SEARCH_*; fields: a sum of RIIS_FIELD_*. A failure leaves the content of the result as it was.
+void mark_nodes(const SearchRequest &request, std::int32_t search, std::int32_t fields, MarkResult &result);
 
 // Dense arrays of the result, any of them null; docs at riis_mark_result_dense.
 void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,

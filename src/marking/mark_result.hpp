@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "marking/cluster_search.hpp"
+#include "marking/fields.hpp"
 #include "marking/found_nodes.hpp"
 #include "marking/neighbor_search.hpp"
 #include "marking/node_list.hpp"
@@ -24,6 +25,9 @@ struct LeakingEdges {
 struct MarkResult {
   NodeList within;  // the distance limit
   NodeList marked;  // only used while the limit is wider than the half thickness; otherwise `within` is it
+  std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking was asked for
+  NodeFields fields_within;
+  NodeFields fields_marked;  // used as `marked` is
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
@@ -38,6 +42,7 @@ struct MarkResult {
   OrderScratch order_scratch;
 
   const NodeList &marked_nodes() const { return limit_is_wider ? marked : within; }
+  const NodeFields &marked_fields() const { return limit_is_wider ? fields_marked : fields_within; }
 };
 
 }  // namespace riis

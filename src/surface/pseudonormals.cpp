@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "surface/rims.hpp"
+
 namespace riis {
 namespace {
 
@@ -45,6 +47,8 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   edge_.resize(3 * n);
   corner_.assign(n_positions, Vec3{0, 0, 0});
   position_.resize(3 * n);
+  edge_is_rim_.resize(3 * n);
+  corner_is_rim_.resize(n_positions);
   struct Edge {
     std::size_t lower, upper, slot;  // positions of its ends, place in edge_
   };
@@ -72,22 +76,41 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
     Vec3 sum{0, 0, 0};
     for (; last < edges.size() && ends(edges[last]) == ends(edges[first]); ++last)
       sum = sum + face_[edges[last].slot / 3];
-    for (; first < last; ++first) edge_[edges[first].slot] = sum;
+    const bool is_single = last - first == 1;
+    for (; first < last; ++first) {
+      const auto [lower, upper, slot] = edges[first];
+      edge_[slot] = sum;
+      if (!(set.rim_sides.empty() ? is_single : is_on_rim_side(set, slot / 3, slot % 3))) continue;
+      edge_is_rim_[slot] = 1;
+      corner_is_rim_[lower] = corner_is_rim_[upper] = 1;
+    }
   }
 }
 
-Vec3 Pseudonormals::at(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &barycentric) {
   const auto is_zero = [&](std::size_t k) { return barycentric[k] == 0.0; };
-  Vec3 normal = face_[triangle];
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
-    if (is_zero(next) && is_zero(previous))
-      normal = corner_[position_[3 * triangle + k]];
-    else if (is_zero(previous) && !is_zero(k) && !is_zero(next))
-      normal = edge_[3 * triangle + k];
+    if (is_zero(next) && is_zero(previous)) return {Feature::vertex, k};
+    if (is_zero(previous) && !is_zero(k) && !is_zero(next)) return {Feature::edge, k};
   }
+  return {Feature::face, 0};
+}
+
+Vec3 Pseudonormals::at(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+  const auto [feature, corner] = place_of(barycentric);
+  if (feature == Feature::face) return face_[triangle];
+  const std::size_t slot = 3 * triangle + corner;
+  const Vec3 normal = feature == Feature::vertex ? corner_[position_[slot]] : edge_[slot];
   // Faces folded onto each other cancel up to rounding; the triangle's own normal then takes their place.
   return length(normal) > 1e-9 ? normal : face_[triangle];
+}
+
+bool Pseudonormals::is_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+  const auto [feature, corner] = place_of(barycentric);
+  const std::size_t slot = 3 * triangle + corner;
+  return feature == Feature::vertex ? corner_is_rim_[position_[slot]] != 0
+                                    : feature == Feature::edge && edge_is_rim_[slot] != 0;
 }
 
 }  // namespace riis

@@ -2,10 +2,12 @@
 // Angle-weighted normals of vertices and edges tell on which side of a surface a point is, even if the closest point
 // lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
 // pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, "side" can only mean the side of the nearest piece.
-// In: triangles. Out: a normal for any closest point.
+// The rim of the surface comes from the same edges and vertices.
+// In: triangles. Out: a normal for any closest point, and whether that point is on the rim.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "surface/triangle_set.hpp"
@@ -22,11 +24,24 @@ class Pseudonormals {
   // Returns the normal, of any length, of the face, edge or vertex that the barycentric weights lie on.
   Vec3 at(std::size_t triangle, const std::array<double, 3> &barycentric) const;
 
+  // Returns whether the edge or vertex that the barycentric weights lie on is of the rim. The rim of a valve consists of the
+  // sides of patches that nothing shares (surface/rims.hpp), that of triangles from arrays of the edges of one triangle.
+  bool is_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const;
+
  private:
+  // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
+  enum class Feature { face, edge, vertex };
+  struct Place {
+    Feature feature;
+    std::size_t corner;
+  };
+  static Place place_of(const std::array<double, 3> &barycentric);
+
   std::vector<Vec3> face_;             // one for each triangle
   std::vector<Vec3> edge_;             // three for each triangle; edge k runs from corner k to k + 1
   std::vector<Vec3> corner_;           // one for each distinct position
   std::vector<std::size_t> position_;  // three for each triangle: position of each corner
+  std::vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
 };
 
 }  // namespace riis

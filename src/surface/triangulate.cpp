@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
+#include "surface/rims.hpp"
 #include "surface/triangle_groups.hpp"
 
 namespace riis {
@@ -350,6 +351,7 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
     }
     if (vanished.empty()) {
       close_gaps(pieces, triangles);
+      triangles.rim_sides = rim_sides(set);
       return triangles;
     }
     // Patches thinner than the tolerance lose their area if their sides become the same chords. Their curves have to be finer.

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "geometry/point_triangle.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+constexpr std::int32_t all_fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE |
+                                    RIIS_FIELD_RIM | RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH;
+
+// Calls visit(array, numbers a node) for the array of every field in `fields`.
+template <class Fields, class Visit>
+void for_each_array(std::int32_t fields, Fields &made, const Visit &visit) {
+  const auto has = [&](std::int32_t field) { return (fields & field) != 0; };
+  if (has(RIIS_FIELD_POINT)) visit(made.point, std::size_t{3});
+  if (has(RIIS_FIELD_NORMAL)) visit(made.normal, std::size_t{3});
+  if (has(RIIS_FIELD_BARYCENTRIC)) visit(made.barycentric, std::size_t{3});
+  if (has(RIIS_FIELD_VELOCITY)) visit(made.velocity, std::size_t{3});
+  if (has(RIIS_FIELD_UV)) visit(made.uv, std::size_t{2});
+  if (has(RIIS_FIELD_SIDE)) visit(made.side, std::size_t{1});
+  if (has(RIIS_FIELD_RIM)) visit(made.rim, std::size_t{1});
+  if (has(RIIS_FIELD_PATCH)) visit(made.patch_id, std::size_t{1});
+}
+
+void put(std::vector<double> &to, std::size_t i, Vec3 value) {
+  to[3 * i] = value.x;
+  to[3 * i + 1] = value.y;
+  to[3 * i + 2] = value.z;
+}
+
+// The position of a triangle in the set. Ids are positions, unless triangles of the caller's arrays were left out.
+std::size_t position_of(const TriangleSet &set, std::int64_t triangle_id) {
+  const auto guess = static_cast<std::size_t>(triangle_id);
+  if (guess < set.n_triangles() && set.triangle_id[guess] == triangle_id) return guess;
+  const auto found = std::lower_bound(set.triangle_id.begin(), set.triangle_id.end(), triangle_id);
+  return static_cast<std::size_t>(found - set.triangle_id.begin());
+}
+
+// Fields of nodes whose closest point lies on a triangle.
+class TriangleFields {
+ public:
+  TriangleFields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made)
+      : surface_(request.surface),
+        set_(surface_.triangles()),
+        nodes_(request.mesh.nodes()),
+        fields_(fields),
+        list_(list),
+        made_(made) {}
+
+  void write(std::size_t i) const {
+    const std::size_t triangle = position_of(set_, list_.triangle_id[i]);
+    const std::array<Vec3, 3> corners = set_.corners(triangle);
+    const Vec3 p = nodes_[list_.node_id[i]];
+    const PointOnTriangle on = closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
+    if (has(RIIS_FIELD_POINT)) put(made_.point, i, on.point);
+    if (has(RIIS_FIELD_NORMAL)) put(made_.normal, i, triangle_normal(corners));
+    if (has(RIIS_FIELD_BARYCENTRIC)) put(made_.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
+    if (has(RIIS_FIELD_VELOCITY))
+      for (std::size_t k = 0; k < 3; ++k) made_.velocity[3 * i + k] = interpolated(set_.velocity, 3, k, triangle, on);
+    if (has(RIIS_FIELD_UV))
+      for (std::size_t k = 0; k < 2; ++k) made_.uv[2 * i + k] = interpolated(set_.uv, 2, k, triangle, on);
+    if (has(RIIS_FIELD_SIDE)) made_.side[i] = surface_.side(p, triangle, on);
+    if (has(RIIS_FIELD_RIM)) made_.rim[i] = surface_.is_on_rim(triangle, on) ? 1 : 0;
+    if (has(RIIS_FIELD_PATCH)) made_.patch_id[i] = set_.patch_id[triangle];
+  }
+
+ private:
+  bool has(std::int32_t field) const { return (fields_ & field) != 0; }
+
+  // Component k of a field of the vertices, each of which has n components.
+  double interpolated(const std::vector<double> &field, std::size_t n, std::size_t k, std::size_t triangle,
+                      const PointOnTriangle &on) const {
+    const auto at = [&](std::size_t corner) {
+      return field[n * static_cast<std::size_t>(set_.vertex_id[3 * triangle + corner]) + k];
+    };
+    return on.barycentric[0] * at(0) + on.barycentric[1] * at(1) + on.barycentric[2] * at(2);
+  }
+
+  const Surface &surface_;
+  const TriangleSet &set_;
+  const StridedPoints &nodes_;
+  std::int32_t fields_;
+  const NodeList &list_;
+  NodeFields &made_;
+};
+
+// Fields of a node whose distance is by sampling or minimisation: the point is found once more.
+void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::int64_t node, std::size_t i,
+                        NodeFields &made) {
+  const PatchDistance &method = *request.surface.other_distance();
+  const ClosestOnPatches found = method.closest(request.mesh.nodes()[node], request.distance_limit);
+  const PlacedPatch &patch = method.patches().patches[static_cast<std::size_t>(found.patch)];
+  if (fields & RIIS_FIELD_POINT) put(made.point, i, found.point);
+  if (fields & RIIS_FIELD_NORMAL) put(made.normal, i, patch.normal_at(found.u, found.v));
+  if (fields & RIIS_FIELD_PATCH) made.patch_id[i] = patch.patch_id;
+}
+
+}  // namespace
+
+void NodeFields::reserve(std::int32_t fields, std::size_t n) {
+  for_each_array(fields, *this, [&](auto &array, std::size_t per_node) {
+    // Half as much again: a moving valve must not want more memory with every new largest number.
+    if (per_node * n > array.capacity()) array.reserve(per_node * (n + n / 2));
+  });
+}
+
+void NodeFields::resize(std::int32_t fields, std::size_t n) {
+  for_each_array(all_fields, *this, [](auto &array, std::size_t) { array.clear(); });
+  for_each_array(fields, *this, [&](auto &array, std::size_t per_node) { array.resize(per_node * n); });
+}
+
+void check_fields(const Surface &surface, std::int32_t fields) {
+  if (fields < 0 || (fields & ~all_fields) != 0)
+    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, "; it must be a sum of RIIS_FIELD_*, at most ", all_fields);
+  if (const PatchDistance *other = surface.other_distance()) {
+    constexpr std::int32_t of_patches = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH;
+    if (fields & ~of_patches)
+      fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, ", but the surface's distances are by ", other->name(),
+           ", which has no fields but RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH");
+  }
+  if ((fields & RIIS_FIELD_VELOCITY) && surface.triangles().velocity.empty())
+    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, ", with RIIS_FIELD_VELOCITY, but the surface has no velocity: "
+         "update it with riis_surface_update_moving, or give the velocity of its vertices in arrays");
+  if ((fields & RIIS_FIELD_UV) && surface.triangles().uv.empty())
+    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,
+         ", with RIIS_FIELD_UV, but the surface is from arrays, which have no patches");
+}
+
+void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made) {
+  made.resize(fields, list.size());
+  if (fields == 0) return;
+  const TriangleFields of_triangles(request, fields, list, made);
+  const bool has_triangles = !request.surface.other_distance();
+  constexpr std::int64_t nodes_per_block = 512;
+  parallel_for_ranges(static_cast<std::int64_t>(list.size()), nodes_per_block, request.n_threads,
+                      [&](const Range &range, int) {
+                        for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i)
+                          if (has_triangles)
+                            of_triangles.write(i);
+                          else
+                            write_patch_fields(request, fields, list.node_id[i], i, made);
+                      });
+}
+
+void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
+                   NodeFields &made) {
+  made.resize(fields, some.size());
+  std::size_t from = 0;
+  for (std::size_t to = 0; to < some.size(); ++to, ++from) {
+    while (all.node_id[from] != some.node_id[to]) ++from;
+    const auto copy = [&](const auto &source, auto &target, std::size_t per_node) {
+      if (!source.empty()) std::copy_n(source.data() + per_node * from, per_node, target.data() + per_node * to);
+    };
+    copy(fields_of_all.point, made.point, 3);
+    copy(fields_of_all.normal, made.normal, 3);
+    copy(fields_of_all.barycentric, made.barycentric, 3);
+    copy(fields_of_all.velocity, made.velocity, 3);
+    copy(fields_of_all.uv, made.uv, 2);
+    copy(fields_of_all.side, made.side, 1);
+    copy(fields_of_all.rim, made.rim, 1);
+    copy(fields_of_all.patch_id, made.patch_id, 1);
+  }
+}
+
+}  // namespace riis

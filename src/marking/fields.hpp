@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the closest point of a node knows besides its distance: the fields that a solver's force needs.
+// In: nodes within the limit with their decided triangles. Out: an array for each field that was asked for.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "marking/node_list.hpp"
+#include "marking/search.hpp"
+
+namespace riis {
+
+// Arrays of the fields of one list of nodes, in the list's order. An array that was not asked for is empty.
+struct NodeFields {
+  std::vector<double> point, normal, barycentric, velocity;  // (3, n)
+  std::vector<double> uv;                                    // (2, n)
+  std::vector<std::int32_t> side, rim, patch_id;             // (n)
+
+  // Reserves memory for n nodes, so that resize(m) with m <= n does not throw.
+  void reserve(std::int32_t fields, std::size_t n);
+  void resize(std::int32_t fields, std::size_t n);
+};
+
+// Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
+void check_fields(const Surface &surface, std::int32_t fields);
+
+// Writes the fields of the nodes in the list. Both have been reserved, so nothing is thrown.
+void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made);
+
+// Writes the fields of the nodes that are in both lists; `some` is a part of `all`, and both ascend.
+void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
+                   NodeFields &made);
+
+}  // namespace riis

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/rims.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace riis {
+namespace {
+
+// A side of an image of a patch.
+struct Use {
+  std::size_t curve;
+  const PatchImage *image;
+  PatchRim side;
+};
+
+bool are_equal(const Rotation &a, const Rotation &b) {
+  return a.row_x == b.row_x && a.row_y == b.row_y && a.row_z == b.row_z;
+}
+
+bool lies_in_mirror(const Curve &curve, Mirror mirror) {
+  if (mirror == Mirror::none) return false;
+  for (const Bezier &piece : curve.pieces())
+    for (int i = 0; i <= piece.degree; ++i) {
+      const Vec3 q = piece.control[static_cast<std::size_t>(i)];
+      if ((mirror == Mirror::in_x ? q.x : q.y) != 0) return false;
+    }
+  return true;
+}
+
+// Returns whether both uses put the curve in the same place.
+bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
+  if (!are_equal(a.rotation, b.rotation) || !(a.translation == b.translation)) return false;
+  return a.mirror == b.mirror ||
+         (lies_in_mirror(curve, a.mirror == Mirror::none ? b.mirror : a.mirror) &&
+          (a.mirror == Mirror::none || b.mirror == Mirror::none));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
+  std::vector<Use> uses;
+  std::size_t n_ids = 0;
+  for (const Patch &patch : set.patches)
+    for (const PatchImage &image : patch.images) {
+      n_ids = std::max(n_ids, static_cast<std::size_t>(image.patch_id) + 1);
+      uses.push_back({patch.v0.curve, &image, rim_v0});
+      uses.push_back({patch.v1.curve, &image, rim_v1});
+      uses.push_back({patch.u0.curve, &image, rim_u0});
+      uses.push_back({patch.u1.curve, &image, rim_u1});
+    }
+  std::stable_sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
+  std::vector<std::uint8_t> sides(n_ids, 0);
+  for (auto first = uses.begin(); first != uses.end();) {
+    const auto last = std::find_if(first, uses.end(), [&](const Use &use) { return use.curve != first->curve; });
+    for (auto use = first; use != last; ++use) {
+      const bool is_shared = std::any_of(first, last, [&](const Use &other) {
+        return &other != &*use && coincide(set.curves[use->curve], *use->image, *other.image);
+      });
+      std::uint8_t &of_patch = sides[static_cast<std::size_t>(use->image->patch_id)];
+      if (!is_shared) of_patch = static_cast<std::uint8_t>(of_patch | use->side);
+    }
+    first = last;
+  }
+  return sides;
+}
+
+bool is_on_rim_side(const TriangleSet &set, std::size_t triangle, std::size_t k) {
+  const std::uint8_t rim = set.rim_sides[static_cast<std::size_t>(set.patch_id[triangle])];
+  if (rim == 0) return false;
+  const auto place = [&](std::size_t corner) {
+    return set.uv.data() + 2 * set.vertex_id[3 * triangle + corner % 3];
+  };
+  const double *a = place(k), *b = place(k + 1);
+  // Vertices on a side have its parameter exactly.
+  return ((rim & rim_u0) && a[0] == 0 && b[0] == 0) || ((rim & rim_u1) && a[0] == 1 && b[0] == 1) ||
+         ((rim & rim_v0) && a[1] == 0 && b[1] == 0) || ((rim & rim_v1) && a[1] == 1 && b[1] == 1);
+}
+
+}  // namespace riis

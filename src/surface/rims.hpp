@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rim of a valve: the sides of its patches that neither another patch nor an image shares.
+// In: patches; an edge of a triangle. Out: the sides on the rim, and whether the edge lies on one of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "surface/triangle_set.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// Bits of TriangleSet::rim_sides.
+enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8 };
+
+// Returns the sides on the rim for each patch_id. Two patches share a side if it is the same curve and their images have the
+// same place. A patch shares a side with its own mirror image if the curve lies in the mirror's plane, and with itself if two
+// of its sides are one curve. Where patches only meet inside a side, as along the bending curve, nothing depends on vertices:
+// a T-junction is no rim.
+std::vector<std::uint8_t> rim_sides(const PatchSet &set);
+
+// Returns whether edge k, from corner k to the next, of a triangle lies on a side on the rim.
+bool is_on_rim_side(const TriangleSet &set, std::size_t triangle, std::size_t k);
+
+}  // namespace riis
