@@ -43,6 +43,9 @@ class Surface {
     return pseudonormals().is_on_rim(triangle, closest.barycentric);
   }
 
+  // Returns the unit normal of a triangle, which it has made for the sides.
+  Vec3 normal(std::size_t triangle) const { return pseudonormals().of_face(triangle); }
+
   // Makes the normals for sides, once. Otherwise the first query of a side makes them.
   void prepare_sides() const { pseudonormals(); }
 

@@ -65,24 +65,37 @@ RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
   return choose(t > zero, choose(t < one, t, one), zero);
 }
 
-RIIS_INLINE Doubles distances(Doubles3 p, Doubles3 a, Doubles3 b, Doubles3 c) {
+// The closest points on eight triangles. `distance_sq` alone is cheaper.
+struct ClosestPoints {
+  Doubles distance_sq;
+  Doubles3 point, weights;
+};
+
+template <bool wants_point>
+RIIS_INLINE ClosestPoints closest_points(Doubles3 p, Doubles3 a, Doubles3 b, Doubles3 c) {
   const Doubles3 ab = b - a, ac = c - a, bc = c - b, ap = p - a, bp = p - b;
   const Doubles t_ab = segment_parameter(ap, ab), t_ac = segment_parameter(ap, ac), t_bc = segment_parameter(bp, bc);
-  Doubles best = Doubles::all(__builtin_inf());
-  const auto offer = [&](Doubles3 point, Doubles::Mask where) RIIS_LAMBDA {
+  const Doubles zero = Doubles::all(0), one = Doubles::all(1);
+  ClosestPoints best{Doubles::all(__builtin_inf()), {zero, zero, zero}, {zero, zero, zero}};
+  const auto offer = [&](Doubles3 point, Doubles3 weights, Doubles::Mask where) RIIS_LAMBDA {
     const Doubles3 difference = p - point;
     const Doubles distance_sq = dot(difference, difference);
-    best = choose(both(where, distance_sq < best), distance_sq, best);
+    const Doubles::Mask is_better = both(where, distance_sq < best.distance_sq);
+    best.distance_sq = choose(is_better, distance_sq, best.distance_sq);
+    if constexpr (wants_point) {
+      best.point = choose(is_better, point, best.point);
+      best.weights = choose(is_better, weights, best.weights);
+    }
   };
   const auto on_edge = [&](Doubles3 first, Doubles3 edge, Doubles3 last, Doubles t)
-                           RIIS_LAMBDA { return choose(t == Doubles::all(1), last, first + t * edge); };
-  const Doubles::Mask everywhere = Doubles::all(0) == Doubles::all(0);
-  offer(on_edge(a, ab, b, t_ab), everywhere);
-  offer(on_edge(b, bc, c, t_bc), everywhere);
-  offer(on_edge(a, ac, c, t_ac), everywhere);
+                           RIIS_LAMBDA { return choose(t == one, last, first + t * edge); };
+  const Doubles::Mask everywhere = zero == zero;
+  offer(on_edge(a, ab, b, t_ab), {one - t_ab, t_ab, zero}, everywhere);
+  offer(on_edge(b, bc, c, t_bc), {zero, one - t_bc, t_bc}, everywhere);
+  offer(on_edge(a, ac, c, t_ac), {one - t_ac, zero, t_ac}, everywhere);
 
   const Doubles3 n = cross(ab, ac);
-  const Doubles inverse_nn = Doubles::all(1) / dot(n, n);
+  const Doubles inverse_nn = one / dot(n, n);
   Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
   const Doubles::Mask has_foot = inside(w);
   Doubles::Mask active = has_foot;
@@ -93,7 +106,7 @@ RIIS_INLINE Doubles distances(Doubles3 p, Doubles3 a, Doubles3 b, Doubles3 c) {
     w = {choose(active, refined.b, w.b), choose(active, refined.c, w.c)};
     active = both(active, magnitude(rest.b) + magnitude(rest.c) > Doubles::all(0x1p-50));
   }
-  offer(a + (w.b * ab + w.c * ac), has_foot);
+  offer(a + (w.b * ab + w.c * ac), {one - (w.b + w.c), w.b, w.c}, has_foot);
   return best;
 }
 
@@ -110,9 +123,25 @@ void decide(int32_t n, const int32_t *point, const int32_t *triangle, const doub
       return Doubles3{Doubles::gather(t, 3 * i), Doubles::gather(t, 3 * i + 1), Doubles::gather(t, 3 * i + 2)};
     };
     const Doubles3 q = {Doubles::gather(p, 0), Doubles::gather(p, 1), Doubles::gather(p, 2)};
-    const Doubles answers = distances(q, corner(0), corner(1), corner(2));
+    const Doubles answers = closest_points<false>(q, corner(0), corner(1), corner(2)).distance_sq;
     __builtin_memcpy(distance_sq + first, answers.part, sizeof answers.part);
   }
+}
+
+void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
+  const auto vector = [&](const double (*from)[pairs_at_once]) RIIS_LAMBDA {
+    return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
+  };
+  const ClosestPoints closest =
+      closest_points<true>(vector(pairs.point), vector(pairs.corners), vector(pairs.corners + 3), vector(pairs.corners + 6));
+  const auto store = [](Doubles3 v, double (*to)[pairs_at_once]) RIIS_LAMBDA {
+    v.x.store(to[0]);
+    v.y.store(to[1]);
+    v.z.store(to[2]);
+  };
+  closest.distance_sq.store(located.distance_sq);
+  store(closest.point, located.point);
+  store(closest.weights, located.barycentric);
 }
 
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
@@ -323,6 +352,6 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {make_group, decide};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {make_group, decide, locate};
 
 }  // namespace riis

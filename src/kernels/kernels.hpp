@@ -5,7 +5,7 @@
 // filter_*: single precision, only to leave out pairs that cannot matter. All results are right to `error`
 // (docs/theory.md, section 8). Coordinates are in the surface's frame: relative to its middle, scaled by a power of two
 // to a half extent from 1/2 to 1.
-// decide: double precision, the decision kernel (geometry/point_triangle.hpp) to the last bit.
+// decide, locate: double precision, the decision kernel (geometry/point_triangle.hpp) to the last bit.
 #pragma once
 
 #include <stdint.h>
@@ -79,6 +79,17 @@ struct PairArrays {
   int32_t *node, *triangle;
 };
 
+// Eight pairs of a point and a triangle, coordinate by coordinate, and the closest points. Lanes without a pair repeat another.
+constexpr int pairs_at_once = 8;
+struct alignas(64) PointsAndTriangles {
+  double point[3][pairs_at_once];
+  double corners[9][pairs_at_once];  // x, y, z of the first corner, then of the second and the third
+};
+struct alignas(64) PointsOnTriangles {
+  double distance_sq[pairs_at_once];
+  double point[3][pairs_at_once], barycentric[3][pairs_at_once];
+};
+
 struct FilterKernels {
   // Writes for every candidate group the boxes within its reach, a bit for each box. Returns false if there is none at all.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
@@ -97,6 +108,8 @@ struct DecisionKernels {
   // Writes up to n + 7 squares.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
+  // Finds the closest points themselves, with the bits of closest_point_on_triangle.
+  void (*locate)(const PointsAndTriangles &pairs, PointsOnTriangles &located);
 };
 
 struct Kernels : FilterKernels, DecisionKernels {};

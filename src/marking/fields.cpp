@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "geometry/point_triangle.hpp"
+#include "kernels/kernels.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -50,43 +51,82 @@ class TriangleFields {
       : surface_(request.surface),
         set_(surface_.triangles()),
         nodes_(request.mesh.nodes()),
+        locate_(kernels(request.instructions).locate),
         fields_(fields),
+        has_normals_((fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) != 0),
         list_(list),
         made_(made) {}
 
-  void write(std::size_t i) const {
-    const std::size_t triangle = position_of(set_, list_.triangle_id[i]);
-    const std::array<Vec3, 3> corners = set_.corners(triangle);
-    const Vec3 p = nodes_[list_.node_id[i]];
-    const PointOnTriangle on = closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
-    if (has(RIIS_FIELD_POINT)) put(made_.point, i, on.point);
-    if (has(RIIS_FIELD_NORMAL)) put(made_.normal, i, triangle_normal(corners));
-    if (has(RIIS_FIELD_BARYCENTRIC)) put(made_.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
-    if (has(RIIS_FIELD_VELOCITY))
-      for (std::size_t k = 0; k < 3; ++k) made_.velocity[3 * i + k] = interpolated(set_.velocity, 3, k, triangle, on);
-    if (has(RIIS_FIELD_UV))
-      for (std::size_t k = 0; k < 2; ++k) made_.uv[2 * i + k] = interpolated(set_.uv, 2, k, triangle, on);
-    if (has(RIIS_FIELD_SIDE)) made_.side[i] = surface_.side(p, triangle, on);
-    if (has(RIIS_FIELD_RIM)) made_.rim[i] = surface_.is_on_rim(triangle, on) ? 1 : 0;
-    if (has(RIIS_FIELD_PATCH)) made_.patch_id[i] = set_.patch_id[triangle];
+  void write(const Range &range) const {
+    for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once)
+      write_at_once(static_cast<std::size_t>(first), static_cast<std::size_t>(std::min(first + pairs_at_once, range.end)));
   }
 
  private:
+  // Writes the fields of at most pairs_at_once nodes.
+  void write_at_once(std::size_t first, std::size_t end) const {
+    PointsAndTriangles pairs;
+    std::array<std::size_t, pairs_at_once> triangle;
+    for (std::size_t lane = 0; lane < pairs_at_once; ++lane) {
+      const std::size_t i = std::min(first + lane, end - 1);
+      triangle[lane] = position_of(set_, list_.triangle_id[i]);
+      set_lane(pairs.point, lane, nodes_[list_.node_id[i]]);
+      const std::array<Vec3, 3> corners = set_.corners(triangle[lane]);
+      for (std::size_t k = 0; k < 3; ++k) set_lane(pairs.corners + 3 * k, lane, corners[k]);
+    }
+    PointsOnTriangles located;
+    locate_(pairs, located);
+    for (std::size_t i = first; i < end; ++i) {
+      const std::size_t lane = i - first;
+      const Vec3 weights = lane_of(located.barycentric, lane);
+      write(i, triangle[lane], lane_of(pairs.point, lane),
+            {located.distance_sq[lane], lane_of(located.point, lane), {weights.x, weights.y, weights.z}});
+    }
+  }
+
+  static void set_lane(double (*to)[pairs_at_once], std::size_t lane, Vec3 v) {
+    to[0][lane] = v.x;
+    to[1][lane] = v.y;
+    to[2][lane] = v.z;
+  }
+  static Vec3 lane_of(const double (*from)[pairs_at_once], std::size_t lane) {
+    return {from[0][lane], from[1][lane], from[2][lane]};
+  }
+
+  void write(std::size_t i, std::size_t triangle, Vec3 p, const PointOnTriangle &on) const {
+    if (has(RIIS_FIELD_POINT)) put(made_.point, i, on.point);
+    if (has(RIIS_FIELD_NORMAL)) put(made_.normal, i, normal(triangle));
+    if (has(RIIS_FIELD_BARYCENTRIC)) put(made_.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
+    if (has(RIIS_FIELD_SIDE)) made_.side[i] = surface_.side(p, triangle, on);
+    if (has(RIIS_FIELD_RIM)) made_.rim[i] = surface_.is_on_rim(triangle, on) ? 1 : 0;
+    if (has(RIIS_FIELD_PATCH)) made_.patch_id[i] = set_.patch_id[triangle];
+    if (has(RIIS_FIELD_VELOCITY)) interpolate<3>(set_.velocity, triangle, on, made_.velocity.data() + 3 * i);
+    if (has(RIIS_FIELD_UV)) interpolate<2>(set_.uv, triangle, on, made_.uv.data() + 2 * i);
+  }
+
   bool has(std::int32_t field) const { return (fields_ & field) != 0; }
 
-  // Component k of a field of the vertices, each of which has n components.
-  double interpolated(const std::vector<double> &field, std::size_t n, std::size_t k, std::size_t triangle,
-                      const PointOnTriangle &on) const {
-    const auto at = [&](std::size_t corner) {
-      return field[n * static_cast<std::size_t>(set_.vertex_id[3 * triangle + corner]) + k];
-    };
-    return on.barycentric[0] * at(0) + on.barycentric[1] * at(1) + on.barycentric[2] * at(2);
+  Vec3 normal(std::size_t triangle) const {
+    return has_normals_ ? surface_.normal(triangle) : triangle_normal(set_.corners(triangle));
+  }
+
+  // A field of the vertices, each of which has n components.
+  template <std::size_t n>
+  void interpolate(const std::vector<double> &field, std::size_t triangle, const PointOnTriangle &on, double *to) const {
+    const std::int64_t *id = set_.vertex_id.data() + 3 * triangle;
+    const double *a = field.data() + static_cast<std::int64_t>(n) * id[0],
+                 *b = field.data() + static_cast<std::int64_t>(n) * id[1],
+                 *c = field.data() + static_cast<std::int64_t>(n) * id[2];
+    for (std::size_t k = 0; k < n; ++k)
+      to[k] = on.barycentric[0] * a[k] + on.barycentric[1] * b[k] + on.barycentric[2] * c[k];
   }
 
   const Surface &surface_;
   const TriangleSet &set_;
   const StridedPoints &nodes_;
+  void (*locate_)(const PointsAndTriangles &, PointsOnTriangles &);
   std::int32_t fields_;
+  bool has_normals_;  // the surface made them, for the sides
   const NodeList &list_;
   NodeFields &made_;
 };
@@ -112,7 +152,8 @@ void NodeFields::reserve(std::int32_t fields, std::size_t n) {
 }
 
 void NodeFields::resize(std::int32_t fields, std::size_t n) {
-  for_each_array(all_fields, *this, [](auto &array, std::size_t) { array.clear(); });
+  for_each_array(all_fields & ~fields, *this, [](auto &array, std::size_t) { array.clear(); });
+  // What the last marking left stays: every entry is written.
   for_each_array(fields, *this, [&](auto &array, std::size_t per_node) { array.resize(per_node * n); });
 }
 
@@ -141,11 +182,14 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
   constexpr std::int64_t nodes_per_block = 512;
   parallel_for_ranges(static_cast<std::int64_t>(list.size()), nodes_per_block, request.n_threads,
                       [&](const Range &range, int) {
-                        for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i)
-                          if (has_triangles)
-                            of_triangles.write(i);
-                          else
-                            write_patch_fields(request, fields, list.node_id[i], i, made);
+                        if (has_triangles) {
+                          of_triangles.write(range);
+                        } else {
+                          for (std::int64_t i = range.begin; i < range.end; ++i) {
+                            const auto at = static_cast<std::size_t>(i);
+                            write_patch_fields(request, fields, list.node_id[at], at, made);
+                          }
+                        }
                       });
 }
 

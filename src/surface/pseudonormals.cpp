@@ -2,6 +2,7 @@
 #include "surface/pseudonormals.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <tuple>
 
@@ -10,19 +11,37 @@
 namespace riis {
 namespace {
 
+std::uint64_t hash(Vec3 p) {
+  std::uint64_t h = 0;
+  for (const double coordinate : {p.x, p.y, p.z}) {
+    const double positive_zero = coordinate + 0.0;  // -0 and 0 are the same place
+    std::uint64_t bits;
+    std::memcpy(&bits, &positive_zero, sizeof bits);
+    h = (h ^ bits) * 0x9e3779b97f4a7c15;
+    h ^= h >> 32;
+  }
+  return h;
+}
+
 // Numbers all vertices; vertices with equal coordinates get the same number.
 std::vector<std::size_t> distinct_positions(const TriangleSet &set, std::size_t &n_positions) {
-  const auto key = [&](std::size_t vertex) {
-    const Vec3 p = set.vertex(static_cast<std::int64_t>(vertex));
-    return std::make_tuple(p.x, p.y, p.z);
-  };
-  std::vector<std::size_t> order(set.n_vertices()), position(set.n_vertices());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  // A table of vertices, at most half full, each at the first free place from its hash on.
+  constexpr std::int32_t none = -1;
+  std::size_t size = 16;
+  while (size < 2 * set.n_vertices()) size *= 2;
+  std::vector<std::int32_t> table(size, none);
+  std::vector<std::size_t> position(set.n_vertices());
   n_positions = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || key(order[i - 1]) != key(order[i])) ++n_positions;
-    position[order[i]] = n_positions - 1;
+  for (std::size_t i = 0; i < set.n_vertices(); ++i) {
+    const Vec3 p = set.vertex(static_cast<std::int64_t>(i));
+    std::size_t at = hash(p) & (size - 1);
+    while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
+    if (table[at] == none) {
+      table[at] = static_cast<std::int32_t>(i);
+      position[i] = n_positions++;
+    } else {
+      position[i] = position[static_cast<std::size_t>(table[at])];
+    }
   }
   return position;
 }
@@ -49,10 +68,8 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   position_.resize(3 * n);
   edge_is_rim_.resize(3 * n);
   corner_is_rim_.resize(n_positions);
-  struct Edge {
-    std::size_t lower, upper, slot;  // positions of its ends, place in edge_
-  };
-  std::vector<Edge> edges(3 * n);
+  // Edges by their lower end: they are few, and equal ones are found by looking at all.
+  std::vector<std::size_t> first_edge(n_positions + 1, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::array<Vec3, 3> corners = set.corners(i);
     face_[i] = triangle_normal(corners);
@@ -62,29 +79,44 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
       Vec3 &sum = corner_[position_[3 * i + k]];
       sum = sum + angle_between(next - here, previous - here) * face_[i];
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [lower, upper] = std::minmax(position_[3 * i + k], position_[3 * i + (k + 1) % 3]);
-      edges[3 * i + k] = {lower, upper, 3 * i + k};
+    for (std::size_t k = 0; k < 3; ++k) ++first_edge[ends_of(3 * i + k).lower + 1];
+  }
+  std::partial_sum(first_edge.begin(), first_edge.end(), first_edge.begin());
+  struct Edge {
+    std::size_t upper, slot;  // position of its upper end, place in edge_
+  };
+  std::vector<Edge> edges(3 * n);
+  std::vector<std::size_t> next(first_edge.begin(), first_edge.end() - 1);
+  for (std::size_t slot = 0; slot < 3 * n; ++slot) {
+    const auto [lower, upper] = ends_of(slot);
+    edges[next[lower]++] = {upper, slot};
+  }
+  for (std::size_t lower = 0; lower < n_positions; ++lower) {
+    const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(first_edge[lower]),
+               end = edges.begin() + static_cast<std::ptrdiff_t>(first_edge[lower + 1]);
+    // By slot among equal ones, so that the sums have the same bits however the ends are numbered.
+    std::sort(begin, end,
+              [](const Edge &a, const Edge &b) { return std::tie(a.upper, a.slot) < std::tie(b.upper, b.slot); });
+    for (auto first = begin; first != end;) {
+      Vec3 sum{0, 0, 0};
+      auto last = first;
+      for (; last != end && last->upper == first->upper; ++last) sum = sum + face_[last->slot / 3];
+      const bool is_single = last - first == 1;
+      for (; first != last; ++first) {
+        const std::size_t slot = first->slot;
+        edge_[slot] = sum;
+        if (!(set.rim_sides.empty() ? is_single : is_on_rim_side(set, slot / 3, slot % 3))) continue;
+        edge_is_rim_[slot] = 1;
+        corner_is_rim_[lower] = corner_is_rim_[first->upper] = 1;
+      }
     }
   }
-  const auto ends = [](const Edge &edge) { return std::tie(edge.lower, edge.upper); };
-  std::sort(edges.begin(), edges.end(), [&](const Edge &a, const Edge &b) {
-    return std::tie(a.lower, a.upper, a.slot) < std::tie(b.lower, b.upper, b.slot);
-  });
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t last = first;
-    Vec3 sum{0, 0, 0};
-    for (; last < edges.size() && ends(edges[last]) == ends(edges[first]); ++last)
-      sum = sum + face_[edges[last].slot / 3];
-    const bool is_single = last - first == 1;
-    for (; first < last; ++first) {
-      const auto [lower, upper, slot] = edges[first];
-      edge_[slot] = sum;
-      if (!(set.rim_sides.empty() ? is_single : is_on_rim_side(set, slot / 3, slot % 3))) continue;
-      edge_is_rim_[slot] = 1;
-      corner_is_rim_[lower] = corner_is_rim_[upper] = 1;
-    }
-  }
+}
+
+Pseudonormals::Ends Pseudonormals::ends_of(std::size_t slot) const {
+  const std::size_t triangle = slot / 3, k = slot % 3;
+  const auto [lower, upper] = std::minmax(position_[slot], position_[3 * triangle + (k + 1) % 3]);
+  return {lower, upper};
 }
 
 Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &barycentric) {

@@ -21,6 +21,8 @@ class Pseudonormals {
  public:
   explicit Pseudonormals(const TriangleSet &set);
 
+  Vec3 of_face(std::size_t triangle) const { return face_[triangle]; }
+
   // Returns the normal, of any length, of the face, edge or vertex that the barycentric weights lie on.
   Vec3 at(std::size_t triangle, const std::array<double, 3> &barycentric) const;
 
@@ -36,6 +38,12 @@ class Pseudonormals {
     std::size_t corner;
   };
   static Place place_of(const std::array<double, 3> &barycentric);
+
+  // The positions of an edge's ends.
+  struct Ends {
+    std::size_t lower, upper;
+  };
+  Ends ends_of(std::size_t slot) const;
 
   std::vector<Vec3> face_;             // one for each triangle
   std::vector<Vec3> edge_;             // three for each triangle; edge k runs from corner k to k + 1
