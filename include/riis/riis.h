@@ -52,7 +52,7 @@
 #include <stdint.h>
 
 #define RIIS_VERSION_MAJOR 0 /* of this header; grows when compiled callers would break */
-#define RIIS_VERSION_MINOR 1 /* grows when something is added */
+#define RIIS_VERSION_MINOR 2 /* grows when something is added */
 #define RIIS_VERSION_PATCH 0 /* grows when something is mended */
 
 #if defined(__GNUC__)
@@ -469,8 +469,8 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_
  * updated. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates and checks them once. A process without nodes does not call.
- *   n_nodes   1 to 2^40
+/* Borrows node coordinates and checks them once. A process without nodes calls everything as the others do.
+ *   n_nodes   0 to 2^40; with 0 the pointers may be NULL
  *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
  *   stride    in doubles, >= 1: 1 for separate arrays; 3 for xyz(3,n) with y = x + 1, z = x + 2
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
@@ -498,7 +498,7 @@ typedef struct riis_csr {
   int64_t n_rows;        /* the mesh's n_nodes */
   int64_t n_all;         /* at least n_rows: columns are nodes below this. Columns from n_rows on are ghosts,
                             other ranks' nodes, which are ignored. Default 0 stands for n_rows */
-  const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty */
+  const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are
                             ignored. NULL only if empty */
   int32_t offset_bits;   /* 32 (default) or 64 */
@@ -526,9 +526,9 @@ typedef struct riis_adjacency riis_adjacency;
  * Gmsh's). The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
 typedef struct riis_cells {
   int64_t struct_size;     /* set by the init function */
-  int64_t n_nodes;         /* of the mesh, >= 1 */
-  int64_t n_cells;         /* >= 1 */
-  const void *node_ids;    /* the nodes of cell after cell */
+  int64_t n_nodes;         /* of the mesh, >= 0 */
+  int64_t n_cells;         /* >= 0 */
+  const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
   const void *offsets;     /* (n_cells + 1), ascending from 0 or from the base: where each cell's nodes begin
                               in node_ids, and where the last's end; of the type of node_ids. NULL:
                               nodes_per_cell for all cells */
@@ -546,7 +546,7 @@ RIIS_API riis_status riis_adjacency_create_from_cells(const riis_cells *cells, r
 /* Faces between cells, for codes that mark cell centres. */
 typedef struct riis_faces {
   int64_t struct_size;     /* set by the init function */
-  int64_t n_cells;         /* >= 1: the nodes of the mesh are cell centres */
+  int64_t n_cells;         /* >= 0: the nodes of the mesh are cell centres */
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
   const void *neighbor;    /* base - 1 (-1 or 0) for a face at the boundary, which joins nothing */

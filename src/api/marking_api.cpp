@@ -36,11 +36,12 @@ double limit_of(const riis_mark_options &options, double half_thickness) {
   return options.distance_limit;
 }
 
-// Returns their box.
+// Returns their box, which is empty if there are none.
 riis::Bounds check_nodes(const riis::StridedPoints &nodes) {
-  if (nodes.n < 1) riis::fail(RIIS_INVALID_MESH, "n_nodes is ", nodes.n, "; a mesh has at least 1 node");
+  if (nodes.n < 0) riis::fail(RIIS_INVALID_MESH, "n_nodes is ", nodes.n, "; it must be at least 0");
   if (nodes.n > riis::max_nodes)
     riis::fail(RIIS_LIMIT_EXCEEDED, "n_nodes is ", nodes.n, "; it must be at most ", riis::max_nodes);
+  if (nodes.n == 0) return {};
   return riis::check_points(nodes, "node", RIIS_INVALID_MESH);
 }
 
@@ -115,7 +116,7 @@ riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh
 void check_is_of_marking(const riis::SearchRequest &request, const riis::MarkResult &result) {
   if (!request.mesh.adjacency().has_value())
     riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges may leak: see riis_mesh_set_adjacency");
-  if (result.stats.n_nodes == 0)
+  if (!result.was_marked)
     riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
   if (result.stats.n_nodes != request.mesh.nodes().n)
     riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ",
@@ -155,7 +156,7 @@ riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
     if (content.nodes().n > riis::max_clustered_nodes)
       riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n, " nodes is not made clusters of: at most ",
                  riis::max_clustered_nodes);
-    content.clusters(n);
+    if (content.nodes().n > 0) content.clusters(n);
   });
 }
 

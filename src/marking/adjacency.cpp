@@ -129,11 +129,12 @@ const CellShape *shape_of(std::int64_t n_nodes) {
 class Cells {
  public:
   explicit Cells(const riis_cells &cells) : cells_(cells), base_(cells.index_base) {
-    check_count("cells.n_nodes", cells.n_nodes, 1);
-    check_count("cells.n_cells", cells.n_cells, 1);
+    check_count("cells.n_nodes", cells.n_nodes, 0);
+    check_count("cells.n_cells", cells.n_cells, 0);
     check_bits("cells.id_bits", cells.id_bits);
     check_base("cells.index_base", cells.index_base);
-    nodes_ = {require(cells.node_ids, "cells.node_ids"), cells.id_bits == 64};
+    if (cells.n_cells > 0) require(cells.node_ids, "cells.node_ids");
+    nodes_ = {cells.node_ids, cells.id_bits == 64};
     if (cells.offsets) {
       offsets_ = {cells.offsets, cells.id_bits == 64};
       first_offset_ = offsets_[0];
@@ -190,11 +191,12 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
   check_bits("csr.column_bits", csr.column_bits);
   check_base("csr.index_base", csr.index_base);
   check_reserved("csr.reserved", csr.reserved);
+  if (csr.n_rows > 0) require(csr.offsets, "csr.offsets");
   const Adjacency made{csr.n_rows,
-                       {require(csr.offsets, "csr.offsets"), csr.offset_bits == 64},
+                       {csr.offsets, csr.offset_bits == 64},
                        {csr.columns, csr.column_bits == 64},
                        csr.index_base};
-  if (made.offsets[0] != made.base)
+  if (csr.offsets && made.offsets[0] != made.base)
     fail(RIIS_INVALID_MESH, "csr.offsets begins with ", made.offsets[0], "; it must begin with ", made.base);
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
     const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
@@ -251,7 +253,7 @@ OwnAdjacency adjacency_from_cells(const riis_cells &given, int n_threads) {
 }
 
 OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
-  check_count("faces.n_cells", faces.n_cells, 1);
+  check_count("faces.n_cells", faces.n_cells, 0);
   check_count("faces.n_faces", faces.n_faces, 0);
   check_bits("faces.id_bits", faces.id_bits);
   check_base("faces.index_base", faces.index_base);

@@ -159,7 +159,8 @@ riis_leaks summary_of(const StridedPoints &nodes, const LeakingEdges &list) {
 
 riis_leaks find_leaks(const SearchRequest &request, MarkResult &result) {
   const auto start = std::chrono::steady_clock::now();
-  LeakingEdges list = listed(request, leaking_edges(request, result));
+  const bool has_nodes = request.mesh.nodes().n > 0;
+  LeakingEdges list = has_nodes ? listed(request, leaking_edges(request, result)) : LeakingEdges{};
   riis_leaks leaks = summary_of(request.mesh.nodes(), list);
   result.leaking = std::move(list);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -50,6 +50,11 @@ Ran run_clusters(const SearchRequest &request, MarkResult &result) {
 
 Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
   static const std::vector<std::int64_t> nowhere;
+  if (request.mesh.nodes().n == 0) {
+    // A rank without nodes: every search finds all of nothing.
+    result.found.prepare(1);
+    return {search, {0, 1, true, 0}};
+  }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
       // The last marking is where a moving valve is again, nearly; if it was of another mesh, its nodes are as good as any.
@@ -83,6 +88,7 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   if (limit_is_wider)
     select_fields(fields, result.within, result.fields_within, result.marked, result.fields_marked);
   result.fields = fields;
+  result.was_marked = true;
   result.limit_is_wider = limit_is_wider;
   result.distance_limit = request.distance_limit;
   result.half_thickness = request.surface.half_thickness();

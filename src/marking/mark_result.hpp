@@ -25,6 +25,7 @@ struct LeakingEdges {
 struct MarkResult {
   NodeList within;  // the distance limit
   NodeList marked;  // only used while the limit is wider than the half thickness; otherwise `within` is it
+  bool was_marked = false;  // false for an empty result
   std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking was asked for
   NodeFields fields_within;
   NodeFields fields_marked;  // used as `marked` is

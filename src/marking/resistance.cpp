@@ -38,7 +38,7 @@ void require_field(const MarkResult &result, std::int32_t field, const char *fie
 }  // namespace
 
 Resistance checked_resistance(const riis_resistance &resistance, const MarkResult &result) {
-  if (result.stats.n_nodes == 0) fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
+  if (!result.was_marked) fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
   if (!(resistance.resistance >= 0 && resistance.resistance <= 1e60))
     fail(RIIS_INVALID_ARGUMENT, "resistance.resistance is ", resistance.resistance, "; it must be from 0 to 1e+60");
   const double eps = resistance.half_thickness == RIIS_AUTO ? result.half_thickness : resistance.half_thickness;
