@@ -307,6 +307,9 @@ typedef struct riis_surface_arrays {
   int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
   int32_t reserved;          /* 0 */
   const int32_t *leaflet_id; /* one per face, >= 0; NULL: all 0 */
+  const double *vx, *vy, *vz; /* velocity of vertex i: vx[i * velocity_stride] and so on; finite, magnitude at most
+                                1e60. The placement turns and scales it, and does not move it. All NULL: none */
+  int64_t velocity_stride;   /* in doubles, >= 1. Default 1 */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults, all else with 0 and NULL. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
@@ -425,6 +428,12 @@ typedef struct riis_closest_options {
   double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
   int32_t n_threads;      /* default 0 */
   int32_t reserved;       /* 0 */
+  const uint8_t *point_mask; /* (n_points): the entries of points with 0 are not written; coordinates are finite
+                                all the same. NULL: all points */
+  int64_t n_point_ids;       /* length of point_ids; 0 without it */
+  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
+                                entries written, at their ids, so that nothing is gathered or scattered. NULL: all
+                                points. Not together with point_mask */
 } riis_closest_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);

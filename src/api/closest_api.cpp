@@ -19,7 +19,7 @@ namespace {
 // Sizes of the first release.
 constexpr std::size_t closest_size = 96, options_size = 32, arrays_size = 64;
 
-const riis_closest_options default_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0};
+const riis_closest_options default_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};
 const riis_closest_arrays default_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
@@ -96,6 +96,46 @@ double limit_of(const riis_closest_options &options) {
   return options.distance_limit;
 }
 
+// The points that are wanted: all, those of a mask, or those of a list.
+class WantedPoints {
+ public:
+  WantedPoints(const riis_closest_options &options, const riis::StridedPoints &points)
+      : mask_(options.point_mask), ids_(options.point_ids), n_(points.n) {
+    if (!ids_) {
+      if (options.n_point_ids != 0)
+        riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids, ", but options.point_ids is NULL");
+      if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
+      return;
+    }
+    if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are given, both");
+    if (options.n_point_ids < 0 || options.n_point_ids > points.n)
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids, "; it must be from 0 to n_points, ",
+                 points.n);
+    n_ = options.n_point_ids;
+    if (n_ == 0) return;
+    riis::check_points({0, points.x, points.y, points.z, points.stride}, "point", RIIS_INVALID_ARGUMENT);
+    std::int64_t last = -1;
+    for (std::int64_t k = 0; k < n_; ++k) {
+      const std::int64_t id = ids_[k];
+      if (id <= last || id >= points.n)
+        riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id, "; it must be above the entry before, ",
+                   last, ", and below n_points, ", points.n);
+      riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
+      last = id;
+    }
+  }
+
+  std::int64_t n() const { return n_; }
+  // The number of the k-th point.
+  std::int64_t id(std::int64_t k) const { return ids_ ? ids_[k] : k; }
+  bool is_wanted(std::int64_t id) const { return !mask_ || mask_[id] != 0; }
+
+ private:
+  const std::uint8_t *mask_;
+  const std::int64_t *ids_;
+  std::int64_t n_;
+};
+
 }  // namespace
 
 extern "C" {
@@ -140,18 +180,20 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
       riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is ", whole.reserved, "; it must be 0");
     const double limit = limit_of(whole);
     if (const riis::PatchDistance *method = content.other_distance()) refuse_what_is_of_triangles(to, *method);
-    if (n_points == 0) return;
     const riis::StridedPoints points{n_points, x, y, z, stride};
-    riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
+    const WantedPoints wanted(whole, points);
+    if (wanted.n() == 0) return;
 
     // Here, so that memory that runs out leaves the arrays alone.
     if (to.side) content.prepare_sides();
     // write_found(i) is false where nothing is within the limit.
     const auto for_each_point = [&](const auto &write_found) {
       constexpr std::int64_t points_per_block = 512;
-      riis::parallel_for_ranges(n_points, points_per_block, n_threads, [&](const riis::Range &range, int) {
-        for (std::int64_t i = range.begin; i < range.end; ++i)
-          if (!write_found(i)) write_far(to, i, whole.far_distance);
+      riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          const std::int64_t i = wanted.id(k);
+          if (wanted.is_wanted(i) && !write_found(i)) write_far(to, i, whole.far_distance);
+        }
       });
     };
     if (const riis::PatchDistance *method = content.other_distance()) {

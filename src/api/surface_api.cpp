@@ -25,7 +25,8 @@ const riis_surface_options default_options{
     sizeof(riis_surface_options), RIIS_AUTO, 0.05,     1.0, {0, 0, 1}, 0, {0, 0, 0}, RIIS_ZERO_AREA_REFUSE, 0,
     RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO};
 const riis_surface_arrays default_arrays{
-    sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr};
+    sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr,
+    nullptr, nullptr, nullptr, 1};
 
 void check_range(const char *options, const char *name, double value, double minimum, double maximum) {
   if (!(value >= minimum && value <= maximum))

@@ -65,18 +65,20 @@ Bounds bounds_of(const StridedPoints &points, double &sum) {
 }
 
 [[noreturn]] void refuse_first_unusable(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
-  for (std::int64_t i = 0; i < points.n; ++i) {
-    const Vec3 p = points[i];
-    if (is_usable(p)) continue;
-    const char *axis = !is_usable(p.x) ? "x" : !is_usable(p.y) ? "y" : "z";
-    const double value = !is_usable(p.x) ? p.x : !is_usable(p.y) ? p.y : p.z;
-    fail(bad_coordinate, axis, " of ", what, " ", i, " is ", value, "; it must be finite and at most ", max_coordinate,
-         " in magnitude");
-  }
+  for (std::int64_t i = 0; i < points.n; ++i) check_point(points, i, what, bad_coordinate);
   fail(bad_coordinate, "the coordinates of the ", what, "s changed while they were checked");
 }
 
 }  // namespace
+
+void check_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
+  const Vec3 p = points[i];
+  if (is_usable(p)) return;
+  const char *axis = !is_usable(p.x) ? "x" : !is_usable(p.y) ? "y" : "z";
+  const double value = !is_usable(p.x) ? p.x : !is_usable(p.y) ? p.y : p.z;
+  fail(bad_coordinate, axis, " of ", what, " ", i, " is ", value, "; it must be finite and at most ", max_coordinate,
+       " in magnitude");
+}
 
 Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
   require(points.x, "x");

@@ -32,6 +32,9 @@ inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_us
 // `what` ("node", "point") and number. Returns the points' box, of which the same pass over memory learns.
 Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
 
+// Checks one point, as check_points checks all.
+void check_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate);
+
 // Point i of points that were checked when they were given, but that the caller may have written to since: fails in the same way.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];

@@ -64,6 +64,31 @@ void place_vertices(const riis_surface_arrays &arrays, const Placement &placemen
   }
 }
 
+void place_velocities(const riis_surface_arrays &arrays, const Placement &placement, TriangleSet &set) {
+  if (!arrays.vx && !arrays.vy && !arrays.vz) return;
+  require(arrays.vx, "arrays.vx");
+  require(arrays.vy, "arrays.vy");
+  require(arrays.vz, "arrays.vz");
+  if (arrays.velocity_stride < 1)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.velocity_stride is ", arrays.velocity_stride, "; it must be at least 1");
+  if (arrays.velocity_stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
+    fail(RIIS_INVALID_ARGUMENT, "arrays.velocity_stride is ", arrays.velocity_stride, ": the velocities of ",
+         arrays.n_vertices, " vertices apart by it are more than memory can hold");
+  const StridedPoints velocities{arrays.n_vertices, arrays.vx, arrays.vy, arrays.vz, arrays.velocity_stride};
+  set.velocity.reserve(set.xyz.size());
+  for (std::int64_t i = 0; i < arrays.n_vertices; ++i) {
+    const Vec3 v = velocities[i], placed = placement.scale * (placement.rotation * v);
+    const auto check = [&](const char *axis, double value, const char *when) {
+      if (!is_usable(value))
+        fail(RIIS_INVALID_SURFACE, "velocity ", axis, " of vertex ", i, when, " is ", value,
+             "; it must be finite and at most ", max_coordinate, " in magnitude");
+    };
+    check("x", v.x, ""), check("y", v.y, ""), check("z", v.z, "");
+    check("x", placed.x, ", placed,"), check("y", placed.y, ", placed,"), check("z", placed.z, ", placed,");
+    set.velocity.insert(set.velocity.end(), {placed.x, placed.y, placed.z});
+  }
+}
+
 }  // namespace
 
 TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Placement &placement, bool skip_zero_area,
@@ -72,6 +97,7 @@ TriangleSet triangles_from_arrays(const riis_surface_arrays &arrays, const Place
   TriangleSet set = std::move(memory);
   set.clear();
   place_vertices(arrays, placement, set);
+  place_velocities(arrays, placement, set);
   const std::int64_t corners = arrays.corners_per_face, halves = corners - 2;
   const auto n_triangles = static_cast<std::size_t>(arrays.n_faces * halves);
   set.vertex_id.reserve(3 * n_triangles);
