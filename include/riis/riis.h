@@ -865,6 +865,135 @@ RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *resu
                                                     const int64_t **node_id, const double **length,
                                                     const double **distance);
 
+/* -------------------------------------------------------------------------------------------------------- *
+ * Laws of opening: a valve's opening from the time, the pressure difference and the flow
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Pure functions: the same arguments give the same bits, and nothing is kept. Times, pressures and flows have the
+ * solver's units. The pressure difference is that upstream less that downstream, and flow is positive downstream, so
+ * both open a valve. `rate` is the derivative of the opening by time. A state is flat: a restart file holds it as it
+ * is, and goes on with the same bits. `now` may be `before`; a step that is taken again starts from `before`. */
+
+/* How a table is interpolated. */
+enum {
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is that behind it */
+  RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
+};
+
+/* An opening by keys. */
+typedef struct riis_opening_table {
+  int64_t struct_size;   /* set by the init function */
+  int64_t n_keys;        /* 1 to 1,000,000 */
+  const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
+  const double *opening; /* (n_keys), 0 to 1 */
+  double period;         /* > 0: the table repeats; its keys lie within a period of the first, and a last key that is a
+                            period after the first has its opening. 0, the default: the first key's opening counts
+                            before it, the last one's after it */
+  int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
+  int32_t reserved;      /* 0 */
+} riis_opening_table;
+/* Fills *table with the defaults, all else with 0 and NULL. */
+RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size);
+/* Tells the opening at a time by a table. opening and rate may be NULL.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
+RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
+                                             double *rate);
+
+/* An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps
+ * are of fifth degree: neither the rate nor its derivative jumps. */
+typedef struct riis_opening_times {
+  int64_t struct_size;    /* set by the init function */
+  double opening_start;   /* when the valve begins to open. No default, as for the next three: NaN, which is refused */
+  double opening_seconds; /* how long that takes, > 0 */
+  double closing_start;   /* when it begins to close, at least opening_start + opening_seconds */
+  double closing_seconds; /* how long that takes, > 0 */
+  double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
+  double period;          /* > 0: repeats, not before it has closed. Default 0: opens once */
+} riis_opening_times;
+/* Fills *times with the defaults. */
+RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size);
+/* Tells the opening at a time. opening and rate may be NULL. Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
+                                             double *rate);
+
+/* The phases of a switch. */
+enum { RIIS_PHASE_CLOSING = 0 /* or closed */, RIIS_PHASE_OPENING = 1 /* or open */ };
+
+/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An
+ * aortic valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the flow
+ * reverses), filter_seconds 0.002, dwell_seconds 0.02. */
+typedef struct riis_opening_switch {
+  int64_t struct_size;    /* set by the init function */
+  double opening_seconds; /* from closed to open, > 0. No default, as for the next: NaN, which is refused */
+  double closing_seconds; /* from open to closed, > 0 */
+  double open_above;      /* pressure difference. Default 0 */
+  double close_below;     /* flow. Default 0 */
+  double filter_seconds;  /* time constant of a filter of first order on both, >= 0. Default 0: no filter */
+  double dwell_seconds;   /* the least time from one turn to the next, >= 0. Default 0 */
+} riis_opening_switch;
+/* Fills *law with the defaults. */
+RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size);
+/* The state of a switch. */
+typedef struct riis_opening_switch_state {
+  int64_t struct_size;        /* set by the init function */
+  double time;                /* of this state */
+  double opening, rate;       /* what the law says at that time */
+  double progress;            /* share of the way from closed to open, 0 to 1; the opening is a smooth ramp over it */
+  double pressure_difference; /* filtered; NaN: none yet */
+  double flow;                /* filtered; NaN: none yet */
+  double since;               /* the time of the last turn; NaN: none yet */
+  int32_t phase;              /* RIIS_PHASE_* */
+  int32_t reserved;           /* 0 */
+} riis_opening_switch_state;
+/* Fills *state with a closed valve at time 0. */
+RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
+/* Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening has
+ * first order in the length of steps.
+ *   time  at least before->time
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now is then as it was. */
+RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
+                                                 const riis_opening_switch_state *before, double time,
+                                                 double pressure_difference, double flow,
+                                                 riis_opening_switch_state *now);
+
+/* The angle law of T. Korakianitis and Y. Shi, "A concentrated parameter model for the human cardiovascular system
+ * including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
+ *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle) - vortex_gain max(Q, 0) sin(2 angle)
+ * with angles in radians, between stops that take all speed. The opening is the angle's share of its range. The
+ * paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and
+ * 3.5 for the mitral valve. */
+typedef struct riis_opening_angle {
+  int64_t struct_size;  /* set by the init function */
+  double pressure_gain; /* K_p, >= 0. No default, as for the next three: NaN, which is refused */
+  double flow_gain;     /* K_q, >= 0 */
+  double friction;      /* K_f, >= 0 */
+  double vortex_gain;   /* K_v, >= 0 */
+  double angle_min;     /* degrees, 0 to 90: closed. Default 0 */
+  double angle_max;     /* degrees, above angle_min, at most 90: open. Default 75 */
+} riis_opening_angle;
+/* Fills *law with the defaults. */
+RIIS_API riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size);
+/* The state of the angle law. */
+typedef struct riis_opening_angle_state {
+  int64_t struct_size;        /* set by the init function */
+  double time;                /* of this state */
+  double opening, rate;       /* what the law says at that time */
+  double angle, angle_rate;   /* degrees, degrees per time */
+  double pressure_difference; /* at that time; NaN: none yet */
+  double flow;                /* at that time; NaN: none yet */
+} riis_opening_angle_state;
+/* Fills *state with an angle of 0 at rest, at time 0. */
+RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
+/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which makes the
+ * angle second order in the length of steps; without values before, those of now count for the whole step.
+ *   time  at least before->time
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so long
+ * that the motion would take more than a million steps within it. *now is then as it was. */
+RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
+                                                const riis_opening_angle_state *before, double time,
+                                                double pressure_difference, double flow,
+                                                riis_opening_angle_state *now);
+
 #ifdef __cplusplus
 }
 #endif

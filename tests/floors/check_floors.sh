@@ -4,7 +4,7 @@
 # The folders of the library are floors, each built on those before it: no file includes a file of a later floor.
 set -euo pipefail
 cd "$1"
-floors=(base parallel geometry kernels valve surface distance marking pipeline api)
+floors=(base laws parallel geometry kernels valve surface distance marking pipeline api)
 
 floor_of() {
   local i
