@@ -42,7 +42,7 @@ class Keys {
            "; it must be RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC");
     check_reserved("table.reserved", table.reserved);
     for (std::int64_t i = 0; i < table.n_keys; ++i) check_key(i);
-    is_closed_ = table.period > 0 && last() == table.time[0] + table.period;
+    is_closed_ = table.period > 0 && table.n_keys > 1 && last() - table.time[0] >= (1 - rounding) * table.period;
     if (is_closed_ && table.opening[0] != table.opening[table.n_keys - 1])
       fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, a period after the first, is ",
            table.opening[table.n_keys - 1], "; it must be that of the first, ", table.opening[0]);
@@ -72,6 +72,9 @@ class Keys {
   }
 
  private:
+  // Times such as 0.1 and 0.8 are a period of 0.7 apart, whatever the last bit says.
+  static constexpr double rounding = 1e-9;
+
   double last() const { return table_.time[table_.n_keys - 1]; }
 
   void check_key(std::int64_t i) const {
@@ -82,7 +85,7 @@ class Keys {
     if (i > 0 && !(time > table_.time[i - 1]))
       fail(RIIS_INVALID_ARGUMENT, "table.time of key ", i, " is ", time, "; it must be above that of the key before, ",
            table_.time[i - 1]);
-    if (table_.period > 0 && time > table_.time[0] + table_.period)
+    if (table_.period > 0 && time - table_.time[0] > (1 + rounding) * table_.period)
       fail(RIIS_INVALID_ARGUMENT, "table.time of key ", i, " is ", time, ", beyond the period of ", table_.period,
            " that begins with the first key, at ", table_.time[0]);
     if (!(opening >= 0 && opening <= 1))

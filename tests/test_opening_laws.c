@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Laws of opening against values by hand, closed forms and their own order of accuracy; restarts go on with the same bits. */
+#include <riis/riis.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "test_support.h"
+
+static random_source rng;
+
+/* Table. */
+
+static riis_opening_table table_of(int64_t n, const double *time, const double *opening) {
+  riis_opening_table table;
+  CHECK_OK(riis_opening_table_init(&table, sizeof table));
+  table.n_keys = n;
+  table.time = time;
+  table.opening = opening;
+  return table;
+}
+
+static void check_table(const riis_opening_table *table, double time, double opening, double rate) {
+  double got = -1, got_rate = -1;
+  CHECK_OK(riis_opening_from_table(table, time, &got, &got_rate));
+  CHECK_NEAR(got, opening, 1e-14);
+  CHECK_NEAR(got_rate, rate, 1e-12);
+}
+
+static void a_linear_table_has_its_keys_and_right_hand_rates(void **state) {
+  (void)state;
+  const double time[] = {1, 2, 4}, opening[] = {0, 1, 0.5};
+  const riis_opening_table table = table_of(3, time, opening);
+  check_table(&table, 0, 0, 0);
+  check_table(&table, 1, 0, 1);
+  check_table(&table, 1.25, 0.25, 1);
+  check_table(&table, 2, 1, -0.25);
+  check_table(&table, 3, 0.75, -0.25);
+  check_table(&table, 4, 0.5, 0);
+  check_table(&table, 9, 0.5, 0);
+  CHECK_OK(riis_opening_from_table(&table, 3, NULL, NULL));
+}
+
+static void a_periodic_table_repeats(void **state) {
+  (void)state;
+  const double time[] = {0, 0.25, 1}, opening[] = {0.2, 1, 0.2};
+  for (int64_t n = 2; n <= 3; ++n) { /* with and without the last key, which is the first again */
+    for (int32_t interpolation = 0; interpolation <= 1; ++interpolation) {
+      riis_opening_table table = table_of(n, time, opening);
+      table.period = 1;
+      table.interpolation = interpolation;
+      for (int i = 0; i < 200; ++i) {
+        const double t = random_between(&rng, 0, 1);
+        double a, b, c, rate_a, rate_b;
+        CHECK_OK(riis_opening_from_table(&table, t, &a, &rate_a));
+        CHECK_OK(riis_opening_from_table(&table, t + 3, &b, &rate_b));
+        CHECK_OK(riis_opening_from_table(&table, t - 5, &c, NULL));
+        CHECK_NEAR(a, b, 1e-13);
+        CHECK_NEAR(a, c, 1e-13);
+        CHECK_NEAR(rate_a, rate_b, 1e-10);
+        if (interpolation == RIIS_INTERPOLATION_LINEAR)
+          CHECK_NEAR(a, t < 0.25 ? 0.2 + 3.2 * t : 1 - (t - 0.25) * 0.8 / 0.75, 1e-13);
+      }
+    }
+  }
+}
+
+/* 0.1 + 0.7 is below 0.8 in double precision. */
+static void rounding_of_a_period_does_not_matter(void **state) {
+  (void)state;
+  const double time[] = {0.1, 0.4, 0.8}, opening[] = {0, 1, 0};
+  riis_opening_table table = table_of(3, time, opening);
+  table.period = 0.7;
+  check_table(&table, 0.8 + 0.15, 0.5, 1 / 0.3);
+}
+
+static void a_cubic_table_is_monotone_and_its_rate_is_its_derivative(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 100; ++trial) {
+    double time[12], opening[12];
+    const int64_t n = 2 + (int64_t)(random_bits(&rng) % 11);
+    for (int64_t i = 0; i < n; ++i) {
+      time[i] = (i ? time[i - 1] : 0) + random_between(&rng, 0.01, 1);
+      opening[i] = random_between(&rng, 0, 1);
+    }
+    riis_opening_table table = table_of(n, time, opening);
+    table.interpolation = RIIS_INTERPOLATION_CUBIC;
+    for (int64_t i = 0; i + 1 < n; ++i) {
+      double last = opening[i];
+      for (int k = 1; k <= 50; ++k) {
+        const double width = time[i + 1] - time[i], t = time[i] + k / 50.0 * width, h = 1e-6 * width;
+        double now, before, after, rate;
+        CHECK_OK(riis_opening_from_table(&table, t, &now, &rate));
+        if (k == 50) CHECK_NEAR(now, opening[i + 1], 1e-14);
+        assert_true(opening[i + 1] > opening[i] ? now >= last - 1e-14 : now <= last + 1e-14);
+        last = now;
+        if (k == 50) continue;
+        CHECK_OK(riis_opening_from_table(&table, t - h, &before, NULL));
+        CHECK_OK(riis_opening_from_table(&table, t + h, &after, NULL));
+        CHECK_NEAR(rate, (after - before) / (2 * h), 1e-5 / width);
+      }
+    }
+  }
+}
+
+static void bad_tables_are_refused(void **state) {
+  (void)state;
+  double time[] = {0, 1, 2}, opening[] = {0, 1, 0}, got = 7;
+  riis_opening_table table = table_of(3, time, opening);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table", riis_opening_from_table(NULL, 0, &got, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time|nan", riis_opening_from_table(&table, NAN, &got, NULL));
+  table.n_keys = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.n_keys is 0", riis_opening_from_table(&table, 0, &got, NULL));
+  table.n_keys = 1000001;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.n_keys is 1000001", riis_opening_from_table(&table, 0, &got, NULL));
+  table = table_of(3, NULL, opening);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time", riis_opening_from_table(&table, 0, &got, NULL));
+  table = table_of(3, time, NULL);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening", riis_opening_from_table(&table, 0, &got, NULL));
+  table = table_of(3, time, opening);
+  time[1] = 2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time of key 2 is 2|above", riis_opening_from_table(&table, 0, &got, NULL));
+  time[1] = INFINITY;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time of key 1 is inf", riis_opening_from_table(&table, 0, &got, NULL));
+  time[1] = 1;
+  opening[1] = 1.25;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening of key 1 is 1.25", riis_opening_from_table(&table, 0, &got, NULL));
+  opening[1] = NAN;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening of key 1 is nan", riis_opening_from_table(&table, 0, &got, NULL));
+  opening[1] = 1;
+  table.period = 1.5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time of key 2 is 2|period of 1.5",
+                riis_opening_from_table(&table, 0, &got, NULL));
+  table.period = 2;
+  opening[2] = 0.5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "last key|0.5", riis_opening_from_table(&table, 0, &got, NULL));
+  table.period = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.period is -1", riis_opening_from_table(&table, 0, &got, NULL));
+  table.period = 0;
+  table.interpolation = 2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.interpolation is 2", riis_opening_from_table(&table, 0, &got, NULL));
+  CHECK_NEAR(got, 7, 0);
+}
+
+/* Times. */
+
+static riis_opening_times some_times(void) {
+  riis_opening_times times;
+  CHECK_OK(riis_opening_times_init(&times, sizeof times));
+  times.opening_start = 0.45;
+  times.opening_seconds = 0.05;
+  times.closing_start = 0.9;
+  times.closing_seconds = 0.1;
+  return times;
+}
+
+static void a_valve_opens_and_closes_at_its_times(void **state) {
+  (void)state;
+  riis_opening_times times = some_times();
+  const struct {
+    double time, opening, rate;
+  } expected[] = {{0.45, 0, 0},  {0.475, 0.5, 1.875 / 0.05}, {0.5, 1, 0}, {0.7, 1, 0},
+                  {0.95, 0.5, -1.875 / 0.1}, {1.0, 0, 0}, {1.2, 0, 0}};
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    times.period = repeat ? 1 : 0;
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i) {
+      double opening, rate;
+      CHECK_OK(riis_opening_from_times(&times, expected[i].time + 4 * repeat, &opening, &rate));
+      CHECK_NEAR(opening, expected[i].opening, 1e-12);
+      CHECK_NEAR(rate, expected[i].rate, 1e-9);
+    }
+  }
+  double opening;
+  CHECK_OK(riis_opening_from_times(&times, -0.5, &opening, NULL)); /* a period before: open */
+  CHECK_NEAR(opening, 1, 1e-12);
+  times.period = 0;
+  times.closed = 0.1;
+  times.open = 0.8;
+  CHECK_OK(riis_opening_from_times(&times, 0.475, &opening, NULL));
+  CHECK_NEAR(opening, 0.45, 1e-12);
+  CHECK_OK(riis_opening_from_times(&times, -3, &opening, NULL));
+  CHECK_NEAR(opening, 0.1, 0);
+}
+
+static void bad_times_are_refused(void **state) {
+  (void)state;
+  double got;
+  riis_opening_times times;
+  CHECK_OK(riis_opening_times_init(&times, sizeof times));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.opening_start is nan", riis_opening_from_times(&times, 0, &got, NULL));
+  times = some_times();
+  times.opening_seconds = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.opening_seconds is 0", riis_opening_from_times(&times, 0, &got, NULL));
+  times = some_times();
+  times.closing_start = 0.47;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.closing_start is 0.47", riis_opening_from_times(&times, 0, &got, NULL));
+  times = some_times();
+  times.closing_seconds = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.closing_seconds is -1", riis_opening_from_times(&times, 0, &got, NULL));
+  times = some_times();
+  times.period = 0.5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.period is 0.5|0.55", riis_opening_from_times(&times, 0, &got, NULL));
+  times = some_times();
+  times.open = 1.5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.open is 1.5", riis_opening_from_times(&times, 0, &got, NULL));
+}
+
+/* Switch. */
+
+static riis_opening_switch some_switch(void) {
+  riis_opening_switch law;
+  CHECK_OK(riis_opening_switch_init(&law, sizeof law));
+  law.opening_seconds = 0.04;
+  law.closing_seconds = 0.08;
+  return law;
+}
+
+static riis_opening_switch_state closed_switch(void) {
+  riis_opening_switch_state state;
+  CHECK_OK(riis_opening_switch_state_init(&state, sizeof state));
+  return state;
+}
+
+static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
+  (void)state;
+  const riis_opening_switch law = some_switch();
+  riis_opening_switch_state now = closed_switch();
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.01, -1, 5, &now));
+  assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.02, 1, 0, &now));
+  assert_int_equal(now.phase, RIIS_PHASE_OPENING);
+  CHECK_NEAR(now.since, 0.02, 0);
+  CHECK_NEAR(now.opening, 0, 0);
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.04, 1, 3, &now));
+  CHECK_NEAR(now.opening, 0.5, 1e-12);
+  CHECK_NEAR(now.rate, 1.875 / 0.04, 1e-9);
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.30, -1, 3, &now)); /* pressure alone does not close it */
+  assert_int_equal(now.phase, RIIS_PHASE_OPENING);
+  CHECK_NEAR(now.opening, 1, 0);
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.31, -1, -0.1, &now));
+  assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.35, -1, -0.1, &now));
+  CHECK_NEAR(now.opening, 0.5, 1e-12);
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now)); /* it turns half way, without a jump */
+  const double where = now.opening;
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36 + 1e-9, 2, 0, &now));
+  CHECK_NEAR(now.opening, where, 1e-6);
+}
+
+static void a_filter_and_a_dwell_keep_noise_out(void **state) {
+  (void)state;
+  riis_opening_switch law = some_switch();
+  law.filter_seconds = 0.01;
+  riis_opening_switch_state now = closed_switch();
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0, -1, 0, &now));
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.01, 1, 0, &now));
+  CHECK_NEAR(now.pressure_difference, -1 + (1 - exp(-1)) * 2, 1e-14);
+  law.filter_seconds = 0;
+  law.dwell_seconds = 0.1;
+  now = closed_switch();
+  int turns = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    const int32_t phase = now.phase;
+    CHECK_OK(riis_opening_switch_advance(&law, &now, 0.001 * i, random_between(&rng, -1, 1),
+                                         random_between(&rng, -1, 1), &now));
+    turns += phase != now.phase;
+  }
+  assert_true(turns >= 5 && turns <= 10);
+}
+
+static void a_restart_of_the_switch_has_the_same_bits(void **state) {
+  (void)state;
+  riis_opening_switch law = some_switch();
+  law.filter_seconds = 0.003;
+  riis_opening_switch_state one = closed_switch(), kept = one;
+  for (int part = 0; part < 2; ++part) {
+    riis_opening_switch_state now = kept;
+    for (int i = part ? 301 : 1; i <= 600; ++i) {
+      const double t = 0.001 * i;
+      CHECK_OK(riis_opening_switch_advance(&law, &now, t, sin(20 * t), cos(21 * t), &now));
+      if (!part && i == 300) kept = now;
+    }
+    if (part)
+      assert_memory_equal(&one, &now, sizeof now);
+    else
+      one = now;
+  }
+}
+
+/* Angle. */
+
+static riis_opening_angle aortic_angle(void) {
+  riis_opening_angle law;
+  CHECK_OK(riis_opening_angle_init(&law, sizeof law));
+  law.pressure_gain = 5500;
+  law.flow_gain = 2;
+  law.friction = 50;
+  law.vortex_gain = 7;
+  return law;
+}
+
+static riis_opening_angle_state angle_at_rest(void) {
+  riis_opening_angle_state state;
+  CHECK_OK(riis_opening_angle_state_init(&state, sizeof state));
+  return state;
+}
+
+static void without_a_drive_friction_stops_the_leaflet(void **state) {
+  (void)state;
+  const riis_opening_angle law = aortic_angle();
+  riis_opening_angle_state now = angle_at_rest();
+  now.angle = 10;
+  now.angle_rate = 400;
+  for (int i = 1; i <= 100; ++i) CHECK_OK(riis_opening_angle_advance(&law, &now, 0.001 * i, 0, 0, &now));
+  CHECK_NEAR(now.angle_rate, 400 * exp(-50 * 0.1), 1e-5);
+  CHECK_NEAR(now.angle, 10 + 400 / 50.0 * (1 - exp(-50 * 0.1)), 1e-5);
+  CHECK_NEAR(now.opening, now.angle / 75, 1e-15);
+  CHECK_NEAR(now.rate, now.angle_rate / 75, 1e-15);
+}
+
+/* Constant drives: small steps of explicit Euler in long double are an independent answer, right to their own order. */
+static void the_angle_follows_the_published_equation(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 6; ++trial) {
+    const riis_opening_angle law = aortic_angle();
+    const double pressure = random_between(&rng, -0.4, 0.4), flow = random_between(&rng, -100, 200);
+    riis_opening_angle_state now = angle_at_rest();
+    now.angle = 40;
+    const double end = 0.01;
+    const int n = 400000;
+    long double angle = 40.0L * acosl(-1) / 180, rate = 0;
+    for (int i = 0; i < n; ++i) {
+      const long double second = -50 * rate + (5500 * (long double)pressure + 2 * (long double)flow) * cosl(angle) -
+                                 7 * (flow > 0 ? (long double)flow : 0) * sinl(2 * angle);
+      angle += rate * (end / n);
+      rate += second * (end / n);
+    }
+    CHECK_OK(riis_opening_angle_advance(&law, &now, end, pressure, flow, &now));
+    CHECK_NEAR(now.angle, (double)(angle * 180 / acosl(-1)), 1e-3);
+  }
+}
+
+static double driven(int n) {
+  const riis_opening_angle law = aortic_angle();
+  riis_opening_angle_state now = angle_at_rest();
+  now.angle = 30;
+  now.pressure_difference = 0.05;
+  now.flow = 20;
+  const double end = 0.02;
+  for (int i = 1; i <= n; ++i) {
+    const double t = end * i / n;
+    CHECK_OK(riis_opening_angle_advance(&law, &now, t, 0.05 * cos(200 * t), 20 + 30 * sin(250 * t), &now));
+  }
+  assert_true(now.angle > 1 && now.angle < 74); /* no stop was touched */
+  return now.angle;
+}
+
+static void the_angle_is_second_order_in_the_step(void **state) {
+  (void)state;
+  const double exact = driven(20000);
+  double last = fabs(driven(10) - exact);
+  for (int n = 20; n <= 160; n *= 2) {
+    const double error = fabs(driven(n) - exact);
+    print_message("%d steps: off by %.3g degrees, order %.2f\n", n, error, log2(last / error));
+    assert_true(last / error > 3.4 && last / error < 4.6);
+    last = error;
+  }
+}
+
+static void the_angle_stays_between_its_stops(void **state) {
+  (void)state;
+  riis_opening_angle law = aortic_angle();
+  law.angle_min = 5;
+  law.angle_max = 70;
+  riis_opening_angle_state now = angle_at_rest();
+  now.angle = 5;
+  CHECK_OK(riis_opening_angle_advance(&law, &now, 0.3, 10, 100, &now));
+  CHECK_NEAR(now.angle, 70, 0);
+  CHECK_NEAR(now.angle_rate, 0, 0);
+  CHECK_NEAR(now.opening, 1, 0);
+  CHECK_OK(riis_opening_angle_advance(&law, &now, 0.6, -10, -10, &now));
+  CHECK_NEAR(now.angle, 5, 0);
+  CHECK_NEAR(now.opening, 0, 0);
+}
+
+static void a_restart_of_the_angle_has_the_same_bits(void **state) {
+  (void)state;
+  const riis_opening_angle law = aortic_angle();
+  riis_opening_angle_state one = angle_at_rest(), kept = one;
+  for (int part = 0; part < 2; ++part) {
+    riis_opening_angle_state now = kept;
+    for (int i = part ? 301 : 1; i <= 600; ++i) {
+      const double t = 0.001 * i;
+      CHECK_OK(riis_opening_angle_advance(&law, &now, t, sin(20 * t), 100 * cos(21 * t), &now));
+      if (!part && i == 300) kept = now;
+    }
+    if (part)
+      assert_memory_equal(&one, &now, sizeof now);
+    else
+      one = now;
+  }
+}
+
+static void bad_laws_and_states_are_refused(void **state) {
+  (void)state;
+  riis_opening_switch law;
+  CHECK_OK(riis_opening_switch_init(&law, sizeof law));
+  riis_opening_switch_state before = closed_switch(), now = closed_switch();
+  now.time = 42;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.opening_seconds is nan",
+                riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
+  law = some_switch();
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law", riis_opening_switch_advance(NULL, &before, 1, 0, 0, &now));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before", riis_opening_switch_advance(&law, NULL, 1, 0, 0, &now));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "now", riis_opening_switch_advance(&law, &before, 1, 0, 0, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time is -1", riis_opening_switch_advance(&law, &before, -1, 0, 0, &now));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "pressure_difference is nan",
+                riis_opening_switch_advance(&law, &before, 1, NAN, 0, &now));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "flow is inf", riis_opening_switch_advance(&law, &before, 1, 0, INFINITY, &now));
+  before.progress = 2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.progress is 2",
+                riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
+  before = closed_switch();
+  before.phase = 5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.phase is 5", riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
+  law.dwell_seconds = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.dwell_seconds is -1",
+                riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
+  CHECK_NEAR(now.time, 42, 0);
+
+  riis_opening_angle angle;
+  CHECK_OK(riis_opening_angle_init(&angle, sizeof angle));
+  riis_opening_angle_state at = angle_at_rest(), then = angle_at_rest();
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.pressure_gain is nan",
+                riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  angle = aortic_angle();
+  angle.angle_max = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.angle_max is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  angle = aortic_angle();
+  angle.angle_min = 5;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  angle = aortic_angle();
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "time is 1e+06", riis_opening_angle_advance(&angle, &at, 1e6, 1, 0, &then));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_linear_table_has_its_keys_and_right_hand_rates),
+      cmocka_unit_test(a_periodic_table_repeats),
+      cmocka_unit_test(rounding_of_a_period_does_not_matter),
+      cmocka_unit_test(a_cubic_table_is_monotone_and_its_rate_is_its_derivative),
+      cmocka_unit_test(bad_tables_are_refused),
+      cmocka_unit_test(a_valve_opens_and_closes_at_its_times),
+      cmocka_unit_test(bad_times_are_refused),
+      cmocka_unit_test(a_switch_opens_by_pressure_and_closes_by_flow),
+      cmocka_unit_test(a_filter_and_a_dwell_keep_noise_out),
+      cmocka_unit_test(a_restart_of_the_switch_has_the_same_bits),
+      cmocka_unit_test(without_a_drive_friction_stops_the_leaflet),
+      cmocka_unit_test(the_angle_follows_the_published_equation),
+      cmocka_unit_test(the_angle_is_second_order_in_the_step),
+      cmocka_unit_test(the_angle_stays_between_its_stops),
+      cmocka_unit_test(a_restart_of_the_angle_has_the_same_bits),
+      cmocka_unit_test(bad_laws_and_states_are_refused),
+  };
+  rng = random_start("test_opening_laws");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
