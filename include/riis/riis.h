@@ -349,6 +349,47 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
 /* Replaces the surface's content from arrays. Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
+
+/* Interpolation between keys in time. */
+enum {
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is that behind it */
+  RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
+};
+/* A surface that moves by frames, as of a patient's valve: the same faces, other places of the vertices. */
+typedef struct riis_keyframes riis_keyframes;
+/* The frames. Arrays are read during the call only. */
+typedef struct riis_keyframe_arrays {
+  int64_t struct_size;   /* set by the init function */
+  int64_t n_keys;        /* 1 to 1,000,000 */
+  int64_t n_vertices;    /* of each frame, that of the faces */
+  const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
+  const double *xyz;     /* (3, n_vertices, n_keys): the vertices, frame after frame; finite, magnitude at most 1e60 */
+  double period;         /* > 0: the motion repeats; its keys lie within a period of the first, and a last key that
+                            is a period after the first has its frame. 0, the default: the first frame counts before
+                            its time, the last one after it */
+  int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
+  int32_t reserved;      /* 0 */
+} riis_keyframe_arrays;
+/* Fills *frames with the defaults, all else with 0 and NULL. */
+RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
+/* Copies faces and frames.
+ *   faces  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
+ * Errors: RIIS_INVALID_ARGUMENT for a field out of range; RIIS_INVALID_SURFACE naming the frame, vertex or face. */
+RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *faces, const riis_keyframe_arrays *frames,
+                                           riis_keyframes **keyframes);
+/* Destroys the keyframes. Surfaces made from them stay. */
+RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
+/* Makes a surface from the frames around a time, with velocities.
+ *   time   finite, magnitude at most 1e30
+ *   since  the time that the velocity is the mean from; time itself for the derivative of the interpolation
+ * Errors: as riis_surface_create_from_arrays; RIIS_INVALID_ARGUMENT for a time that is not finite. */
+RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time,
+                                                        double since, const riis_surface_options *options,
+                                                        riis_surface **surface);
+/* Replaces the surface's content in the same way. Arguments as there; options as in riis_surface_update. */
+RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
+                                                        double time, double since,
+                                                        const riis_surface_options *options);
 /* Destroys the surface. Pointers got from it end, results stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
@@ -873,12 +914,6 @@ RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *resu
  * solver's units. The pressure difference is that upstream less that downstream, and flow is positive downstream, so
  * both open a valve. `rate` is the derivative of the opening by time. A state is flat: a restart file holds it as it
  * is, and goes on with the same bits. `now` may be `before`; a step that is taken again starts from `before`. */
-
-/* How a table is interpolated. */
-enum {
-  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is that behind it */
-  RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
-};
 
 /* An opening by keys. */
 typedef struct riis_opening_table {

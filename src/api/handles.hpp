@@ -7,12 +7,15 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "distance/surface.hpp"
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
 #include "parallel/keeps_arenas.hpp"
+#include "surface/keyframes.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
@@ -23,7 +26,8 @@ enum class HandleKind : std::uint64_t {
   surface = 0x7269697373757266,
   mesh = 0x726969736d657368,
   adjacency = 0x7269697361646a63,
-  mark_result = 0x7269697372736c74
+  mark_result = 0x7269697372736c74,
+  keyframes = 0x726969736b657966
 };
 
 template <HandleKind the_kind>
@@ -62,6 +66,7 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   std::unique_ptr<riis::Surface> before;  // the last content, for its memory
   riis_surface_options options;           // as completed
   double seconds_triangles, seconds_scene;
+  std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
   // Other than that of any surface before: an address may come again.
   const std::uint64_t number = next_number();
 
@@ -70,6 +75,11 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
     static std::atomic<std::uint64_t> last{0};
     return last.fetch_add(1, std::memory_order_relaxed) + 1;
   }
+};
+
+struct riis_keyframes : riis::Handle<riis::HandleKind::keyframes> {
+  explicit riis_keyframes(riis::Keyframes made) : keyframes(std::move(made)) {}
+  riis::Keyframes keyframes;
 };
 
 struct riis_mesh : riis::Handle<riis::HandleKind::mesh> {

@@ -170,6 +170,19 @@ void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, 
   });
 }
 
+// The arrays of one time, in the surface's memory.
+void fill_from_keyframes(riis_surface &surface, const riis_keyframes *keyframes, double time, double since,
+                         const riis_surface_options &options) {
+  const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
+  frames.at(time, since, surface.frame_xyz, surface.frame_velocity);
+  riis_surface_arrays arrays = frames.faces();
+  const double *xyz = surface.frame_xyz.data(), *velocity = surface.frame_velocity.data();
+  arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
+  arrays.vx = velocity, arrays.vy = velocity + 1, arrays.vz = velocity + 2;
+  arrays.stride = arrays.velocity_stride = 3;
+  fill_from_arrays(surface, &arrays, options);
+}
+
 template <class Fill>
 void create(const riis_surface_options *options, riis_surface **surface, const Fill &fill_surface) {
   require(surface, "surface");
@@ -231,6 +244,24 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
     require_handle(surface, "surface");
     fill_from_arrays(*surface, arrays,
                      riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+  });
+}
+
+riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double since,
+                                               const riis_surface_options *options, riis_surface **surface) {
+  return guarded([&] {
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
+      fill_from_keyframes(made, keyframes, time, since, whole);
+    });
+  });
+}
+
+riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes, double time,
+                                               double since, const riis_surface_options *options) {
+  return guarded([&] {
+    require_handle(surface, "surface");
+    fill_from_keyframes(*surface, keyframes, time, since,
+                        riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 

@@ -2,12 +2,14 @@
 #include "laws/opening_laws.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "laws/key_times.hpp"
 
 namespace riis {
 namespace {
@@ -27,113 +29,25 @@ void check_time(double time) { check_range("time", time, -largest, largest); }
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : x * x * x * (10 + x * (-15 + 6 * x)); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 
-// Keys of a table, which go on for ever if it has a period.
-class Keys {
- public:
-  explicit Keys(const riis_opening_table &table) : table_(table) {
-    constexpr std::int64_t max_keys = 1'000'000;
-    if (table.n_keys < 1 || table.n_keys > max_keys)
-      fail(RIIS_INVALID_ARGUMENT, "table.n_keys is ", table.n_keys, "; it must be from 1 to ", max_keys);
-    require(table.time, "table.time");
-    require(table.opening, "table.opening");
-    check_range("table.period", table.period, 0, largest);
-    if (table.interpolation != RIIS_INTERPOLATION_LINEAR && table.interpolation != RIIS_INTERPOLATION_CUBIC)
-      fail(RIIS_INVALID_ARGUMENT, "table.interpolation is ", table.interpolation,
-           "; it must be RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC");
-    check_reserved("table.reserved", table.reserved);
-    for (std::int64_t i = 0; i < table.n_keys; ++i) check_key(i);
-    is_closed_ = table.period > 0 && table.n_keys > 1 && last() - table.time[0] >= (1 - rounding) * table.period;
-    if (is_closed_ && table.opening[0] != table.opening[table.n_keys - 1])
-      fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, a period after the first, is ",
-           table.opening[table.n_keys - 1], "; it must be that of the first, ", table.opening[0]);
-  }
-
-  // The number of keys that differ: a last key a period after the first is the first again.
-  std::int64_t n() const { return table_.n_keys - (is_closed_ ? 1 : 0); }
-  bool is_periodic() const { return table_.period > 0; }
-
-  // Key i, where -1 is the last of the period before and n() the first of the period after.
-  double time(std::int64_t i) const {
-    return i < 0 ? table_.time[i + n()] - table_.period : i >= n() ? table_.time[i - n()] + table_.period : table_.time[i];
-  }
-  double opening(std::int64_t i) const { return table_.opening[i < 0 ? i + n() : i >= n() ? i - n() : i]; }
-
-  // The time in the period that begins with the first key.
-  double wrapped(double time) const {
-    if (!is_periodic()) return time;
-    const double first = table_.time[0];
-    const double since = std::fmod(time - first, table_.period);
-    return first + (since < 0 ? since + table_.period : since);
-  }
-
-  // The last key at or before the time; -1 if there is none.
-  std::int64_t before(double time) const {
-    return std::upper_bound(table_.time, table_.time + n(), time) - table_.time - 1;
-  }
-
- private:
-  // Times such as 0.1 and 0.8 are a period of 0.7 apart, whatever the last bit says.
-  static constexpr double rounding = 1e-9;
-
-  double last() const { return table_.time[table_.n_keys - 1]; }
-
-  void check_key(std::int64_t i) const {
-    const double time = table_.time[i], opening = table_.opening[i];
-    if (!(std::abs(time) <= largest))
-      fail(RIIS_INVALID_ARGUMENT, "table.time of key ", i, " is ", time, "; it must be finite and at most ", largest,
-           " in magnitude");
-    if (i > 0 && !(time > table_.time[i - 1]))
-      fail(RIIS_INVALID_ARGUMENT, "table.time of key ", i, " is ", time, "; it must be above that of the key before, ",
-           table_.time[i - 1]);
-    if (table_.period > 0 && time - table_.time[0] > (1 + rounding) * table_.period)
-      fail(RIIS_INVALID_ARGUMENT, "table.time of key ", i, " is ", time, ", beyond the period of ", table_.period,
-           " that begins with the first key, at ", table_.time[0]);
-    if (!(opening >= 0 && opening <= 1))
-      fail(RIIS_INVALID_ARGUMENT, "table.opening of key ", i, " is ", opening, "; it must be from 0 to 1");
-  }
-
-  const riis_opening_table &table_;
-  bool is_closed_ = false;
-};
-
-double slope(const Keys &keys, std::int64_t i) {
-  return (keys.opening(i + 1) - keys.opening(i)) / (keys.time(i + 1) - keys.time(i));
-}
-
-// The derivative of the monotone cubic at key i: the weighted harmonic mean of the slopes on either side, 0 where they differ
-// in sign, and at an end without a neighbour (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984).
-double tangent(const Keys &keys, std::int64_t i) {
-  if (!keys.is_periodic() && (i == 0 || i == keys.n() - 1)) return 0;
-  const double left = slope(keys, i - 1), right = slope(keys, i);
-  if (!(left * right > 0)) return 0;
-  const double width_left = keys.time(i) - keys.time(i - 1), width_right = keys.time(i + 1) - keys.time(i);
-  const double w_left = 2 * width_right + width_left, w_right = width_right + 2 * width_left;
-  return (w_left + w_right) / (w_left / left + w_right / right);
-}
-
-Opening interpolated(const Keys &keys, std::int64_t i, double time, bool is_cubic) {
-  const double width = keys.time(i + 1) - keys.time(i), s = (time - keys.time(i)) / width;
-  const double from = keys.opening(i), to = keys.opening(i + 1);
-  if (!is_cubic) return {(1 - s) * from + s * to, (to - from) / width};
-  const double d0 = width * tangent(keys, i), d1 = width * tangent(keys, i + 1), rise = to - from;
-  const double c2 = 3 * rise - 2 * d0 - d1, c3 = d0 + d1 - 2 * rise;
-  // Rounding must not leave the range of openings.
-  return {std::clamp(from + s * (d0 + s * (c2 + s * c3)), 0.0, 1.0), (d0 + s * (2 * c2 + s * 3 * c3)) / width};
-}
-
 }  // namespace
 
 Opening opening_from_table(const riis_opening_table &table, double time) {
-  const Keys keys(table);
-  check_time(time);
-  if (keys.n() == 1) return {keys.opening(0), 0};
-  const double wrapped = keys.wrapped(time);
-  const std::int64_t i = keys.before(wrapped);
-  if (!keys.is_periodic()) {
-    if (i < 0) return {keys.opening(0), 0};
-    if (i >= keys.n() - 1) return {keys.opening(keys.n() - 1), 0};
-  }
-  return interpolated(keys, std::max<std::int64_t>(i, 0), wrapped, table.interpolation == RIIS_INTERPOLATION_CUBIC);
+  const KeyTimes keys("table", table.n_keys, table.time, table.period, table.interpolation);
+  check_reserved("table.reserved", table.reserved);
+  require(table.opening, "table.opening");
+  for (std::int64_t i = 0; i < table.n_keys; ++i)
+    if (!(table.opening[i] >= 0 && table.opening[i] <= 1))
+      fail(RIIS_INVALID_ARGUMENT, "table.opening of key ", i, " is ", table.opening[i], "; it must be from 0 to 1");
+  const double first = table.opening[0], last = table.opening[table.n_keys - 1];
+  if (keys.is_closed() && first != last)
+    fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, a period after the first, is ", last,
+         "; it must be that of the first, ", first);
+  const KeyTimes::Place place = keys.place(time);
+  std::array<double, 4> openings;
+  for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[place.key[k]];
+  const ValueAndRate made = keys.between(place, openings);
+  // Rounding must not leave the range of openings.
+  return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
 Opening opening_from_times(const riis_opening_times &times, double time) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "laws/key_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
+namespace riis {
+namespace {
+
+constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::infinity();
+// Times such as 0.1 and 0.8 are a period of 0.7 apart, whatever the last bit says.
+constexpr double rounding = 1e-9;
+constexpr std::int64_t max_keys = 1'000'000;
+
+// The derivative of the monotone cubic at a key: the weighted harmonic mean of the slopes on either side, 0 where they differ
+// in sign, and at an end without a neighbour (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984).
+double tangent(double slope_before, double slope_behind, double width_before, double width_behind) {
+  if (!(slope_before * slope_behind > 0) || width_before == infinity || width_behind == infinity) return 0;
+  const double w_before = 2 * width_behind + width_before, w_behind = width_behind + 2 * width_before;
+  return (w_before + w_behind) / (w_before / slope_before + w_behind / slope_behind);
+}
+
+}  // namespace
+
+KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation)
+    : n_keys_(n_keys), time_(time), period_(period), is_cubic_(interpolation == RIIS_INTERPOLATION_CUBIC) {
+  if (n_keys < 1 || n_keys > max_keys)
+    fail(RIIS_INVALID_ARGUMENT, name, ".n_keys is ", n_keys, "; it must be from 1 to ", max_keys);
+  if (!time) fail(RIIS_INVALID_ARGUMENT, name, ".time is NULL");
+  if (!(period >= 0 && period <= largest_time))
+    fail(RIIS_INVALID_ARGUMENT, name, ".period is ", period, "; it must be from 0 to ", largest_time);
+  if (interpolation != RIIS_INTERPOLATION_LINEAR && interpolation != RIIS_INTERPOLATION_CUBIC)
+    fail(RIIS_INVALID_ARGUMENT, name, ".interpolation is ", interpolation,
+         "; it must be RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC");
+  for (std::int64_t i = 0; i < n_keys; ++i) {
+    if (!(std::abs(time[i]) <= largest_time))
+      fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i], "; it must be finite and at most ",
+           largest_time, " in magnitude");
+    if (i > 0 && !(time[i] > time[i - 1]))
+      fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i],
+           "; it must be above that of the key before, ", time[i - 1]);
+    if (period > 0 && time[i] - time[0] > (1 + rounding) * period)
+      fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i], ", beyond the period of ", period,
+           " that begins with the first key, at ", time[0]);
+  }
+  is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
+}
+
+KeyTimes::Place KeyTimes::place(double time) const {
+  if (!(std::abs(time) <= largest_time))
+    fail(RIIS_INVALID_ARGUMENT, "time is ", time, "; it must be finite and at most ", largest_time, " in magnitude");
+  if (n() == 1) return {{0, 0, 0, 0}, {infinity, infinity, infinity}, 0, true};
+  const bool repeats = period_ > 0;
+  if (repeats) {
+    const double since = std::fmod(time - time_[0], period_);
+    time = time_[0] + (since < 0 ? since + period_ : since);
+  }
+  const std::int64_t last = n() - 1;
+  std::int64_t i = std::upper_bound(time_, time_ + n(), time) - time_ - 1;
+  if (!repeats && (i < 0 || i >= last)) {
+    const std::int64_t end = i < 0 ? 0 : last;
+    return {{end, end, end, end}, {infinity, infinity, infinity}, 0, true};
+  }
+  i = std::max<std::int64_t>(i, 0);
+  const bool has_before = repeats || i > 0, has_behind = repeats || i + 1 < last;
+  return {{has_before ? position(i - 1) : i, i, position(i + 1), has_behind ? position(i + 2) : position(i + 1)},
+          {has_before ? this->time(i) - this->time(i - 1) : infinity, this->time(i + 1) - this->time(i),
+           has_behind ? this->time(i + 2) - this->time(i + 1) : infinity},
+          time - this->time(i),
+          false};
+}
+
+ValueAndRate KeyTimes::between(const Place &place, const std::array<double, 4> &values) const {
+  const double from = values[1], to = values[2];
+  if (place.is_at_rest) return {from, 0};
+  const double width = place.width[1], s = place.since / width, slope = (to - from) / width;
+  if (!is_cubic_) return {(1 - s) * from + s * to, slope};
+  const double slope_before = (from - values[0]) / place.width[0], slope_behind = (values[3] - to) / place.width[2];
+  const double d0 = width * tangent(slope_before, slope, place.width[0], width);
+  const double d1 = width * tangent(slope, slope_behind, width, place.width[2]);
+  const double rise = to - from, c2 = 3 * rise - 2 * d0 - d1, c3 = d0 + d1 - 2 * rise;
+  return {from + s * (d0 + s * (c2 + s * c3)), (d0 + s * (2 * c2 + s * 3 * c3)) / width};
+}
+
+}  // namespace riis

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/keyframes.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "base/integer_array.hpp"
+#include "geometry/strided.hpp"
+#include "surface/user_arrays.hpp"
+
+namespace riis {
+namespace {
+
+constexpr std::array<const char *, 3> axes{"x", "y", "z"};
+
+}  // namespace
+
+Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_arrays &frames)
+    : period_(frames.period), interpolation_(frames.interpolation), faces_(faces) {
+  const KeyTimes checked("frames", frames.n_keys, frames.time, frames.period, frames.interpolation);
+  check_reserved("frames.reserved", frames.reserved);
+  require(frames.xyz, "frames.xyz");
+  if (frames.n_vertices != faces.n_vertices)
+    fail(RIIS_INVALID_ARGUMENT, "frames.n_vertices is ", frames.n_vertices, "; the faces are of ", faces.n_vertices,
+         " vertices: all frames have the same");
+  if (frames.n_vertices < 1 || frames.n_vertices > std::numeric_limits<std::int32_t>::max())
+    fail(RIIS_INVALID_SURFACE, "frames.n_vertices is ", frames.n_vertices, "; it must be from 1 to 2147483647");
+  if (frames.n_keys > std::numeric_limits<std::int64_t>::max() / 24 / frames.n_vertices)
+    fail(RIIS_LIMIT_EXCEEDED, frames.n_keys, " frames of ", frames.n_vertices, " vertices are more than memory can hold");
+  const std::int64_t n = 3 * frames.n_vertices;
+  for (std::int64_t key = 0; key < frames.n_keys; ++key)
+    for (std::int64_t i = 0; i < n; ++i)
+      if (!is_usable(frames.xyz[key * n + i]))
+        fail(RIIS_INVALID_SURFACE, axes[static_cast<std::size_t>(i % 3)], " of vertex ", i / 3, " in frame ", key, " is ", frames.xyz[key * n + i],
+             "; it must be finite and at most ", max_coordinate, " in magnitude");
+  if (checked.is_closed())
+    for (std::int64_t i = 0; i < n; ++i)
+      if (frames.xyz[i] != frames.xyz[(frames.n_keys - 1) * n + i])
+        fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
+             axes[static_cast<std::size_t>(i % 3)], " ", frames.xyz[(frames.n_keys - 1) * n + i], "; it must be that of the first, ", frames.xyz[i]);
+  // The faces are checked once, as a surface from the first frame.
+  faces_.x = frames.xyz;
+  faces_.y = frames.xyz + 1;
+  faces_.z = frames.xyz + 2;
+  faces_.stride = 3;
+  faces_.vx = faces_.vy = faces_.vz = nullptr;
+  triangles_from_arrays(faces_, {1, no_rotation, {0, 0, 0}}, true, false);
+
+  time_.assign(frames.time, frames.time + frames.n_keys);
+  xyz_.assign(frames.xyz, frames.xyz + frames.n_keys * n);
+  const std::int64_t n_ids = faces.n_faces * faces.corners_per_face;
+  const IntegerArray ids{faces.vertex_ids, faces.vertex_id_bits == 64};
+  vertex_ids_.reserve(static_cast<std::size_t>(n_ids));
+  for (std::int64_t i = 0; i < n_ids; ++i) vertex_ids_.push_back(ids[i]);
+  faces_.vertex_ids = vertex_ids_.data();
+  faces_.vertex_id_bits = 64;
+  if (faces.leaflet_id) {
+    leaflet_id_.assign(faces.leaflet_id, faces.leaflet_id + faces.n_faces);
+    faces_.leaflet_id = leaflet_id_.data();
+  }
+  faces_.x = faces_.y = faces_.z = nullptr;
+}
+
+void Keyframes::at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const {
+  const KeyTimes times = keys();
+  const KeyTimes::Place now = times.place(time), before = times.place(since);
+  const auto n = static_cast<std::size_t>(3 * faces_.n_vertices);
+  const auto value = [&](const KeyTimes::Place &place, std::size_t i) {
+    std::array<double, 4> values;
+    for (std::size_t k = 0; k < 4; ++k) values[k] = xyz_[static_cast<std::size_t>(place.key[k]) * n + i];
+    return times.between(place, values);
+  };
+  xyz.resize(n);
+  velocity.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const ValueAndRate made = value(now, i);
+    xyz[i] = made.value;
+    velocity[i] = since == time ? made.rate : (made.value - value(before, i).value) / (time - since);
+  }
+}
+
+}  // namespace riis

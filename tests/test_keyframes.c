@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Surfaces from frames in time: places and velocities against closed forms, periods, refusals. */
+#include <riis/riis.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+static random_source rng;
+
+enum { n_vertices = 4, n_faces = 2, most_keys = 5 };
+static const int32_t ids[3 * n_faces] = {0, 1, 2, 0, 2, 3};
+
+static riis_surface_arrays square(void) {
+  riis_surface_arrays faces;
+  CHECK_OK(riis_surface_arrays_init(&faces, sizeof faces));
+  faces.n_vertices = n_vertices;
+  faces.n_faces = n_faces;
+  faces.vertex_ids = ids;
+  return faces;
+}
+
+/* A square that swings: at key k its height is height[k]. */
+typedef struct swing {
+  double time[most_keys], xyz[3 * n_vertices * most_keys];
+  riis_keyframe_arrays frames;
+} swing;
+
+static void make_swing(swing *s, int64_t n_keys, const double *time, const double *height) {
+  static const double corner[n_vertices][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  CHECK_OK(riis_keyframe_arrays_init(&s->frames, sizeof s->frames));
+  for (int64_t k = 0; k < n_keys; ++k) {
+    s->time[k] = time[k];
+    for (int v = 0; v < n_vertices; ++v) {
+      double *to = s->xyz + 3 * (n_vertices * k + v);
+      to[0] = corner[v][0];
+      to[1] = corner[v][1];
+      to[2] = height[k];
+    }
+  }
+  s->frames.n_keys = n_keys;
+  s->frames.n_vertices = n_vertices;
+  s->frames.time = s->time;
+  s->frames.xyz = s->xyz;
+}
+
+static riis_keyframes *keyframes_of(const swing *s) {
+  const riis_surface_arrays faces = square();
+  riis_keyframes *keyframes = NULL;
+  CHECK_OK(riis_keyframes_create(&faces, &s->frames, &keyframes));
+  return keyframes;
+}
+
+static void check_height(const riis_surface *surface, double height, double speed) {
+  const double *xyz, *velocity;
+  int64_t n;
+  CHECK_OK(riis_surface_vertices(surface, &n, &xyz));
+  CHECK_OK(riis_surface_vertex_velocities(surface, &n, &velocity));
+  assert_int_equal(n, n_vertices);
+  for (int64_t i = 0; i < n; ++i) {
+    CHECK_NEAR(xyz[3 * i + 2], height, 1e-13);
+    CHECK_NEAR(velocity[3 * i], 0, 0);
+    CHECK_NEAR(velocity[3 * i + 2], speed, 1e-12);
+  }
+}
+
+static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
+  (void)state;
+  const double time[] = {0, 1, 3}, height[] = {0, 2, 1};
+  swing s;
+  make_swing(&s, 3, time, height);
+  riis_keyframes *keyframes = keyframes_of(&s);
+  memset(s.xyz, 0, sizeof s.xyz); /* they were copied */
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0.25, 0.25, NULL, &surface));
+  check_height(surface, 0.5, 2);
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 1, 1, NULL));
+  check_height(surface, 2, -0.5);
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 2, 0.5, NULL)); /* across a key */
+  check_height(surface, 1.5, 0.5 / 1.5);
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 0.5, 2, NULL)); /* time goes back */
+  check_height(surface, 1, (1 - 1.5) / (0.5 - 2));
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 9, 9, NULL));
+  check_height(surface, 1, 0);
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, -1, -1, NULL));
+  check_height(surface, 0, 0);
+  riis_surface_destroy(&surface);
+  riis_keyframes_destroy(&keyframes);
+  assert_null(keyframes);
+}
+
+static void frames_repeat_and_are_placed(void **state) {
+  (void)state;
+  const double time[] = {0, 0.25, 0.5, 1}, height[] = {0, 0.1, 0.3, 0};
+  for (int32_t interpolation = 0; interpolation <= 1; ++interpolation) {
+    swing s;
+    make_swing(&s, 4, time, height);
+    s.frames.period = 1;
+    s.frames.interpolation = interpolation;
+    riis_keyframes *keyframes = keyframes_of(&s);
+    riis_surface *a = NULL, *b = NULL;
+    riis_surface_options options = surface_options();
+    options.scale = 2;
+    options.translation[2] = 5;
+    CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0, 0, NULL, &a));
+    CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0, 0, &options, &b));
+    for (int i = 0; i < 100; ++i) {
+      const double t = random_between(&rng, 0, 1);
+      const double *xyz, *velocity;
+      CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t, t, NULL));
+      CHECK_OK(riis_surface_vertices(a, NULL, &xyz));
+      CHECK_OK(riis_surface_vertex_velocities(a, NULL, &velocity));
+      CHECK_OK(riis_surface_update_from_keyframes(b, keyframes, t - 3, t - 3, NULL));
+      check_height(b, 5 + 2 * xyz[2], 2 * velocity[2]);
+      if (interpolation == RIIS_INTERPOLATION_LINEAR) {
+        CHECK_NEAR(xyz[2], t < 0.25 ? 0.4 * t : t < 0.5 ? 0.1 + 0.8 * (t - 0.25) : 0.6 * (1 - t), 1e-14);
+        continue;
+      }
+      /* The rate of the cubic is its derivative. */
+      const double h = 1e-6, rate = velocity[2];
+      CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t + h, t - h, NULL));
+      CHECK_OK(riis_surface_vertex_velocities(a, NULL, &velocity));
+      CHECK_NEAR(velocity[2], rate, 1e-4);
+    }
+    riis_surface_destroy(&a);
+    riis_surface_destroy(&b);
+    riis_keyframes_destroy(&keyframes);
+  }
+}
+
+static void bad_frames_are_refused(void **state) {
+  (void)state;
+  const double time[] = {0, 1, 2}, height[] = {0, 2, 1};
+  const riis_surface_arrays faces = square();
+  riis_keyframes *keyframes = NULL;
+  swing s;
+#define REFUSED(status, parts) CHECK_REFUSED(status, parts, riis_keyframes_create(&faces, &s.frames, &keyframes))
+  make_swing(&s, 3, time, height);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces", riis_keyframes_create(NULL, &s.frames, &keyframes));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "frames", riis_keyframes_create(&faces, NULL, &keyframes));
+  s.time[1] = 3;
+  REFUSED(RIIS_INVALID_ARGUMENT, "frames.time of key 2 is 2");
+  make_swing(&s, 3, time, height);
+  s.frames.n_vertices = 5;
+  REFUSED(RIIS_INVALID_ARGUMENT, "frames.n_vertices is 5|4");
+  make_swing(&s, 3, time, height);
+  s.frames.period = 1;
+  REFUSED(RIIS_INVALID_ARGUMENT, "frames.time of key 2 is 2|period of 1");
+  s.frames.period = 2;
+  REFUSED(RIIS_INVALID_SURFACE, "vertex 0 in the last frame|z 1");
+  make_swing(&s, 3, time, height);
+  s.xyz[3 * n_vertices + 4] = NAN;
+  REFUSED(RIIS_INVALID_SURFACE, "y of vertex 1 in frame 1 is nan");
+  make_swing(&s, 3, time, height);
+  s.frames.interpolation = 7;
+  REFUSED(RIIS_INVALID_ARGUMENT, "frames.interpolation is 7");
+  make_swing(&s, 3, time, height);
+  s.frames.xyz = NULL;
+  REFUSED(RIIS_INVALID_ARGUMENT, "frames.xyz");
+  assert_null(keyframes);
+  make_swing(&s, 3, time, height);
+  keyframes = keyframes_of(&s);
+  riis_surface *surface = NULL;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time is nan",
+                riis_surface_create_from_keyframes(keyframes, NAN, 0, NULL, &surface));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time is inf",
+                riis_surface_create_from_keyframes(keyframes, 0, INFINITY, NULL, &surface));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "keyframes",
+                riis_surface_create_from_keyframes(NULL, 0, 0, NULL, &surface));
+  assert_null(surface);
+  riis_keyframes_destroy(&keyframes);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(linear_frames_have_right_hand_and_mean_velocities),
+      cmocka_unit_test(frames_repeat_and_are_placed),
+      cmocka_unit_test(bad_frames_are_refused),
+  };
+  rng = random_start("test_keyframes");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
