@@ -70,6 +70,14 @@ RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mar
  * Errors: RIIS_INVALID_ARGUMENT for a prefix that is none, or a result of a mesh with another number of nodes. */
 RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance,
                                                    const char *prefix);
+/* Sets a point array of the caller's numbers, such as a resistance; an array of that name is replaced.
+ *   name          as a prefix of riis_vtk_mesh_set_named_marks
+ *   n_nodes       of the mesh
+ *   n_components  1 to 9 a node
+ *   values        (n_components, n_nodes), copied
+ * Errors: RIIS_INVALID_ARGUMENT for a name that is none, another n_nodes, or n_components out of range. */
+RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
+                                                   int64_t n_components, const double *values);
 /* Tells whether the mesh has a point array of that name: *has is 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
 /* Gives the median length of the edges of linear cells (triangle, quad, pixel, tetrahedron, pyramid, wedge, hexahedron,

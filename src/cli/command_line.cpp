@@ -94,7 +94,8 @@ const std::vector<std::string> distance_names = {"triangles", "sampling", "minim
 
 // What CLI11 collects, as text: numbers are parsed here, whatever the locale.
 struct Texts {
-  std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening;
+  std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
+      resistance;
   std::string distance_tolerance, unit, surface_unit, steps;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
@@ -188,6 +189,9 @@ void declare_marking(CLI::App &app, Texts &texts) {
   app.add_option("--distance-limit", texts.distance_limit, "Distances are wanted up to here (the half thickness)")
       ->type_name("L")
       ->group(group);
+  app.add_option("--resistance", texts.resistance,
+                 "write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
+      ->type_name("R");
   app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (1e30)")
       ->type_name("X")
       ->group(group);
@@ -378,7 +382,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
                                                       "--set",          "--opening",         "--quiet"};
   static const std::set<std::string> of_mesh = {
       "--output",         "--stats",        "--search",   "--threads",
-      "--distance-limit", "--far-distance", "--distance", "--distance-tolerance",
+      "--distance-limit", "--resistance", "--far-distance", "--distance", "--distance-tolerance",
       "--allow-none",     "--steps"};
   const bool prints = options.print_params || options.describe_params;
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
@@ -496,6 +500,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
       std::as_const(app).get_options([](const CLI::Option *option) { return option->count() > 0; });
   check_values(given);
   if (options.valve.empty()) options.valve = "aortic";
+  if (!texts.resistance.empty()) options.resistance = parse_number(texts.resistance, "--resistance");
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
   options.opening = parse_opening(texts, options.settings);
   parse_surface_options(texts, options.surface_options);

@@ -119,6 +119,16 @@ Surface surface_of_file(const Options &options, Seconds &seconds) {
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
+// K of every node for --resistance.
+std::vector<double> resistance_of(const Options &options, const riis_mark_result *result, int64_t n_nodes) {
+  riis_resistance how;
+  check(riis_resistance_init(&how, sizeof how));
+  how.resistance = *options.resistance;
+  std::vector<double> coefficient(static_cast<std::size_t>(n_nodes), 0.0);
+  check(riis_mark_result_add_resistance(result, &how, n_nodes, coefficient.data(), nullptr), "--resistance");
+  return coefficient;
+}
+
 // Marks a single node: what the library refuses of the options is then refused before a large mesh is read and marked.
 void rehearse_marking(const Options &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
@@ -132,6 +142,7 @@ void rehearse_marking(const Options &options, const riis_surface *surface) {
   if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
   check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
   check(riis_mark_result_dense(result.get(), 1, options.far_distance, nullptr, nullptr, nullptr, nullptr));
+  if (options.resistance) resistance_of(options, result.get(), 1);
 }
 
 MeshFile read_mesh(const Options &options, Seconds &seconds) {
@@ -177,7 +188,7 @@ void warn_of_incomplete_marks() {
 // Neither marks nor anything else of the user's is replaced by chance.
 void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
   if (options.output.empty() || options.replace) return;
-  for (const char *what : {"_marked", "_distance", "_leaflet"}) {
+  for (const char *what : {"_marked", "_distance", "_leaflet", options.resistance ? "_resistance" : "_marked"}) {
     int32_t has = 0;
     check(riis_vtk_mesh_has_point_array(mesh, (options.prefix + what).c_str(), &has));
     if (!has) continue;
@@ -185,6 +196,13 @@ void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
                   options.mesh + " has an array " + options.prefix + what +
                       " already: write --replace to replace it, or --prefix NAME for other arrays beside it"};
   }
+}
+
+// K of every node, as an array of the mesh.
+void set_resistance(const Options &options, const riis_mark_result *result, riis_vtk_mesh *file, int64_t n_nodes) {
+  if (!options.resistance) return;
+  const std::vector<double> coefficient = resistance_of(options, result, n_nodes);
+  check(riis_vtk_mesh_set_point_array(file, (options.prefix + "_resistance").c_str(), n_nodes, 1, coefficient.data()));
 }
 
 // Returns the marks, which pictures may want by other names than the output's.
@@ -203,6 +221,7 @@ MarkResult mark(const Options &options, const riis_surface *surface, const riis_
   }
   check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
   check(riis_vtk_mesh_set_named_marks(file, result.get(), options.far_distance, options.prefix.c_str()));
+  set_resistance(options, result.get(), file, report.marks.n_nodes);
   if (!report.marks.complete) warn_of_incomplete_marks();
   const std::string warning = warning_of(situation_of(options, report.surface, report.marks, file));
   if (!warning.empty()) warn(warning);

@@ -54,21 +54,21 @@ void check_is_of_mesh(const riis_mark_result *result, vtkIdType n_nodes) {
 }
 
 // A name that every file format and every reader takes.
-void check_prefix(const std::string &prefix) {
+void check_name(const char *argument, const std::string &name) {
   constexpr std::size_t longest = 64;
   const auto is_good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
   };
-  if (prefix.empty() || prefix.size() > longest || !std::all_of(prefix.begin(), prefix.end(), is_good)) {
-    fail(RIIS_INVALID_ARGUMENT, "prefix is \"" + prefix.substr(0, longest) + "\"; it must be 1 to " +
+  if (name.empty() || name.size() > longest || !std::all_of(name.begin(), name.end(), is_good)) {
+    fail(RIIS_INVALID_ARGUMENT, std::string(argument) + " is \"" + name.substr(0, longest) + "\"; it must be 1 to " +
                                     std::to_string(longest) + " letters, digits, _, - and .");
   }
 }
 
 void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance,
                const std::string &prefix) {
-  check_prefix(prefix);
+  check_name("prefix", prefix);
   const vtkIdType n = grid->GetNumberOfPoints();
   check_is_of_mesh(result, n);
   const auto marked = point_array<vtkUnsignedCharArray>(prefix + "_marked", n);
@@ -80,6 +80,23 @@ void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double
                               static_cast<vtkDataArray *>(leaflet)}) {
     grid->GetPointData()->AddArray(array);
   }
+}
+
+void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::int64_t n_nodes,
+                     std::int64_t n_components, const double *values) {
+  check_name("name", name);
+  const vtkIdType n = grid->GetNumberOfPoints();
+  if (n_nodes != n)
+    fail(RIIS_INVALID_ARGUMENT,
+         "n_nodes is " + std::to_string(n_nodes) + "; the mesh has " + std::to_string(n) + " nodes");
+  if (n_components < 1 || n_components > 9)
+    fail(RIIS_INVALID_ARGUMENT, "n_components is " + std::to_string(n_components) + "; it must be from 1 to 9");
+  const auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(static_cast<int>(n_components));
+  array->SetNumberOfTuples(n);
+  std::copy_n(values, n * n_components, array->GetPointer(0));
+  grid->GetPointData()->AddArray(array);
 }
 
 // The core names the field of its own struct; the caller gave a plain argument.
@@ -203,6 +220,14 @@ RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const ri
                                                    double far_distance, const char *prefix) {
   return guarded([&](const CaughtOutput &) {
     set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance, require(prefix, "prefix"));
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
+                                                   int64_t n_components, const double *values) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    set_point_array(mesh->grid, require(name, "name"), n_nodes, n_components, require(values, "values"));
   });
 }
 
