@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --resistance: K of every node beside its distance, by the formula of docs/theory.md, section 12. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static void test_resistance(void **state) {
+  (void)state;
+  static double distance[n_box], resistance[n_box];
+  const double R = 10, eps = 0.3, pi = acos(-1);
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10",
+           "--output", scratch_path("out.vtu"));
+  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_distance", NULL, NULL, NULL, distance), 1);
+  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_resistance", NULL, NULL, NULL, resistance), 1);
+  int n_resisting = 0;
+  for (int i = 0; i < n_box; ++i) {
+    const double expected = distance[i] < eps ? R / eps * (1 + cos(pi * distance[i] / eps)) / (2 * eps) : 0;
+    if (fabs(resistance[i] - expected) > 1e-12 * R / eps / eps)
+      fail_msg("node %d at %.17g has K %.17g, not %.17g", i, distance[i], resistance[i], expected);
+    n_resisting += resistance[i] > 0;
+  }
+  assert_true(n_resisting > 20);
+}
+
+static void test_no_array_unless_asked(void **state) {
+  (void)state;
+  static double resistance[n_box];
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output", scratch_path("plain.vtu"));
+  assert_int_equal(shim_read_array(scratch_path("plain.vtu"), 'p', "riis_resistance", NULL, NULL, NULL, resistance), 0);
+}
+
+static void test_refusals(void **state) {
+  (void)state;
+  RUN_REFUSED(2, "resistance is -1", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "-1");
+  RUN_REFUSED(2, "resistance is nan", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
+  RUN_REFUSED(2, "--resistance", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
+  RUN_REFUSED(2, "--resistance needs a MESH", "--valve", "aortic", "--resistance", "1", "--surface-output",
+              scratch_path("s.vtp"));
+  /* Of another valve's K nothing is replaced by chance. */
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1", "--prefix", "a",
+           "--output", scratch_path("a.vtu"));
+  RUN_REFUSED(2, "a_marked", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
+              "--prefix", "a", "--output", scratch_path("b.vtu"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_resistance),
+      cmocka_unit_test(test_no_array_unless_asked),
+      cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, make_box, NULL);
+}
