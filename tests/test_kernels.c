@@ -114,6 +114,7 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
   (void)state;
   enum { n_triangles = 64, n_points = 200, max_pairs = 600 };
   static double corners[9 * n_triangles], points[3 * n_points], decided[max_pairs + 7], expected[max_pairs];
+  static double on[3 * max_pairs], weights[3 * max_pairs];
   static int32_t point[max_pairs], triangle[max_pairs];
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
   for (int trial = 0; trial < 500; ++trial) {
@@ -128,10 +129,10 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
     for (int i = 0; i < 3 * n_points; ++i) points[i] = unit * (points[i] + origin[i % 3]);
     const int32_t n = 1 + (int32_t)(random_bits(&rng) % max_pairs);
     for (int32_t i = 0; i < n; ++i) {
-      double on[3], weight[3];
+      double *weight = weights + 3 * i;
       point[i] = (int32_t)(random_bits(&rng) % n_points);
       triangle[i] = (int32_t)(random_bits(&rng) % n_triangles);
-      expected[i] = kernel_point_triangle(points + 3 * point[i], corners + 9 * triangle[i], on, weight);
+      expected[i] = kernel_point_triangle(points + 3 * point[i], corners + 9 * triangle[i], on + 3 * i, weight);
       const int n_zero = (weight[0] == 0) + (weight[1] == 0) + (weight[2] == 0);
       n_inside += n_zero == 0, n_edge += n_zero == 1, n_corner += n_zero == 2;
     }
@@ -143,6 +144,15 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
         if (memcmp(decided + i, expected + i, sizeof expected[0]) != 0)
           fail_msg("%s, trial %d, pair %d: %.17g instead of %.17g", kernels_name(set), trial, i, decided[i],
                    expected[i]);
+      for (int32_t i = 0; i < n; i += 8) {
+        const int32_t n_here = n - i < 8 ? n - i : 8;
+        const size_t size = (size_t)n_here * sizeof decided[0];
+        double closest[3 * 8], barycentric[3 * 8];
+        kernels_locate(set, n_here, point + i, triangle + i, points, corners, decided, closest, barycentric);
+        if (memcmp(decided, expected + i, size) != 0 || memcmp(closest, on + 3 * i, 3 * size) != 0 ||
+            memcmp(barycentric, weights + 3 * i, 3 * size) != 0)
+          fail_msg("%s, trial %d, pairs from %d: other closest points", kernels_name(set), trial, i);
+      }
       n_compared += n;
     }
   }

@@ -100,6 +100,10 @@ const char *kernels_name(int set);
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
+/* The same for at most 8 pairs, with the closest points (3, n) and their barycentrics (3, n). */
+void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
+                    const double *corners, double *distance_sq, double *closest, double *barycentric);
+
 /* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);

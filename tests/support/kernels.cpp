@@ -109,6 +109,25 @@ void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *tri
   of(set).decide(n, point, triangle, points, corners, distance_sq);
 }
 
+void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
+                    const double *corners, double *distance_sq, double *closest, double *barycentric) {
+  PointsAndTriangles pairs;
+  PointsOnTriangles located;
+  for (int i = 0; i < pairs_at_once; ++i) {
+    const int pair = i < n ? i : 0;
+    for (int c = 0; c < 3; ++c) pairs.point[c][i] = points[3 * point[pair] + c];
+    for (int c = 0; c < 9; ++c) pairs.corners[c][i] = corners[9 * triangle[pair] + c];
+  }
+  of(set).locate(pairs, located);
+  for (int i = 0; i < n; ++i) {
+    distance_sq[i] = located.distance_sq[i];
+    for (int c = 0; c < 3; ++c) {
+      closest[3 * i + c] = located.point[c][i];
+      barycentric[3 * i + c] = located.barycentric[c][i];
+    }
+  }
+}
+
 kernel_group *kernels_group(int set, int n, const double *corners) {
   auto *group = new kernel_group{};
   group->bounds.n = n;
