@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -185,11 +184,7 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
 }  // namespace
 
 int main(int argc, char **argv) {
-  const std::int64_t about_n_nodes = 1000 * (argc > 1 ? std::strtoll(argv[1], nullptr, 10) : 1000);
-  if (about_n_nodes < 1000) {
-    std::fprintf(stderr, "%s: not a number of thousands of nodes: %s\n", argv[0], argv[1]);
-    return 2;
-  }
+  const std::int64_t about_n_nodes = n_nodes_given(argc, argv, 1, 1);
   Table table;
   for (const int valve : {0, 1}) {
     table.begin(valve);

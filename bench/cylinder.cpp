@@ -2,6 +2,8 @@
 #include "cylinder.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace bench {
 
@@ -77,6 +79,16 @@ Adjacency adjacency_of(std::int64_t n_nodes, const std::vector<std::int32_t> &te
   riis_adjacency *adjacency = nullptr;
   check(riis_adjacency_create_from_cells(&cells, &adjacency));
   return Adjacency(adjacency);
+}
+
+std::int64_t n_nodes_given(int argc, char **argv, int at, std::int64_t fewest_thousands) {
+  const std::int64_t thousands = argc > at ? std::strtoll(argv[at], nullptr, 10) : 1000;
+  if (thousands < fewest_thousands) {
+    std::fprintf(stderr, "%s: not a number of thousands of nodes, %lld or more: %s\n", argv[0],
+                 static_cast<long long>(fewest_thousands), argv[at]);
+    std::exit(2);
+  }
+  return 1000 * thousands;
 }
 
 }  // namespace bench

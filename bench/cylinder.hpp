@@ -59,4 +59,8 @@ class CylinderMesh : public CylinderNodes {
 
 Adjacency adjacency_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra, int n_threads);
 
+// The number of nodes that argv[at] gives in thousands, a million without it. Ends the program with status 2 and a message unless
+// there are at least so many thousands.
+std::int64_t n_nodes_given(int argc, char **argv, int at, std::int64_t fewest_thousands);
+
 }  // namespace bench

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
@@ -240,11 +239,7 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
 }  // namespace
 
 int main(int argc, char **argv) {
-  const std::int64_t about_n_nodes = 1000 * (argc > 1 ? std::strtoll(argv[1], nullptr, 10) : 1000);
-  if (about_n_nodes < 1000) {
-    std::fprintf(stderr, "%s: not a number of thousands of nodes: %s\n", argv[0], argv[1]);
-    return 2;
-  }
+  const std::int64_t about_n_nodes = n_nodes_given(argc, argv, 1, 1);
   std::printf(
       "Closed valves, seeds 1 to %d:\n\n| valve | longest edge / half thickness | edges across | of these leak | share "
       "| closed by, half thicknesses |\n|---|---|---|---|---|---|\n",

@@ -114,6 +114,7 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
   (void)state;
   enum { n_triangles = 64, n_points = 200, max_pairs = 600 };
   static double corners[9 * n_triangles], points[3 * n_points], decided[max_pairs + 7], expected[max_pairs];
+  static double on[3 * max_pairs], weights[3 * max_pairs];
   static int32_t point[max_pairs], triangle[max_pairs];
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
   for (int trial = 0; trial < 500; ++trial) {
@@ -128,10 +129,10 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
     for (int i = 0; i < 3 * n_points; ++i) points[i] = unit * (points[i] + origin[i % 3]);
     const int32_t n = 1 + (int32_t)(random_bits(&rng) % max_pairs);
     for (int32_t i = 0; i < n; ++i) {
-      double on[3], weight[3];
+      double *weight = weights + 3 * i;
       point[i] = (int32_t)(random_bits(&rng) % n_points);
       triangle[i] = (int32_t)(random_bits(&rng) % n_triangles);
-      expected[i] = kernel_point_triangle(points + 3 * point[i], corners + 9 * triangle[i], on, weight);
+      expected[i] = kernel_point_triangle(points + 3 * point[i], corners + 9 * triangle[i], on + 3 * i, weight);
       const int n_zero = (weight[0] == 0) + (weight[1] == 0) + (weight[2] == 0);
       n_inside += n_zero == 0, n_edge += n_zero == 1, n_corner += n_zero == 2;
     }
@@ -143,6 +144,15 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
         if (memcmp(decided + i, expected + i, sizeof expected[0]) != 0)
           fail_msg("%s, trial %d, pair %d: %.17g instead of %.17g", kernels_name(set), trial, i, decided[i],
                    expected[i]);
+      for (int32_t i = 0; i < n; i += 8) {
+        const int32_t n_here = n - i < 8 ? n - i : 8;
+        const size_t size = (size_t)n_here * sizeof decided[0];
+        double closest[3 * 8], barycentric[3 * 8];
+        kernels_locate(set, n_here, point + i, triangle + i, points, corners, decided, closest, barycentric);
+        if (memcmp(decided, expected + i, size) != 0 || memcmp(closest, on + 3 * i, 3 * size) != 0 ||
+            memcmp(barycentric, weights + 3 * i, 3 * size) != 0)
+          fail_msg("%s, trial %d, pairs from %d: other closest points", kernels_name(set), trial, i);
+      }
       n_compared += n;
     }
   }
@@ -443,12 +453,77 @@ static void no_pair_that_matters_is_lost(void **state) {
   }
 }
 
+/* --- Without any instruction set ------------------------------------------------------------------------------------- */
+
+/* The code for processors without any of these instruction sets does the baseline's operations. */
+static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
+  (void)state;
+  if (!kernels_there(portable_set) || !kernels_baseline_rounds_twice()) skip();
+  static const int32_t rooms[] = {100000, 64};
+  enum { n_both = 2 };
+  static const int sets[n_both] = {baseline_set, portable_set};
+  int64_t n_pairs_compared = 0, n_near = 0, n_cleared = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    static leaf_case c;
+    static float lower_sq[n_both][32 * max_groups], upper_sq[n_both][32], distance_sq[n_both][16];
+    uint16_t near[n_both][max_groups];
+    kernel_group *groups[n_both][max_groups];
+    int any_near[n_both];
+    make_case(baseline_set, trial, &c);
+    for (int g = 0; g < c.n_groups; ++g) {
+      groups[0][g] = c.groups[g];
+      groups[1][g] = kernels_group(portable_set, c.n[g], c.corners[g]);
+      if (!kernels_groups_equal(groups[0][g], groups[1][g])) fail_msg("trial %d: other groups", trial);
+      float p[3];
+      for (int i = 0; i < 3; ++i) p[i] = (float)random_between(&rng, -1, 1);
+      for (int k = 0; k < n_both; ++k) kernels_group_distances(sets[k], groups[k][g], p, 0.5 * c.error, distance_sq[k]);
+      if (memcmp(distance_sq[0], distance_sq[1], sizeof distance_sq[0]) != 0)
+        fail_msg("trial %d: other distances", trial);
+    }
+    if (c.n_nodes > 0) {
+      kernel_filter filters[n_both] = {c.filter, c.filter};
+      for (int k = 0; k < n_both; ++k) {
+        filters[k].groups = (const kernel_group *const *)groups[k];
+        kernel_filter boxes = filters[k];
+        if (boxes.n_nodes > 16) boxes.n_nodes = 16;
+        any_near[k] = kernels_near_boxes(sets[k], &boxes, near[k]);
+        kernels_first_bounds(sets[k], &filters[k], lower_sq[k], upper_sq[k]);
+      }
+      const size_t n = (size_t)c.n_groups;
+      if (any_near[0] != any_near[1] || memcmp(near[0], near[1], n * sizeof near[0][0]) != 0)
+        fail_msg("trial %d: other near boxes", trial);
+      for (size_t g = 0; g < n; ++g) n_cleared += near[0][g] == 0, n_near += near[0][g] != 0;
+      if (memcmp(lower_sq[0], lower_sq[1], 32 * n * sizeof lower_sq[0][0]) != 0 ||
+          memcmp(upper_sq[0], upper_sq[1], sizeof upper_sq[0]) != 0)
+        fail_msg("trial %d: other bounds", trial);
+      for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; ++i) {
+        kernel_pair *pairs[n_both];
+        int64_t n_pairs[n_both], n_calls[n_both];
+        for (int k = 0; k < n_both; ++k)
+          n_pairs[k] = kernels_filter(sets[k], &filters[k], rooms[i], &pairs[k], &n_calls[k]);
+        assert_true(n_pairs[0] >= 0);
+        if (n_pairs[0] != n_pairs[1] || n_calls[0] != n_calls[1] ||
+            memcmp(pairs[0], pairs[1], (size_t)n_pairs[0] * sizeof *pairs[0]) != 0)
+          fail_msg("trial %d, room %d: other pairs", trial, rooms[i]);
+        n_pairs_compared += n_pairs[0];
+        for (int k = 0; k < n_both; ++k) free(pairs[k]);
+      }
+    }
+    for (int g = 0; g < c.n_groups; ++g) kernels_group_free(groups[1][g]);
+    free_case(&c);
+  }
+  printf("%lld pairs; %lld groups near some boxes, %lld near none\n", (long long)n_pairs_compared, (long long)n_near,
+         (long long)n_cleared);
+  assert_true(n_pairs_compared > 100000 && n_near > 5000 && n_cleared > 100);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
       cmocka_unit_test(single_precision_is_right_to_its_error),
       cmocka_unit_test(first_bounds_and_boxes_lose_nothing),
       cmocka_unit_test(no_pair_that_matters_is_lost),
+      cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
   };
   rng = random_start("test_kernels");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,11 +14,9 @@
 #include <vtkGlyph3D.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -27,7 +25,6 @@
 #include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 
 namespace riis::figures {
 namespace {
@@ -59,14 +56,6 @@ vtkSmartPointer<vtkPoints> vtk_points(const Points &points) {
   return made;
 }
 
-vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
-}
-
 void set_colour(vtkActor *actor, Colour colour) {
   actor->GetMapper()->ScalarVisibilityOff();
   actor->GetProperty()->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
@@ -93,14 +82,12 @@ View looking(Vec3 direction, Vec3 up) {
 }
 
 Picture::Picture(PictureSize size, const View &view, const Points &to_fit, double margin)
-    : size_(size), up_(view.up), direction_(view.direction), renderer_(vtkSmartPointer<vtkRenderer>::New()) {
+    : size_(size), up_(view.up), direction_(view.direction), renderer_(vtk::white_renderer()) {
   right_ = cross(direction_, up_);
   const Range x = range_along(to_fit, right_), y = range_along(to_fit, up_), z = range_along(to_fit, direction_);
   pixel_ = std::max(2 * x.half() / (size.width - 2 * margin), 2 * y.half() / (size.height - title_height - 2 * margin));
   focus_ = x.middle() * right_ + (y.middle() + 0.5 * title_height * pixel_) * up_ + z.middle() * direction_;
   depth_ = std::max({x.half(), y.half(), z.half()});
-  renderer_->SetBackground(1, 1, 1);
-  renderer_->TwoSidedLightingOn();
   // From the eye and from the upper left of it: what is turned away from both is dim, nothing is black.
   const double lamps[2][4] = {{0, 0, 1, 0.62}, {-0.6, 0.8, 1, 0.45}};
   for (const auto &[x_of_eye, y_of_eye, z_of_eye, intensity] : lamps) {
@@ -150,7 +137,7 @@ void Picture::add_tubes(vtkPolyData *data, Colour colour, double width) {
   tubes->SetNumberOfSides(12);
   tubes->CappingOn();
   tubes->Update();
-  const vtkSmartPointer<vtkActor> actor = actor_of(tubes->GetOutput());
+  const vtkSmartPointer<vtkActor> actor = vtk::actor_of(tubes->GetOutput());
   set_colour(actor, colour);
   set_unlit(actor);
   renderer_->AddActor(actor);
@@ -180,16 +167,10 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
     clean->SetAbsoluteTolerance(1e-9);
     clean->ConvertPolysToLinesOff();
     clean->ConvertLinesToPointsOff();
-    vtkNew<vtkPolyDataNormals> normals;
-    normals->SetInputConnection(clean->GetOutputPort());
-    normals->SetFeatureAngle(40);
-    normals->ConsistencyOff();
-    normals->Update();
-    shown = normals->GetOutput();
+    clean->Update();
+    shown = vtk::smoothed(clean->GetOutput());
   }
-  const vtkSmartPointer<vtkActor> actor = actor_of(shown);
-  actor->GetMapper()->SetScalarModeToUseCellData();
-  actor->GetMapper()->SetColorModeToDirectScalars();
+  const vtkSmartPointer<vtkActor> actor = vtk::coloured_actor_of(shown);
   vtkProperty *property = actor->GetProperty();
   if (shading == Shading::flat) property->SetInterpolationToFlat();
   // Some light of its own, so that what faces away from the lamps keeps its colour.
@@ -211,7 +192,7 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
 void Picture::add_segments(const Segments &segments, Colour colour, double width, int rank) {
   std::vector<Points> all;
   for (const auto &segment : segments) all.push_back({segment[0], segment[1]});
-  const vtkSmartPointer<vtkActor> actor = actor_of(lines(all, 1 + rank));
+  const vtkSmartPointer<vtkActor> actor = vtk::actor_of(lines(all, 1 + rank));
   set_colour(actor, colour);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
@@ -248,7 +229,7 @@ void Picture::add_points(const Points &points, Colour colour, double diameter) {
   spheres->SetSourceConnection(sphere->GetOutputPort());
   spheres->ScalingOff();
   spheres->Update();
-  const vtkSmartPointer<vtkActor> actor = actor_of(spheres->GetOutput());
+  const vtkSmartPointer<vtkActor> actor = vtk::actor_of(spheres->GetOutput());
   set_colour(actor, colour);
   actor->GetProperty()->SetAmbient(0.35);
   actor->GetProperty()->SetDiffuse(0.75);
@@ -260,8 +241,7 @@ void Picture::add_text(double x, double y, const std::string &text, Colour colou
   actor->SetInput(text.c_str());
   actor->SetPosition(x, y);
   vtkTextProperty *property = actor->GetTextProperty();
-  property->SetFontFamilyToArial();
-  property->SetFontSize(size);
+  vtk::set_font(property, size);
   property->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   if (is_centred) property->SetJustificationToCentered();
   property->SetVerticalJustificationToCentered();
@@ -309,15 +289,8 @@ Png Picture::png() const {
   window->AddRenderer(renderer_);
   renderer_->ResetCameraClippingRange();
   window->Render();
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->WriteToMemoryOn();
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->Write();
-  vtkUnsignedCharArray *bytes = writer->GetResult();
-  if (!bytes || bytes->GetNumberOfValues() == 0) throw std::runtime_error("a picture could not be encoded");
+  const vtkSmartPointer<vtkUnsignedCharArray> bytes = vtk::encoded_png(window);
+  if (!bytes) throw std::runtime_error("a picture could not be encoded");
   Png png{size_.width, size_.height, {}};
   png.bytes.assign(bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues());
   window->RemoveRenderer(renderer_);

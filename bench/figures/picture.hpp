@@ -11,6 +11,7 @@
 #include <vtkSmartPointer.h>
 
 #include "geometry/vec3.hpp"
+#include "vtk/drawing.hpp"
 
 class vtkPolyData;
 class vtkRenderer;
@@ -21,9 +22,13 @@ struct Colour {
   unsigned char red, green, blue;
 };
 
-// Told apart with any colour vision (Okabe, Ito 2008).
-inline constexpr Colour blue{0, 114, 178}, orange{230, 159, 0}, green{0, 158, 115}, purple{204, 121, 167},
-    vermilion{213, 94, 0}, sky_blue{86, 180, 233}, dark{45, 45, 45}, grey{130, 130, 130}, light_grey{205, 205, 205};
+constexpr Colour distinct(int i) {
+  const auto &rgb = vtk::distinct_colours[i];
+  return {rgb[0], rgb[1], rgb[2]};
+}
+inline constexpr Colour blue = distinct(0), orange = distinct(1), green = distinct(2), purple = distinct(3),
+                        vermilion = distinct(4), sky_blue = distinct(5), dark{45, 45, 45}, grey{130, 130, 130},
+                        light_grey{205, 205, 205};
 
 // The colour and so much of white.
 Colour paler(Colour colour, double white);

@@ -7,6 +7,7 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
@@ -54,7 +55,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
 // The same for a point of the patches. There is no triangle to be told of, nor its sides.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
                    const riis::ClosestOnPatches &found) {
-  const riis::PlacedPatch &patch = method.patches().patches[static_cast<std::size_t>(found.patch)];
+  const riis::PlacedPatch &patch = riis::view(method.patches().patches)[found.patch];
   if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
   if (to.triangle_id) to.triangle_id[i] = -1;
   if (to.leaflet_id) to.leaflet_id[i] = patch.leaflet_id;

@@ -4,6 +4,7 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "marking/leaks.hpp"
 #include "marking/mark_nodes.hpp"
@@ -63,7 +64,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
 
 void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **node_id, const double **distance,
               const std::int64_t **triangle_id, const std::int32_t **leaflet_id) {
-  riis::put(n, static_cast<std::int64_t>(list.size()));
+  riis::put(n, riis::view(list.node_id).size());
   const bool empty = list.size() == 0;
   riis::put(node_id, empty ? nullptr : list.node_id.data());
   riis::put(distance, empty ? nullptr : list.distance.data());
@@ -358,7 +359,7 @@ riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64
   return guarded([&] {
     const riis::LeakingEdges &edges = require_handle(result, "result")->result.leaking;
     const bool empty = edges.length.empty();
-    riis::put(n_edges, static_cast<std::int64_t>(edges.length.size()));
+    riis::put(n_edges, riis::view(edges.length).size());
     riis::put(node_id, empty ? nullptr : edges.node_id.data());
     riis::put(length, empty ? nullptr : edges.length.data());
     riis::put(distance, empty ? nullptr : edges.distance.data());

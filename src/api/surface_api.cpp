@@ -8,6 +8,7 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 #include "pipeline/make_surface.hpp"
@@ -274,7 +275,7 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const auto &[lower, upper] = content.scene().bounds();
     riis::write_struct<info_size>(info, struct_size, "info",
                                   riis_surface_info{static_cast<int64_t>(set.n_vertices()),
-                                                    static_cast<int64_t>(set.n_triangles()),
+                                                    riis::view(set.triangle_id).size(),
                                                     set.n_zero_area,
                                                     content.half_thickness(),
                                                     content.area(),
@@ -313,7 +314,7 @@ riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_trian
                                    const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_triangles, static_cast<int64_t>(set.n_triangles()));
+    riis::put(n_triangles, riis::view(set.triangle_id).size());
     riis::put(vertex_id, set.vertex_id.data());
     riis::put(triangle_id, set.triangle_id.data());
     riis::put(leaflet_id, set.leaflet_id.data());

@@ -2,6 +2,7 @@
 // riis_valve_*: argument checks around valve/.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "valve/user_patches.hpp"
 
@@ -75,7 +76,7 @@ riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_val
 riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
   return guarded([&] {
     require_handle(valve, "valve");
-    *require(n_parameters, "n_parameters") = static_cast<int64_t>(valve->valve.kind().parameters.size());
+    *require(n_parameters, "n_parameters") = riis::view(valve->valve.kind().parameters).size();
   });
 }
 
@@ -84,10 +85,10 @@ riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, 
   return guarded([&] {
     require_handle(valve, "valve");
     const auto &specs = valve->valve.kind().parameters;
-    if (parameter_id < 0 || parameter_id >= static_cast<int64_t>(specs.size()))
+    if (parameter_id < 0 || parameter_id >= riis::view(specs).size())
       riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is ", parameter_id, "; the ", valve->valve.kind().name,
                  " valve has parameters 0 to ", specs.size() - 1);
-    const riis::ParameterSpec &spec = specs[static_cast<std::size_t>(parameter_id)];
+    const riis::ParameterSpec &spec = riis::view(specs)[parameter_id];
     const auto &defaults = spec.default_values;
     riis::write_struct<72>(parameter, struct_size, "parameter",
                            riis_parameter{spec.name.c_str(),

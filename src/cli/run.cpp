@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "cli/conversion.hpp"
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
@@ -296,7 +297,7 @@ void draw_pictures(const Options &options, const riis_valve *valve, const riis_s
     views.push_back(picture.view);
     paths.push_back(picture.path.c_str());
   }
-  const auto n_pictures = static_cast<int64_t>(paths.size());
+  const auto n_pictures = view(paths).size();
   if (n_pictures == 0) return;
   const Stage stage("drawing " + options.pictures[0].path + (n_pictures > 1 ? ", ..." : ""), options.quiet);
   const UnbrokenWrite unbroken;
@@ -304,7 +305,7 @@ void draw_pictures(const Options &options, const riis_valve *valve, const riis_s
   check(riis_vtk_picture_options_init(&how, sizeof how));
   how.title = title.c_str();
   how.leaflet_names = names.data();
-  how.n_leaflet_names = static_cast<int64_t>(names.size());
+  how.n_leaflet_names = view(names).size();
   if (result) show_leaks(result, report.leaks, how);
   check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());

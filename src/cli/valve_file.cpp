@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "cli/json_file.hpp"
 #include "cli/refusal.hpp"
 
@@ -66,7 +67,7 @@ class Reader {
       add_patch(list[i], "patch " + std::to_string(i), curves, used, patches);
     const auto idle = std::find(used.begin(), used.end(), false);
     if (idle != used.end()) {
-      refuse("curve " + quoted(curves.names[static_cast<std::size_t>(idle - used.begin())]) + " is a side of no patch");
+      refuse("curve " + quoted(view(curves.names)[idle - used.begin()]) + " is a side of no patch");
     }
     return patches;
   }
@@ -195,7 +196,7 @@ std::string with_names(std::string text, const Curves &curves, const Patches &pa
     const std::string counted = std::string("side ") + key[0] + " = " + key[1];
     const std::size_t place = text.find(counted), side = 4 * patch + k;
     if (place == std::string::npos) continue;
-    const std::string &name = curves.names[static_cast<std::size_t>(patches.curve_ids[side])];
+    const std::string &name = view(curves.names)[patches.curve_ids[side]];
     text.replace(place, counted.size(), key + " " + quoted((patches.reversed[side] ? "-" : "") + name));
   }
   return text;
@@ -204,10 +205,10 @@ std::string with_names(std::string text, const Curves &curves, const Patches &pa
 Valve make_valve(const Reader &reader, const Curves &curves, const Patches &patches, const std::string &where) {
   riis_patches arrays;
   check(riis_patches_init(&arrays, sizeof arrays));
-  arrays.n_curves = static_cast<int64_t>(curves.degrees.size());
+  arrays.n_curves = view(curves.degrees).size();
   arrays.degree = curves.degrees.data();
   arrays.control = curves.control.data();
-  arrays.n_patches = static_cast<int64_t>(patches.leaflet_ids.size());
+  arrays.n_patches = view(patches.leaflet_ids).size();
   arrays.curve_id = patches.curve_ids.data();
   arrays.reversed = patches.reversed.data();
   arrays.leaflet_id = patches.leaflet_ids.data();

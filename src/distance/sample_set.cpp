@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 
 namespace riis {
@@ -56,7 +57,7 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
 // The tree halves the patches by number, and a patch's samples along the longer side.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
-    const SampleCounts &counts = counts_[static_cast<std::size_t>(begin)];
+    const SampleCounts &counts = view(counts_)[begin];
     return add_samples(begin, {0, 0, static_cast<std::int32_t>(counts.u + 1), static_cast<std::int32_t>(counts.v + 1)});
   }
   const auto node = static_cast<std::int32_t>(nodes_.size());
@@ -89,8 +90,8 @@ std::int32_t SampleSet::add_samples(std::int32_t patch, const Samples &samples) 
 }
 
 void SampleSet::add_leaf(std::int32_t patch, const Samples &samples, Node &node) {
-  const SampleCounts &counts = counts_[static_cast<std::size_t>(patch)];
-  const PlacedPatch &of = patches_.patches[static_cast<std::size_t>(patch)];
+  const SampleCounts &counts = view(counts_)[patch];
+  const PlacedPatch &of = view(patches_.patches)[patch];
   node.leaf = static_cast<std::int32_t>(leaves_.size());
   leaves_.push_back({n_samples(), patch, samples.column, samples.row, samples.n_columns, samples.n_rows});
   for (std::int32_t j = samples.row; j < samples.row + samples.n_rows; ++j)
@@ -103,10 +104,10 @@ void SampleSet::add_leaf(std::int32_t patch, const Samples &samples, Node &node)
 }
 
 void SampleSet::join(std::int32_t node, std::int32_t second) {
-  Node &of = nodes_[static_cast<std::size_t>(node)];
+  Node &of = view(nodes_)[node];
   of.second = second;
-  of.box.add(nodes_[static_cast<std::size_t>(node) + 1].box);
-  of.box.add(nodes_[static_cast<std::size_t>(second)].box);
+  of.box.add(view(nodes_)[node + 1].box);
+  of.box.add(view(nodes_)[second].box);
 }
 
 struct SampleSet::Query {
@@ -118,11 +119,11 @@ struct SampleSet::Query {
 };
 
 void SampleSet::visit(std::int32_t at, Query &query) const {
-  const Node &node = nodes_[static_cast<std::size_t>(at)];
+  const Node &node = view(nodes_)[at];
   if (node.second >= 0) {
     std::int32_t near = at + 1, far = node.second;
-    double to_near = distance_sq_to(nodes_[static_cast<std::size_t>(near)].box, query.p);
-    double to_far = distance_sq_to(nodes_[static_cast<std::size_t>(far)].box, query.p);
+    double to_near = distance_sq_to(view(nodes_)[near].box, query.p);
+    double to_far = distance_sq_to(view(nodes_)[far].box, query.p);
     if (to_far < to_near) {
       std::swap(near, far);
       std::swap(to_near, to_far);
@@ -132,7 +133,7 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
     if (to_far <= query.most) visit(far, query);
     return;
   }
-  const Leaf &leaf = leaves_[static_cast<std::size_t>(node.leaf)];
+  const Leaf &leaf = view(leaves_)[node.leaf];
   const std::int64_t n = std::int64_t{leaf.n_columns} * leaf.n_rows;
   const double *xyz = xyz_.data() + 3 * leaf.first;
   for (std::int64_t k = 0; k < n; ++k) {
@@ -152,8 +153,8 @@ ClosestOnPatches SampleSet::closest(Vec3 p, double limit) const {
   Query query{p, limit * limit * (1 + 1e-15)};
   visit(0, query);
   if (query.sample < 0 || !(std::sqrt(query.distance_sq) <= limit)) return {};
-  const Leaf &leaf = leaves_[static_cast<std::size_t>(query.leaf)];
-  const SampleCounts &counts = counts_[static_cast<std::size_t>(leaf.patch)];
+  const Leaf &leaf = view(leaves_)[query.leaf];
+  const SampleCounts &counts = view(counts_)[leaf.patch];
   const std::int64_t k = query.sample - leaf.first;
   const double *xyz = xyz_.data() + 3 * query.sample;
   return {query.distance_sq,

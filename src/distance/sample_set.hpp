@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "distance/patch_distance.hpp"
 
 namespace riis {
@@ -40,7 +41,7 @@ class SampleSet final : public PatchDistance {
   const char *name() const override { return "sampling"; }
 
   const std::vector<double> &xyz() const { return xyz_; }
-  std::int64_t n_samples() const { return static_cast<std::int64_t>(xyz_.size() / 3); }
+  std::int64_t n_samples() const { return view(xyz_).size() / 3; }
 
  private:
   static constexpr std::int64_t samples_per_leaf = 64;

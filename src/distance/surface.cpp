@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -13,16 +14,17 @@ namespace {
 
 // Sums block by block, so that the area does not depend on which thread summed which block.
 double area_of(const TriangleSet &set, int n_threads) {
-  const auto n = static_cast<std::int64_t>(set.n_triangles());
+  const auto n = view(set.triangle_id).size();
   constexpr std::int64_t triangles_per_block = 4096;
-  std::vector<double> areas(static_cast<std::size_t>((n + triangles_per_block - 1) / triangles_per_block));
+  std::vector<double> areas;
+  resize(areas, (n + triangles_per_block - 1) / triangles_per_block);
   parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &range, int) {
     double area = 0;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       const auto [a, b, c] = set.corners(static_cast<std::size_t>(i));
       area += 0.5 * length(cross(b - a, c - a));
     }
-    areas[static_cast<std::size_t>(range.begin / triangles_per_block)] = area;
+    view(areas)[range.begin / triangles_per_block] = area;
   });
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }

@@ -20,7 +20,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
 struct Speed {
   explicit Speed(const Bezier &curve) {
     const auto &q = curve.control;
-    const auto n = static_cast<double>(curve.degree);
+    const double n = curve.degree;
     constant = n * (q[1] - q[0]);
     linear = (n * (n - 1)) * ((q[2] - q[1]) - (q[1] - q[0]));
     quadratic = curve.degree == 3 ? 3.0 * ((q[3] - q[0]) - 3.0 * (q[2] - q[1])) : Vec3{0, 0, 0};
@@ -120,7 +120,7 @@ Vec3 derivative(const Bezier &curve, double t) {
   std::array<Vec3, 4> q = curve.control;
   for (std::size_t n = degree_of(curve); n > 1; --n)
     for (std::size_t i = 0; i < n; ++i) q[i] = mix(q[i], q[i + 1], t);
-  return static_cast<double>(curve.degree) * (q[1] - q[0]);
+  return curve.degree * (q[1] - q[0]);
 }
 
 double arc_length(const Bezier &curve, double t0, double t1) {

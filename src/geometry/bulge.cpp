@@ -52,7 +52,7 @@ JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const 
 
 struct Derivatives {
   explicit Derivatives(const Bezier &piece) : n(static_cast<std::size_t>(piece.degree)) {
-    const auto degree = static_cast<double>(piece.degree);
+    const double degree = piece.degree;
     for (std::size_t i = 0; i < n; ++i) first[i] = degree * (piece.control[i + 1] - piece.control[i]);
     for (std::size_t i = 0; i + 1 < n; ++i) second[i] = (degree - 1) * (first[i + 1] - first[i]);
     third = n == 3 ? second[1] - second[0] : Vec3{0, 0, 0};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/array_view.hpp"
 #include "geometry/bounds.hpp"
 
 namespace riis {
@@ -18,9 +19,9 @@ struct Exact {
   int n = 0;
 
   void append(double x) {
-    if (x != 0) part[static_cast<std::size_t>(n++)] = x;
+    if (x != 0) view(part)[n++] = x;
   }
-  int sign() const { return n == 0 ? 0 : part[static_cast<std::size_t>(n - 1)] > 0 ? 1 : -1; }
+  int sign() const { return n == 0 ? 0 : view(part)[n - 1] > 0 ? 1 : -1; }
 };
 
 struct TwoDoubles {
@@ -60,11 +61,11 @@ Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
   std::copy_n(a.part.begin(), a.n, sum.part.begin());
   sum.n = a.n;
   for (int i = 0; i < b.n; ++i) {
-    double carry = b.part[static_cast<std::size_t>(i)];
+    double carry = view(b.part)[i];
     const int n_before = sum.n;
     sum.n = 0;
     for (int k = 0; k < n_before; ++k) {
-      const auto [high, low] = two_sum(carry, sum.part[static_cast<std::size_t>(k)]);
+      const auto [high, low] = two_sum(carry, view(sum.part)[k]);
       sum.append(low);
       carry = high;
     }
@@ -75,7 +76,7 @@ Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
 
 template <int n>
 Exact<n> operator-(Exact<n> a) {
-  for (int i = 0; i < a.n; ++i) a.part[static_cast<std::size_t>(i)] = -a.part[static_cast<std::size_t>(i)];
+  for (int i = 0; i < a.n; ++i) view(a.part)[i] = -view(a.part)[i];
   return a;
 }
 template <int n, int m>
@@ -88,7 +89,7 @@ Exact<2 * n> scaled(const Exact<n> &a, double factor) {
   Exact<2 * n> made;
   double carry = 0;
   for (int i = 0; i < a.n; ++i) {
-    const auto [high, low] = two_product(a.part[static_cast<std::size_t>(i)], factor);
+    const auto [high, low] = two_product(view(a.part)[i], factor);
     const auto [sum, rest] = two_sum(carry, low);
     made.append(rest);
     const auto [next, small] = two_sum(high, sum);

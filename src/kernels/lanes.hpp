@@ -5,7 +5,9 @@
 // functions with code of their own.
 #pragma once
 
-#if defined(__x86_64__)
+// RIIS_PORTABLE_LANES asks for the code of processors without any of these instruction sets. Tests run it where there are some.
+#if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
+#define RIIS_SSE2
 #include <immintrin.h>
 #endif
 #include <stdint.h>
@@ -44,7 +46,7 @@ RIIS_INLINE FloatRegister least(FloatRegister a, FloatRegister b) {
   return (FloatRegister)_mm512_min_ps((__m512)a, (__m512)b);
 #elif defined(__AVX2__)
   return (FloatRegister)_mm256_min_ps((__m256)a, (__m256)b);
-#elif defined(__SSE2__)
+#elif defined(RIIS_SSE2)
   return (FloatRegister)_mm_min_ps((__m128)a, (__m128)b);
 #else
   return a < b ? a : b;
@@ -56,7 +58,7 @@ RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
   return (FloatRegister)_mm512_max_ps((__m512)a, (__m512)b);
 #elif defined(__AVX2__)
   return (FloatRegister)_mm256_max_ps((__m256)a, (__m256)b);
-#elif defined(__SSE2__)
+#elif defined(RIIS_SSE2)
   return (FloatRegister)_mm_max_ps((__m128)a, (__m128)b);
 #else
   return a > b ? a : b;
@@ -168,7 +170,7 @@ RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #elif defined(__AVX2__)
   return static_cast<uint32_t>(_mm256_movemask_ps((__m256)mask.part[0])) |
          static_cast<uint32_t>(_mm256_movemask_ps((__m256)mask.part[1])) << 8;
-#elif defined(__SSE2__)
+#elif defined(RIIS_SSE2)
   uint32_t r = 0;
   for (int i = 0; i < 4; ++i) r |= static_cast<uint32_t>(_mm_movemask_ps((__m128)mask.part[i])) << 4 * i;
   return r;
@@ -221,7 +223,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
 
 // Finds the least lane of each of four.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
-#if defined(__SSE2__)
+#if defined(RIIS_SSE2)
   __m128 m[4];
   for (int i = 0; i < 4; ++i) {
 #if defined(__AVX512F__)

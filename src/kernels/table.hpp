@@ -4,7 +4,8 @@
 
 #include "kernels/kernels.hpp"
 
-// RIIS_INSTRUCTION_SET names the instruction set that this is being compiled for: baseline, avx2 or avx512.
+// RIIS_INSTRUCTION_SET names the instruction set that this is being compiled for: baseline, avx2 or avx512; or portable,
+// the code for processors without any of them, which only tests link.
 #define RIIS_JOIN(a, b) a##_##b
 #define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
 #define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)
@@ -13,7 +14,8 @@
 
 namespace riis {
 
-extern const FilterKernels filter_kernels_baseline, filter_kernels_avx2, filter_kernels_avx512;
-extern const DecisionKernels decision_kernels_baseline, decision_kernels_avx2, decision_kernels_avx512;
+extern const FilterKernels filter_kernels_baseline, filter_kernels_avx2, filter_kernels_avx512, filter_kernels_portable;
+extern const DecisionKernels decision_kernels_baseline, decision_kernels_avx2, decision_kernels_avx512,
+    decision_kernels_portable;
 
 }  // namespace riis

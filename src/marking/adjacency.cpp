@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -26,7 +27,7 @@ constexpr std::int64_t rows_per_block = 4096;
 template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;
-  made.offsets.resize(static_cast<std::size_t>(n_nodes) + 1);
+  resize(made.offsets, n_nodes + 1);
   const auto neighbors_of = [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
     neighbors.clear();
     append(i, neighbors);
@@ -37,26 +38,25 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
     std::vector<std::int64_t> neighbors;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       neighbors_of(i, neighbors);
-      made.offsets[static_cast<std::size_t>(i) + 1] = static_cast<std::int64_t>(neighbors.size());
+      view(made.offsets)[i + 1] = view(neighbors).size();
     }
   });
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n_nodes); ++i) made.offsets[i + 1] += made.offsets[i];
-  const auto n_columns = static_cast<std::size_t>(made.offsets.back());
+  for (std::int64_t i = 0; i < n_nodes; ++i) view(made.offsets)[i + 1] += view(made.offsets)[i];
   const bool small = n_nodes <= std::numeric_limits<std::int32_t>::max();
   if (small)
-    made.columns_32.resize(n_columns);
+    resize(made.columns_32, made.offsets.back());
   else
-    made.columns_64.resize(n_columns);
+    resize(made.columns_64, made.offsets.back());
   parallel_for_ranges(n_nodes, rows_per_block, n_threads, [&](const Range &range, int) {
     std::vector<std::int64_t> neighbors;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       neighbors_of(i, neighbors);
-      auto at = static_cast<std::size_t>(made.offsets[static_cast<std::size_t>(i)]);
+      std::int64_t at = view(made.offsets)[i];
       for (const std::int64_t j : neighbors) {
         if (small)
-          made.columns_32[at++] = static_cast<std::int32_t>(j);
+          view(made.columns_32)[at++] = static_cast<std::int32_t>(j);
         else
-          made.columns_64[at++] = j;
+          view(made.columns_64)[at++] = j;
       }
     }
   });
@@ -76,9 +76,7 @@ ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_th
   for (std::size_t i = 0; i <= n; ++i) next[i].store(0, std::memory_order_relaxed);
   parallel_for_ranges(n_items, rows_per_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t item = range.begin; item < range.end; ++item) {
-      nodes_of(item, [&](std::int64_t node) {
-        next[static_cast<std::size_t>(node)].fetch_add(1, std::memory_order_relaxed);
-      });
+      nodes_of(item, [&](std::int64_t node) { next.get()[node].fetch_add(1, std::memory_order_relaxed); });
     }
   });
   ItemsOfNodes made;
@@ -87,12 +85,12 @@ ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_th
     made.offsets[i + 1] = made.offsets[i] + next[i].load(std::memory_order_relaxed);
     next[i].store(made.offsets[i], std::memory_order_relaxed);
   }
-  made.items.resize(static_cast<std::size_t>(made.offsets[n]));
+  resize(made.items, made.offsets[n]);
   parallel_for_ranges(n_items, rows_per_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t item = range.begin; item < range.end; ++item) {
       nodes_of(item, [&](std::int64_t node) {
-        const std::int64_t at = next[static_cast<std::size_t>(node)].fetch_add(1, std::memory_order_relaxed);
-        made.items[static_cast<std::size_t>(at)] = item;
+        const std::int64_t at = next.get()[node].fetch_add(1, std::memory_order_relaxed);
+        view(made.items)[at] = item;
       });
     }
   });
@@ -218,7 +216,7 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
 }
 
 riis_csr OwnAdjacency::csr() const {
-  const auto n = static_cast<std::int64_t>(offsets.size()) - 1;
+  const auto n = view(offsets).size() - 1;
   const bool small = columns_64.empty();
   return {sizeof(riis_csr),
           n,
@@ -238,12 +236,11 @@ OwnAdjacency adjacency_from_cells(const riis_cells &given, int n_threads) {
         for (std::int64_t k = 0; k < cells.size(cell); ++k) visit(cells.node(cell, k));
       });
   return rows_of(given.n_nodes, n_threads, [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
-    const auto row = static_cast<std::size_t>(i);
-    for (std::int64_t k = cells_of.offsets[row]; k < cells_of.offsets[row + 1]; ++k) {
-      const std::int64_t cell = cells_of.items[static_cast<std::size_t>(k)];
+    for (std::int64_t k = view(cells_of.offsets)[i]; k < view(cells_of.offsets)[i + 1]; ++k) {
+      const std::int64_t cell = view(cells_of.items)[k];
       const CellShape &shape = *shape_of(cells.size(cell));
       for (int e = 0; e < shape.n_edges; ++e) {
-        const auto &edge = shape.edges[static_cast<std::size_t>(e)];
+        const auto &edge = view(shape.edges)[e];
         const std::int64_t a = cells.node(cell, edge[0]), b = cells.node(cell, edge[1]);
         if (a == i && b != i) neighbors.push_back(b);
         if (b == i && a != i) neighbors.push_back(a);
@@ -288,9 +285,8 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
         visit(end_of(neighbor, face));
       });
   return rows_of(faces.n_cells, n_threads, [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
-    const auto row = static_cast<std::size_t>(i);
-    for (std::int64_t k = faces_of.offsets[row]; k < faces_of.offsets[row + 1]; ++k) {
-      const std::int64_t face = faces_of.items[static_cast<std::size_t>(k)];
+    for (std::int64_t k = view(faces_of.offsets)[i]; k < view(faces_of.offsets)[i + 1]; ++k) {
+      const std::int64_t face = view(faces_of.items)[k];
       const std::int64_t a = end_of(owner, face), b = end_of(neighbor, face);
       if (a != b) neighbors.push_back(a == i ? b : a);
     }

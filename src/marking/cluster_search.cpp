@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -59,11 +60,11 @@ class ClusterSearch {
     const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
     const float surface_lower[3] = {round_down(lower.x), round_down(lower.y), round_down(lower.z)};
     const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
-    const auto n_regions = static_cast<std::int64_t>(clusters_.regions.size());
+    const auto n_regions = view(clusters_.regions).size();
     const int n_ran = parallel_for_ranges(n_regions, 1, request_.n_threads, [&](const Range &range, int thread) {
-      ClusterScratch::Thread &own = own_.threads[static_cast<std::size_t>(thread)];
+      ClusterScratch::Thread &own = view(own_.threads)[thread];
       for (std::int64_t region = range.begin; region < range.end; ++region) {
-        const Clusters::Box &box = clusters_.boxes[static_cast<std::size_t>(region)];
+        const Clusters::Box &box = view(clusters_.boxes)[region];
         float centre[3], sum = 0, gap_sq = 0;
         for (int i = 0; i < 3; ++i) {
           const float from = box.lower[i] * task_.ratio + task_.shift[i],
@@ -79,7 +80,7 @@ class ClusterSearch {
         scene_.collect_groups(centre, 0.5f * std::sqrt(sum) + reach_, own.candidates);
         if (own.candidates.empty()) continue;
         own.bits.resize(own.candidates.size());
-        if (!kernels_.near_boxes(task_, clusters_.regions[static_cast<std::size_t>(region)], own.candidates.data(),
+        if (!kernels_.near_boxes(task_, view(clusters_.regions)[region], own.candidates.data(),
                                  static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
           continue;
         const Range of_region = clusters_.clusters_of(region);
@@ -98,11 +99,9 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    const int n_ran =
-        parallel_for(static_cast<std::int64_t>(items.size()), request_.n_threads, [&](std::int64_t i, int thread) {
-          search_cluster(items[static_cast<std::size_t>(i)], own_.threads[static_cast<std::size_t>(thread)],
-                         found_.by_thread[static_cast<std::size_t>(thread)]);
-        });
+    const int n_ran = parallel_for(view(items).size(), request_.n_threads, [&](std::int64_t i, int thread) {
+      search_cluster(view(items)[i], view(own_.threads)[thread], view(found_.by_thread)[thread]);
+    });
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
@@ -135,9 +134,8 @@ class ClusterSearch {
         add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
     if (n == 0) return;
     own.leaf_bits.resize(first + n);
-    if (kernels_.near_boxes(task_, clusters_.clusters[static_cast<std::size_t>(cluster)],
-                            own.near_groups.data() + first, static_cast<std::int32_t>(n),
-                            own.leaf_bits.data() + first)) {
+    if (kernels_.near_boxes(task_, view(clusters_.clusters)[cluster], own.near_groups.data() + first,
+                            static_cast<std::int32_t>(n), own.leaf_bits.data() + first)) {
       own.items.push_back({cluster, first, n, 0});
     } else {
       own.near_groups.resize(first);
@@ -153,7 +151,7 @@ class ClusterSearch {
   };
 
   void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, std::vector<FoundNode> &found) {
-    const ClusterScratch::Thread &from = own_.threads[static_cast<std::size_t>(item.thread)];
+    const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
@@ -174,10 +172,10 @@ class ClusterSearch {
       const std::int64_t i = leaf - leaves.begin;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
-        const ClosestTriangle &closest = own.closest[static_cast<std::size_t>(nodes_per_leaf * i + lane)];
+        const ClosestTriangle &closest = view(own.closest)[nodes_per_leaf * i + lane];
         const double distance = std::sqrt(closest.distance_sq);
         if (distance <= request_.distance_limit)
-          found.emplace_back(clusters_.leaves[static_cast<std::size_t>(leaf)].node[lane], distance, closest.triangle);
+          found.emplace_back(clusters_.leaves.get()[leaf].node[lane], distance, closest.triangle);
       }
     }
   }
@@ -187,12 +185,12 @@ class ClusterSearch {
       constexpr std::size_t line = 64;
       for (std::size_t at = 0; at < sizeof of; at += line) __builtin_prefetch(reinterpret_cast<const char *>(&of) + at);
     };
-    bytes(clusters_.leaves[static_cast<std::size_t>(leaf)]);
-    bytes(clusters_.points[static_cast<std::size_t>(leaf)]);
+    bytes(clusters_.leaves.get()[leaf]);
+    bytes(clusters_.points.get()[leaf]);
   }
 
   void filter_leaf(std::int64_t number, ClusterScratch::Thread &own, Pairs &pairs) {
-    const Leaf &leaf = clusters_.leaves[static_cast<std::size_t>(number)];
+    const Leaf &leaf = clusters_.leaves.get()[number];
     const int n_nodes = clusters_.n_nodes_of(number);
     LeafTask task;
     task.leaf = &leaf;
@@ -217,10 +215,9 @@ class ClusterSearch {
 
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {
     kernels_.decide(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(),
-                    clusters_.points[static_cast<std::size_t>(pairs.first_leaf)].xyz, groups_.corners.data(),
-                    own.pair_decided.data());
+                    clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(), own.pair_decided.data());
     for (std::size_t i = 0; i < static_cast<std::size_t>(pairs.n); ++i) {
-      ClosestTriangle &best = own.closest[static_cast<std::size_t>(own.pair_nodes[i])];
+      ClosestTriangle &best = view(own.closest)[own.pair_nodes[i]];
       if (is_closer(own.pair_decided[i], own.pair_triangles[i], best))
         best = {own.pair_decided[i], own.pair_triangles[i]};
     }
@@ -244,8 +241,7 @@ class ClusterSearch {
 }  // namespace
 
 void ClusterScratch::prepare(int n_threads) {
-  const auto n = static_cast<std::size_t>(n_threads);
-  if (threads.size() < n) threads.resize(n);
+  if (view(threads).size() < n_threads) resize(threads, n_threads);
   // As for FoundNodes: shares between threads differ from step to step.
   const auto make_room = [this](auto member) {
     std::size_t largest = 0;
@@ -269,7 +265,7 @@ void ClusterScratch::prepare(int n_threads) {
     thread.pair_nodes.resize(room);
     thread.pair_triangles.resize(room);
     thread.pair_decided.resize(room);
-    thread.closest.resize(static_cast<std::size_t>(nodes_per_cluster));
+    resize(thread.closest, nodes_per_cluster);
     thread.n_queries = 0;
   }
 }

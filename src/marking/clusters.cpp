@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -44,7 +45,7 @@ template <class NodeOf>
 void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NodeOf &node_of) {
   const std::int64_t n_nodes = nodes.n;
   const std::int64_t n_leaves = n_of(n_nodes, nodes_per_leaf);
-  const auto n_clusters = static_cast<std::size_t>(n_of(n_nodes, nodes_per_cluster));
+  const std::int64_t n_clusters = n_of(n_nodes, nodes_per_cluster);
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
     // Not filled with zeros: whoever writes a page first should be who has it.
@@ -52,22 +53,21 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
     clusters.points.reset(new LeafPoints[static_cast<std::size_t>(n_leaves)]);
     clusters.n_leaves = n_leaves;
   }
-  clusters.clusters.resize(n_clusters);
-  clusters.regions.resize(
-      static_cast<std::size_t>(n_of(static_cast<std::int64_t>(n_clusters), Clusters::clusters_per_region)));
+  resize(clusters.clusters, n_clusters);
+  resize(clusters.regions, n_of(n_clusters, Clusters::clusters_per_region));
   clusters.boxes.resize(clusters.regions.size());
   clusters.n_nodes = n_nodes;
-  parallel_for(static_cast<std::int64_t>(clusters.regions.size()), n_threads, [&](std::int64_t r, int) {
-    Boxes &region = clusters.regions[static_cast<std::size_t>(r)];
+  parallel_for(view(clusters.regions).size(), n_threads, [&](std::int64_t r, int) {
+    Boxes &region = view(clusters.regions)[r];
     region = no_boxes();
     const Range of_region = clusters.clusters_of(r);
     for (std::int64_t c = of_region.begin; c < of_region.end; ++c) {
-      Boxes &cluster = clusters.clusters[static_cast<std::size_t>(c)];
+      Boxes &cluster = view(clusters.clusters)[c];
       cluster = no_boxes();
       const Range of_cluster = clusters.leaves_of(c);
       for (std::int64_t l = of_cluster.begin; l < of_cluster.end; ++l) {
-        Leaf &leaf = clusters.leaves[static_cast<std::size_t>(l)];
-        double *xyz = clusters.points[static_cast<std::size_t>(l)].xyz;
+        Leaf &leaf = clusters.leaves.get()[l];
+        double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
         NodeBox box;
         for (int i = 0; i < nodes_per_leaf; ++i) {
@@ -85,7 +85,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
       put_box(box_of(cluster), region, c - of_region.begin);
     }
     const NodeBox box = box_of(region);
-    Clusters::Box &whole = clusters.boxes[static_cast<std::size_t>(r)];
+    Clusters::Box &whole = view(clusters.boxes)[r];
     std::copy(box.lower, box.lower + 3, whole.lower);
     std::copy(box.upper, box.upper + 3, whole.upper);
   });
@@ -100,7 +100,7 @@ Range Clusters::leaves_of(std::int64_t cluster) const {
 
 Range Clusters::clusters_of(std::int64_t region) const {
   const std::int64_t begin = region * clusters_per_region;
-  return {begin, std::min(begin + clusters_per_region, static_cast<std::int64_t>(clusters.size()))};
+  return {begin, std::min(begin + clusters_per_region, view(clusters).size())};
 }
 
 int Clusters::n_nodes_of(std::int64_t leaf) const {
@@ -111,7 +111,7 @@ void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clu
   clusters.frame = frame_of(nodes, n_threads, clusters.blocks);
   NodeSorter<std::uint32_t> sorter(items_of<std::uint32_t>(nodes, clusters.frame, n_threads), n_threads);
   const std::vector<NodeItem<std::uint32_t>> &sorted = sorter.sort();
-  fill(nodes, clusters, n_threads, [&](std::int64_t i) { return sorted[static_cast<std::size_t>(i)].node; });
+  fill(nodes, clusters, n_threads, [&](std::int64_t i) { return view(sorted)[i].node; });
 }
 
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "marking/edges.hpp"
 
+#include "base/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -27,10 +28,10 @@ EdgeBlocks edge_blocks(const StridedPoints &nodes, const Adjacency &adjacency, i
   constexpr std::int64_t blocks_per_task = 64;
   EdgeBlocks made;
   const std::int64_t n_blocks = (nodes.n + EdgeBlocks::rows_per_block - 1) / EdgeBlocks::rows_per_block;
-  made.blocks.resize(static_cast<std::size_t>(n_blocks));
+  resize(made.blocks, n_blocks);
   parallel_for_ranges(n_blocks, blocks_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i)
-      made.blocks[static_cast<std::size_t>(i)] = block_of(nodes, adjacency, i * EdgeBlocks::rows_per_block);
+      view(made.blocks)[i] = block_of(nodes, adjacency, i * EdgeBlocks::rows_per_block);
   });
   for (const EdgeBlocks::Block &block : made.blocks) made.longest = std::max(made.longest, block.longest);
   return made;

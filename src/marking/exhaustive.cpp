@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/array_view.hpp"
 #include "marking/search.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ SearchReport query_every_node(const SearchRequest &request, const Distances &dis
 
   const int n_ran =
       parallel_for_ranges(nodes.n, nodes_per_block, request.n_threads, [&](const Range &range, int thread) {
-        auto &own = found.by_thread[static_cast<std::size_t>(thread)];
+        auto &own = view(found.by_thread)[thread];
         std::int64_t n_queries_here = 0;
         for (std::int64_t i = range.begin; i < range.end; ++i) {
           if (request.is_masked_out(i)) continue;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -35,8 +36,7 @@ struct FoundNodes {
 
   // Empties the lists. Shares between threads differ from step to step, so each list gets room for twice the longest one.
   void prepare(int n_threads) {
-    const auto n = static_cast<std::size_t>(n_threads);
-    if (by_thread.size() < n) by_thread.resize(n);
+    if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     std::size_t largest = 0;
     for (const auto &found : by_thread) largest = std::max({largest, 2 * found.size(), found.capacity()});
     for (auto &found : by_thread) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "base/array_view.hpp"
 #include "geometry/crossing.hpp"
 #include "marking/distances.hpp"
 #include "parallel/parallel_for.hpp"
@@ -91,17 +92,17 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const MarkResult &
   const double too_short = length_that_cannot_leak(request.surface, result);
   const EdgeBlocks &edges = request.mesh.edges(request.n_threads);
   if (edges.longest <= too_short) return found;
-  std::vector<Finder> finders(static_cast<std::size_t>(request.n_threads));
+  std::vector<Finder> finders;
+  resize(finders, request.n_threads);
   for (Finder &finder : finders) {
     finder.request = &request;
     finder.marked = &result.marked_nodes().node_id;
     finder.too_short = too_short;
   }
-  const auto n_blocks = static_cast<std::int64_t>(edges.blocks.size());
+  const auto n_blocks = view(edges.blocks).size();
   const auto search = [&](const Range &range, int thread) {
     for (std::int64_t k = range.begin; k < range.end; ++k)
-      finders[static_cast<std::size_t>(thread)].search_block(edges.blocks[static_cast<std::size_t>(k)],
-                                                             k * EdgeBlocks::rows_per_block);
+      view(finders)[thread].search_block(view(edges.blocks)[k], k * EdgeBlocks::rows_per_block);
   };
   parallel_for_ranges(n_blocks, blocks_per_task, request.n_threads, search);
   for (const Finder &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());
@@ -126,28 +127,27 @@ LeakingEdges listed(const SearchRequest &request, const std::vector<Edge> &edges
   list.node_id.resize(2 * edges.size());
   list.length.resize(edges.size());
   list.distance.resize(edges.size());
-  parallel_for_ranges(
-      static_cast<std::int64_t>(edges.size()), edges_per_task, request.n_threads, [&](const Range &range, int) {
-        for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
-          list.node_id[2 * i] = edges[i].a;
-          list.node_id[2 * i + 1] = edges[i].b;
-          list.length[i] = edges[i].length;
-          list.distance[i] = closing_distance(request, edges[i]);
-        }
-      });
+  parallel_for_ranges(view(edges).size(), edges_per_task, request.n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const Edge &edge = view(edges)[i];
+      view(list.node_id)[2 * i] = edge.a;
+      view(list.node_id)[2 * i + 1] = edge.b;
+      view(list.length)[i] = edge.length;
+      view(list.distance)[i] = closing_distance(request, edge);
+    }
+  });
   return list;
 }
 
 riis_leaks summary_of(const StridedPoints &nodes, const LeakingEdges &list) {
-  riis_leaks leaks{static_cast<std::int64_t>(list.length.size()), {-1, -1}, 0, {0, 0, 0}, 0, 0};
+  riis_leaks leaks{view(list.length).size(), {-1, -1}, 0, {0, 0, 0}, 0, 0};
   if (list.length.empty()) return leaks;
-  const auto longest =
-      static_cast<std::size_t>(std::max_element(list.length.begin(), list.length.end()) - list.length.begin());
-  const std::int64_t a = list.node_id[2 * longest], b = list.node_id[2 * longest + 1];
+  const std::int64_t longest = std::max_element(list.length.begin(), list.length.end()) - list.length.begin();
+  const std::int64_t a = view(list.node_id)[2 * longest], b = view(list.node_id)[2 * longest + 1];
   const Vec3 middle = mix(nodes[a], nodes[b], 0.5);
   leaks.longest_node_id[0] = a;
   leaks.longest_node_id[1] = b;
-  leaks.longest_length = list.length[longest];
+  leaks.longest_length = view(list.length)[longest];
   leaks.longest_middle[0] = middle.x;
   leaks.longest_middle[1] = middle.y;
   leaks.longest_middle[2] = middle.z;

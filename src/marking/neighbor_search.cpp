@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "marking/distances.hpp"
 #include "parallel/concurrent_walk.hpp"
@@ -33,8 +34,7 @@ class NeighborSearch {
 
   // Nodes to begin with; each is asked once, however often it is named.
   void begin_at(std::int64_t node) {
-    if (!request_.is_masked_out(node) && walked_.claim(node))
-      walked_.queue[static_cast<std::size_t>(n_queued_++)] = node;
+    if (!request_.is_masked_out(node) && walked_.claim(node)) view(walked_.queue)[n_queued_++] = node;
   }
 
   // Asks the nodes to begin with, and from each that is within the limit its neighbours.
@@ -44,10 +44,10 @@ class NeighborSearch {
     for (std::int64_t i = 0; i < n_queued_; i += nodes_per_range)
       ranges.push_back({i, std::min(i + nodes_per_range, n_queued_.load())});
     const int n_ran = concurrent_walk(ranges, request_.n_threads, [&](const Range &range, const auto &add, int thread) {
-      std::vector<std::int64_t> &next = walked_.threads[static_cast<std::size_t>(thread)].next;
+      std::vector<std::int64_t> &next = view(walked_.threads)[thread].next;
       next.clear();
       const auto hand_on = [&] {
-        const auto n = static_cast<std::int64_t>(next.size());
+        const auto n = view(next).size();
         if (n == 0) return;
         const std::int64_t begin = n_queued_.fetch_add(n, std::memory_order_relaxed);
         std::copy(next.begin(), next.end(), walked_.queue.begin() + begin);
@@ -55,12 +55,12 @@ class NeighborSearch {
         add(Range{begin, begin + n});
       };
       for (std::int64_t k = range.begin; k < range.end; ++k) {
-        const std::int64_t node = walked_.queue[static_cast<std::size_t>(k)];
+        const std::int64_t node = view(walked_.queue)[k];
         if (!ask(node, thread)) continue;
         adjacency_.for_each_neighbor(node, [&](std::int64_t j) {
           if (request_.is_masked_out(j) || !walked_.claim(j)) return;
           next.push_back(j);
-          if (static_cast<std::int64_t>(next.size()) == nodes_per_range) hand_on();
+          if (view(next).size() == nodes_per_range) hand_on();
         });
       }
       hand_on();
@@ -72,9 +72,9 @@ class NeighborSearch {
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
-    const auto n = static_cast<std::int64_t>(balls.large_balls.size());
+    const auto n = view(balls.large_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
-      NeighborScratch::Thread &own = walked_.threads[static_cast<std::size_t>(thread)];
+      NeighborScratch::Thread &own = view(walked_.threads)[thread];
       const auto is_near = [&](const Ball &ball, double &distance) {
         const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
         if (!distances_.may_be_within(ball.centre, within)) return false;
@@ -84,11 +84,10 @@ class NeighborSearch {
       };
       for (std::int64_t s = block.begin; s < block.end; ++s) {
         double distance;
-        if (!is_near(balls.large_balls[static_cast<std::size_t>(s)], distance)) continue;
+        if (!is_near(view(balls.large_balls)[s], distance)) continue;
         const Range range = balls.balls_of(s);
         for (std::int64_t ball = range.begin; ball < range.end; ++ball)
-          if (is_near(balls.balls[static_cast<std::size_t>(ball)], distance))
-            own.near_balls.push_back({ball, distance});
+          if (is_near(view(balls.balls)[ball], distance)) own.near_balls.push_back({ball, distance});
       }
     });
     n_threads_ = std::max(n_threads_, n_ran);
@@ -102,7 +101,7 @@ class NeighborSearch {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
       for (std::int64_t k = range.begin; k < range.end; ++k) {
-        const std::int64_t node = balls.order[static_cast<std::size_t>(k)];
+        const std::int64_t node = view(balls.order)[k];
         if (request_.is_masked_out(node) || is_far(balls, near, node)) continue;
         begin_at(node);
         break;
@@ -112,21 +111,20 @@ class NeighborSearch {
 
   // Proves that every node that was not walked to is far, by its ball's centre, or queries it.
   void prove(const NodeBalls &balls) {
-    const auto n = static_cast<std::int64_t>(walked_.near_balls.size());
+    const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
-      const std::size_t n_before = found_.by_thread[static_cast<std::size_t>(thread)].size();
+      const std::vector<FoundNode> &found = view(found_.by_thread)[thread];
+      const std::int64_t n_before = view(found).size();
       for (std::int64_t g = block.begin; g < block.end; ++g) {
-        const NearBall &near = walked_.near_balls[static_cast<std::size_t>(g)];
+        const NearBall &near = view(walked_.near_balls)[g];
         const Range range = balls.nodes_of(near.ball);
         for (std::int64_t k = range.begin; k < range.end; ++k) {
-          const std::int64_t node = balls.order[static_cast<std::size_t>(k)];
+          const std::int64_t node = view(balls.order)[k];
           if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(balls, near, node)) continue;
           ask(node, thread);
         }
       }
-      n_unreached_.fetch_add(
-          static_cast<std::int64_t>(found_.by_thread[static_cast<std::size_t>(thread)].size() - n_before),
-          std::memory_order_relaxed);
+      n_unreached_.fetch_add(view(found).size() - n_before, std::memory_order_relaxed);
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -142,17 +140,16 @@ class NeighborSearch {
   bool ask(std::int64_t node, int thread) {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!distances_.may_be_within(p, limit_)) return false;
-    ++walked_.threads[static_cast<std::size_t>(thread)].n_queries;
+    ++view(walked_.threads)[thread].n_queries;
     const ClosestTriangle closest = distances_.closest(p, limit_);
     if (closest.triangle < 0) return false;
-    found_.by_thread[static_cast<std::size_t>(thread)].push_back(
-        {node, std::sqrt(closest.distance_sq), closest.triangle});
+    view(found_.by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
     return true;
   }
 
   // Farther from the surface than the limit, whatever direction it is in: the centre's distance less its own from the centre.
   bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
-    const Vec3 centre = balls.balls[static_cast<std::size_t>(near.ball)].centre;
+    const Vec3 centre = view(balls.balls)[near.ball].centre;
     const double from_centre = distance(centre, nodes_[node]);
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
@@ -178,7 +175,7 @@ class NeighborSearch {
 }  // namespace
 
 void NeighborScratch::prepare(std::int64_t n_nodes, int n_threads) {
-  const auto n = static_cast<std::size_t>(n_nodes), n_slots = static_cast<std::size_t>(n_threads);
+  const auto n = static_cast<std::size_t>(n_nodes);
   if (n_nodes != n_marks_ || walk_ == 255) {
     if (n_nodes != n_marks_) marks_ = std::make_unique<std::atomic<std::uint8_t>[]>(n);
     n_marks_ = n_nodes;
@@ -187,12 +184,12 @@ void NeighborScratch::prepare(std::int64_t n_nodes, int n_threads) {
   }
   ++walk_;
   queue.resize(n);
-  if (threads.size() < n_slots) threads.resize(n_slots);
+  if (view(threads).size() < n_threads) resize(threads, n_threads);
   std::size_t largest = 0;
   for (const Thread &thread : threads) largest = std::max(largest, thread.near_balls.capacity());
   for (Thread &thread : threads) {
     thread.clear();
-    thread.next.reserve(static_cast<std::size_t>(nodes_per_range));
+    thread.next.reserve(nodes_per_range);
     thread.near_balls.reserve(largest);
   }
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "marking/found_nodes.hpp"
 #include "marking/search.hpp"
 #include "parallel/range.hpp"
@@ -44,12 +45,10 @@ class NeighborScratch {
   void prepare(std::int64_t n_nodes, int n_threads);
   // True for the first thread that claims the node.
   bool claim(std::int64_t node) {
-    std::atomic<std::uint8_t> &mark = marks_[static_cast<std::size_t>(node)];
+    std::atomic<std::uint8_t> &mark = marks_.get()[node];
     return mark.load(std::memory_order_relaxed) != walk_ && mark.exchange(walk_, std::memory_order_relaxed) != walk_;
   }
-  bool is_claimed(std::int64_t node) const {
-    return marks_[static_cast<std::size_t>(node)].load(std::memory_order_relaxed) == walk_;
-  }
+  bool is_claimed(std::int64_t node) const { return marks_.get()[node].load(std::memory_order_relaxed) == walk_; }
 
  private:
   std::unique_ptr<std::atomic<std::uint8_t>[]> marks_;  // the number of the walk that claimed the node

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/array_view.hpp"
 #include "geometry/bounds.hpp"
 #include "marking/node_order.hpp"
 #include "parallel/parallel_for.hpp"
@@ -37,19 +38,16 @@ Ball ball_around(const Range &range, const BallAt &ball_at) {
   return {ball.centre, rounded_up(ball.radius, ball.centre)};
 }
 
-std::size_t n_parts(std::size_t n, std::int64_t size) {
-  return (n + static_cast<std::size_t>(size) - 1) / static_cast<std::size_t>(size);
-}
+std::int64_t n_parts(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
 
 }  // namespace
 
 Range NodeBalls::nodes_of(std::int64_t ball) const {
-  return {ball * nodes_per_ball, std::min((ball + 1) * nodes_per_ball, static_cast<std::int64_t>(order.size()))};
+  return {ball * nodes_per_ball, std::min((ball + 1) * nodes_per_ball, view(order).size())};
 }
 
 Range NodeBalls::balls_of(std::int64_t large_ball) const {
-  return {large_ball * balls_per_large_ball,
-          std::min((large_ball + 1) * balls_per_large_ball, static_cast<std::int64_t>(balls.size()))};
+  return {large_ball * balls_per_large_ball, std::min((large_ball + 1) * balls_per_large_ball, view(balls).size())};
 }
 
 void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
@@ -58,22 +56,20 @@ void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls
                                   n_threads);
   const std::vector<NodeItem<std::int64_t>> &sorted = sorter.sort();
   balls.order.resize(sorted.size());
-  for_each(nodes.n, n_threads, [&](std::int64_t i) {
-    balls.order[static_cast<std::size_t>(i)] = sorted[static_cast<std::size_t>(i)].node;
-  });
+  for_each(nodes.n, n_threads, [&](std::int64_t i) { view(balls.order)[i] = view(sorted)[i].node; });
 }
 
 void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
-  balls.balls.resize(n_parts(balls.order.size(), NodeBalls::nodes_per_ball));
-  balls.large_balls.resize(n_parts(balls.balls.size(), NodeBalls::balls_per_large_ball));
-  for_each(static_cast<std::int64_t>(balls.balls.size()), n_threads, [&](std::int64_t ball) {
-    balls.balls[static_cast<std::size_t>(ball)] = ball_around(balls.nodes_of(ball), [&](std::int64_t at) {
-      return Ball{node_at(nodes, balls.order[static_cast<std::size_t>(at)]), 0};
+  resize(balls.balls, n_parts(view(balls.order).size(), NodeBalls::nodes_per_ball));
+  resize(balls.large_balls, n_parts(view(balls.balls).size(), NodeBalls::balls_per_large_ball));
+  for_each(view(balls.balls).size(), n_threads, [&](std::int64_t ball) {
+    view(balls.balls)[ball] = ball_around(balls.nodes_of(ball), [&](std::int64_t at) {
+      return Ball{node_at(nodes, view(balls.order)[at]), 0};
     });
   });
-  for_each(static_cast<std::int64_t>(balls.large_balls.size()), n_threads, [&](std::int64_t large_ball) {
-    balls.large_balls[static_cast<std::size_t>(large_ball)] = ball_around(
-        balls.balls_of(large_ball), [&](std::int64_t ball) { return balls.balls[static_cast<std::size_t>(ball)]; });
+  for_each(view(balls.large_balls).size(), n_threads, [&](std::int64_t large_ball) {
+    view(balls.large_balls)[large_ball] =
+        ball_around(balls.balls_of(large_ball), [&](std::int64_t ball) { return view(balls.balls)[ball]; });
   });
 }
 

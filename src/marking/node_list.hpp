@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/array_view.hpp"
+
 namespace riis {
 
 struct NodeList {
@@ -31,11 +33,11 @@ struct NodeList {
     triangle_id.resize(n);
     leaflet_id.resize(n);
   }
-  void set(std::size_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet) {
-    node_id[i] = node;
-    distance[i] = node_distance;
-    triangle_id[i] = triangle;
-    leaflet_id[i] = leaflet;
+  void set(std::int64_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet) {
+    view(node_id)[i] = node;
+    view(distance)[i] = node_distance;
+    view(triangle_id)[i] = triangle;
+    view(leaflet_id)[i] = leaflet;
   }
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "kernels/kernels.hpp"
@@ -38,11 +39,11 @@ struct NodeFrame {
 
 // `blocks` is memory that is reused.
 inline NodeFrame frame_of(const StridedPoints &nodes, int n_threads, std::vector<Bounds> &blocks) {
-  blocks.resize(static_cast<std::size_t>((nodes.n + nodes_per_sorting_block - 1) / nodes_per_sorting_block));
+  resize(blocks, (nodes.n + nodes_per_sorting_block - 1) / nodes_per_sorting_block);
   parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
     Bounds bounds;
     for (std::int64_t i = range.begin; i < range.end; ++i) bounds.add(node_at(nodes, i));
-    blocks[static_cast<std::size_t>(range.begin / nodes_per_sorting_block)] = bounds;
+    view(blocks)[range.begin / nodes_per_sorting_block] = bounds;
   });
   Bounds all;
   for (const Bounds &block : blocks) all.add(block);
@@ -95,9 +96,9 @@ class NodeSorter {
   const std::vector<Item> &sort() {
     // While parts are fewer than threads want, threads share a part; then each takes whole ones.
     Item *at = items_.data(), *other = buffer_.data();
-    std::vector<Part> parts{{0, static_cast<std::int64_t>(items_.size())}}, next;
+    std::vector<Part> parts{{0, view(items_).size()}}, next;
     const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
-    while (static_cast<std::int64_t>(parts.size()) < enough && parts.front().size() > 8 * nodes_per_sorting_block) {
+    while (view(parts).size() < enough && parts.front().size() > 8 * nodes_per_sorting_block) {
       next.clear();
       for (const Part &part : parts) {
         ManyBlocks blocks(part, n_threads_);
@@ -107,8 +108,7 @@ class NodeSorter {
       std::swap(parts, next);
       std::swap(at, other);
     }
-    parallel_for(static_cast<std::int64_t>(parts.size()), n_threads_,
-                 [&](std::int64_t i, int) { sort_alone(parts[static_cast<std::size_t>(i)], at, other); });
+    parallel_for(view(parts).size(), n_threads_, [&](std::int64_t i, int) { sort_alone(view(parts)[i], at, other); });
     return items_;
   }
 
@@ -230,7 +230,7 @@ std::vector<NodeItem<Node>> items_of(const StridedPoints &nodes, const NodeFrame
   std::vector<NodeItem<Node>> items(static_cast<std::size_t>(nodes.n));
   parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
-      NodeItem<Node> &item = items[static_cast<std::size_t>(i)];
+      NodeItem<Node> &item = view(items)[i];
       frame(node_at(nodes, i), item.x);
       item.node = static_cast<Node>(i);
     }

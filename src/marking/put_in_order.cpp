@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -17,7 +18,7 @@ constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 class Ranks {
  public:
   void clear() { bits_.fill(0); }
-  void add(std::int64_t node) { bits_[word(node)] |= bit(node); }
+  void add(std::int64_t node) { view(bits_)[word(node)] |= bit(node); }
   void count() {
     std::uint32_t n = 0;
     for (std::size_t i = 0; i < n_words; ++i) {
@@ -25,15 +26,13 @@ class Ranks {
       n += n_bits(bits_[i]);
     }
   }
-  std::size_t operator()(std::int64_t node) const {
-    const std::size_t i = word(node);
-    return before_[i] + n_bits(bits_[i] & (bit(node) - 1));
+  std::int64_t operator()(std::int64_t node) const {
+    const std::int64_t i = word(node);
+    return view(before_)[i] + n_bits(view(bits_)[i] & (bit(node) - 1));
   }
 
  private:
-  static std::size_t word(std::int64_t node) {
-    return static_cast<std::size_t>(node % nodes_per_stretch / bits_per_word);
-  }
+  static std::int64_t word(std::int64_t node) { return node % nodes_per_stretch / bits_per_word; }
   static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
   // On an x86-64 without the instruction for it the compiler would call a function.
   static std::uint32_t n_bits(std::uint64_t x) {
@@ -46,7 +45,7 @@ class Ranks {
   std::array<std::uint32_t, n_words> before_;
 };
 
-std::size_t stretch_of(const FoundNode &found) { return static_cast<std::size_t>(found.node / nodes_per_stretch); }
+std::int64_t node_of(const FoundNode &found) { return found.node; }
 
 class Ordering {
  public:
@@ -58,14 +57,15 @@ class Ordering {
         found_(found),
         limit_is_wider_(limit_is_wider),
         n_threads_(n_threads),
-        n_lists_(found.by_thread.size()),
+        n_lists_(view(found.by_thread).size()),
         n_stretches_((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch),
         scratch_(scratch) {}
 
   // Pass 1. Counts the nodes of each list in each stretch, then makes the counts the places where they begin. Returns the sums.
   OrderScratch::Counts count() {
-    scratch_.counts.assign(static_cast<std::size_t>(n_stretches_) * n_lists_ + 1, {0, 0});
-    for_each_list([&](std::size_t list, const FoundNode &found) {
+    scratch_.counts.clear();
+    resize(scratch_.counts, n_stretches_ * n_lists_ + 1);
+    for_each_list([&](std::int64_t list, const FoundNode &found) {
       OrderScratch::Counts &counts = counts_of(found, list);
       ++counts.n_within;
       counts.n_marked += is_marked(found);
@@ -82,24 +82,23 @@ class Ordering {
 
   // Pass 2. Copies the found nodes stretch by stretch. The place of each list moves on to its end.
   void gather() {
-    for_each_list([&](std::size_t list, const FoundNode &found) {
+    for_each_list([&](std::int64_t list, const FoundNode &found) {
       std::int64_t &at = counts_of(found, list).n_within;
-      scratch_.by_stretch[static_cast<std::size_t>(at++)] = found;
+      view(scratch_.by_stretch)[at++] = found;
     });
   }
 
   // Pass 3. Writes each stretch's nodes in their order.
   void write(NodeList &within, NodeList &marked) {
     parallel_for(n_stretches_, n_threads_, [&](std::int64_t stretch, int) {
-      const OrderScratch::Counts *lists = scratch_.counts.data() + static_cast<std::size_t>(stretch) * n_lists_;
+      const OrderScratch::Counts *lists = scratch_.counts.data() + stretch * n_lists_;
       // A stretch begins where the one before it ends.
       const std::int64_t begin = stretch == 0 ? 0 : lists[-1].n_within, end = lists[n_lists_ - 1].n_within;
       if (begin == end) return;
       const FoundNode *nodes = scratch_.by_stretch.data();
-      write_ranked(nodes + begin, nodes + end, static_cast<std::size_t>(begin), within,
-                   [](const FoundNode &) { return true; });
+      write_ranked(nodes + begin, nodes + end, begin, within, [](const FoundNode &) { return true; });
       if (!limit_is_wider_) return;
-      write_ranked(nodes + begin, nodes + end, static_cast<std::size_t>(lists[0].n_marked), marked,
+      write_ranked(nodes + begin, nodes + end, lists[0].n_marked, marked,
                    [&](const FoundNode &found) { return is_marked(found); });
     });
   }
@@ -107,35 +106,34 @@ class Ordering {
  private:
   bool is_marked(const FoundNode &found) const { return found.distance <= half_thickness_; }
 
-  OrderScratch::Counts &counts_of(const FoundNode &found, std::size_t list) const {
-    return scratch_.counts[stretch_of(found) * n_lists_ + list];
+  OrderScratch::Counts &counts_of(const FoundNode &found, std::int64_t list) const {
+    return view(scratch_.counts)[node_of(found) / nodes_per_stretch * n_lists_ + list];
   }
 
   template <class Visit>
   void for_each_list(const Visit &visit) const {
-    parallel_for(static_cast<std::int64_t>(n_lists_), n_threads_, [&](std::int64_t i, int) {
-      const auto list = static_cast<std::size_t>(i);
-      for (const FoundNode &found : found_.by_thread[list]) visit(list, found);
+    parallel_for(n_lists_, n_threads_, [&](std::int64_t list, int) {
+      for (const FoundNode &found : view(found_.by_thread)[list]) visit(list, found);
     });
   }
 
   // Writes the wanted nodes of a stretch to the list, from position `first` on, by their ranks.
   template <class IsWanted>
-  void write_ranked(const FoundNode *begin, const FoundNode *end, std::size_t first, NodeList &list,
+  void write_ranked(const FoundNode *begin, const FoundNode *end, std::int64_t first, NodeList &list,
                     const IsWanted &is_wanted) const {
     Ranks ranks;
     ranks.clear();
     for (const FoundNode *found = begin; found != end; ++found)
-      if (is_wanted(*found)) ranks.add(static_cast<std::int64_t>(found->node));
+      if (is_wanted(*found)) ranks.add(node_of(*found));
     ranks.count();
     for (const FoundNode *found = begin; found != end; ++found)
-      if (is_wanted(*found)) put(*found, first + ranks(static_cast<std::int64_t>(found->node)), list);
+      if (is_wanted(*found)) put(*found, first + ranks(node_of(*found)), list);
   }
 
-  void put(const FoundNode &found, std::size_t at, NodeList &list) const {
-    const auto position = static_cast<std::size_t>(found.triangle);
-    list.set(at, static_cast<std::int64_t>(found.node), found.distance, other_ ? -1 : triangles_.triangle_id[position],
-             other_ ? other_->patches().patches[position].leaflet_id : triangles_.leaflet_id[position]);
+  void put(const FoundNode &found, std::int64_t at, NodeList &list) const {
+    const std::int64_t position = found.triangle;
+    list.set(at, node_of(found), found.distance, other_ ? -1 : view(triangles_.triangle_id)[position],
+             other_ ? view(other_->patches().patches)[position].leaflet_id : view(triangles_.leaflet_id)[position]);
   }
 
   const TriangleSet &triangles_;
@@ -144,7 +142,7 @@ class Ordering {
   const FoundNodes &found_;
   bool limit_is_wider_;
   int n_threads_;
-  std::size_t n_lists_;
+  std::int64_t n_lists_;
   std::int64_t n_stretches_;
   OrderScratch &scratch_;
 };

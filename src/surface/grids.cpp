@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/displacement.hpp"
@@ -105,8 +106,8 @@ class GridMaker {
     }
     std::sort(curves.begin(), curves.end());
     curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
-    parallel_for(static_cast<std::int64_t>(curves.size()), n_threads_, [&](std::int64_t i, int) {
-      const std::size_t at = curves[static_cast<std::size_t>(i)];
+    parallel_for(view(curves).size(), n_threads_, [&](std::int64_t i, int) {
+      const std::size_t at = view(curves)[i];
       polylines_[at] = make_polyline(set_.curves[at], errors_[at]);
       reversed_[at] = reversed(polylines_[at]);
     });
@@ -152,7 +153,7 @@ class GridMaker {
       longest = std::max(longest, curve.length());
       for (const Bezier &piece : curve.pieces())
         for (int k = 0; k <= piece.degree; ++k) {
-          const Vec3 q = piece.control[static_cast<std::size_t>(k)];
+          const Vec3 q = view(piece.control)[k];
           largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
         }
     }

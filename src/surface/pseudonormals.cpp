@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/array_view.hpp"
 #include "surface/rims.hpp"
 
 namespace riis {
@@ -75,7 +76,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
     face_[i] = triangle_normal(corners);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 here = corners[k], next = corners[(k + 1) % 3], previous = corners[(k + 2) % 3];
-      position_[3 * i + k] = position_of_vertex[static_cast<std::size_t>(set.vertex_id[3 * i + k])];
+      position_[3 * i + k] = view(position_of_vertex)[set.vertex_id[3 * i + k]];
       Vec3 &sum = corner_[position_[3 * i + k]];
       sum = sum + angle_between(next - here, previous - here) * face_[i];
     }

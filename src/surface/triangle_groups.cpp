@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -59,14 +60,14 @@ float round_down(double x) {
 float round_up(double x) { return -round_down(-x); }
 
 Bounds bounds_of(const TriangleSet &set, int n_threads) {
-  const auto n = static_cast<std::int64_t>(set.vertex_id.size());
+  const auto n = view(set.vertex_id).size();
   constexpr std::int64_t corners_per_block = 12288;
-  std::vector<Bounds> blocks(static_cast<std::size_t>((n + corners_per_block - 1) / corners_per_block));
+  std::vector<Bounds> blocks;
+  resize(blocks, (n + corners_per_block - 1) / corners_per_block);
   parallel_for_ranges(n, corners_per_block, n_threads, [&](const Range &range, int) {
     Bounds bounds;
-    for (std::int64_t i = range.begin; i < range.end; ++i)
-      bounds.add(set.vertex(set.vertex_id[static_cast<std::size_t>(i)]));
-    blocks[static_cast<std::size_t>(range.begin / corners_per_block)] = bounds;
+    for (std::int64_t i = range.begin; i < range.end; ++i) bounds.add(set.vertex(view(set.vertex_id)[i]));
+    view(blocks)[range.begin / corners_per_block] = bounds;
   });
   Bounds bounds;
   for (const Bounds &block : blocks) bounds.add(block);
@@ -90,7 +91,7 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
     for (const Vec3 p : set.corners(static_cast<std::size_t>(i))) sum = sum + scale * (p - origin);
     centroids.push_back({{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, i});
   }
-  for_each_group(centroids.data(), static_cast<std::int64_t>(centroids.size()), [&](Centroid *members, int n) {
+  for_each_group(centroids.data(), view(centroids).size(), [&](Centroid *members, int n) {
     std::sort(members, members + n, [](const Centroid &a, const Centroid &b) { return a.triangle < b.triangle; });
     for (int i = 0; i < n; ++i) grouping.order.push_back(members[i].triangle);
     grouping.end.push_back(static_cast<std::int32_t>(grouping.order.size()));
@@ -138,18 +139,18 @@ void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
   constexpr std::int64_t groups_per_block = 16;
-  parallel_for_ranges(static_cast<std::int64_t>(end.size()), groups_per_block, n_threads, [&](const Range &range, int) {
-    for (auto g = static_cast<std::size_t>(range.begin); g < static_cast<std::size_t>(range.end); ++g) {
-      const std::int32_t first = g == 0 ? 0 : end[g - 1];
-      GroupBounds &of_group = bounds[g];
-      of_group.n = end[g] - first;
+  parallel_for_ranges(view(end).size(), groups_per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t g = range.begin; g < range.end; ++g) {
+      const std::int32_t first = g == 0 ? 0 : view(end)[g - 1];
+      GroupBounds &of_group = view(bounds)[g];
+      of_group.n = view(end)[g] - first;
       GroupCorners framed;
       for (int i = 0; i < triangles_per_group; ++i) {
         if (i >= of_group.n) {  // repeats the first triangle
           for (auto &coordinate : framed.xyz) coordinate[i] = coordinate[0];
           continue;
         }
-        const std::int32_t triangle = order[static_cast<std::size_t>(first + i)];
+        const std::int32_t triangle = view(order)[first + i];
         of_group.triangle[i] = triangle;
         double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle);
         int to = 0;
@@ -160,7 +161,7 @@ void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
           to += 3;
         }
       }
-      simd.make_group(framed, groups[g], of_group);
+      simd.make_group(framed, view(groups)[g], of_group);
     }
   });
 }

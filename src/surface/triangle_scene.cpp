@@ -12,6 +12,7 @@
 #include <limits>
 #include <mutex>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 
 namespace riis {
@@ -208,7 +209,7 @@ ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet inst
   if (!(largest <= far_away)) {
     // Also where the frame's units overflow. The surface is farther than its own size: most limits end here.
     if (!may_be_within(p, limit)) return {infinity, -1};
-    const auto n = static_cast<std::int64_t>(in.groups.corners.size() / 9);
+    const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) ask(query, i);
   } else {
     double reach = limit;
@@ -270,7 +271,7 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
   framed.add(from);
   framed.add(to);
   const auto is_beside = [&](std::int32_t group) {
-    const GroupBounds &box = all.bounds[static_cast<std::size_t>(group)];
+    const GroupBounds &box = view(all.bounds)[group];
     return !overlap(framed, {{box.lower[0], box.lower[1], box.lower[2]}, {box.upper[0], box.upper[1], box.upper[2]}});
   };
   found.erase(std::remove_if(found.begin(), found.end(), is_beside), found.end());

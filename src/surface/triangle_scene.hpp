@@ -9,6 +9,7 @@
 
 #include <memory>
 
+#include "base/array_view.hpp"
 #include "geometry/point_triangle.hpp"
 #include "surface/triangle_groups.hpp"
 #include "surface/triangle_set.hpp"
@@ -49,8 +50,7 @@ class TriangleScene {
     collect_along(a, b, found);
     const TriangleGroups &in = groups();
     for (const std::int32_t group : found)
-      for (int i = 0; i < in.bounds[static_cast<std::size_t>(group)].n; ++i)
-        visit(in.bounds[static_cast<std::size_t>(group)].triangle[i]);
+      for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
   // How far a distance, as it is computed, may be off, beyond what is in proportion to it and to p: the triangles' coordinates round.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
@@ -62,7 +63,7 @@ struct LevelledGrid {
 
 LevelledGrid with_levels(QuadGrid grid, double max_error) {
   LevelledGrid made{std::move(grid), {}, 0, 0};
-  made.n_vertices = static_cast<std::int64_t>(made.grid.u.size() * made.grid.v.size());
+  made.n_vertices = view(made.grid.u).size() * view(made.grid.v).size();
   for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
     made.levels.push_back(subdivision_level(made.grid, i, j, max_error));
     const std::int64_t n = std::int64_t{1} << made.levels.back();
@@ -171,7 +172,7 @@ class PieceBuilder {
   }
 
   void add_vertex(Vec3 p, double u, double v) {
-    const auto at = static_cast<std::size_t>(piece_.first_vertex + n_vertices_++);
+    const std::int64_t at = piece_.first_vertex + n_vertices_++;
     const Vec3 placed = place(placement_, place(*piece_.image, p));
     double *xyz = set_.xyz.data() + 3 * at, *uv = set_.uv.data() + 2 * at;
     xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
@@ -225,11 +226,11 @@ class PieceBuilder {
       return false;
     }
     if ((piece_.image->mirror != Mirror::none) != flip_normals_) std::swap(b, c);
-    const auto at = static_cast<std::size_t>(next_triangle());
+    const std::int64_t at = next_triangle();
     std::int64_t *id = set_.vertex_id.data() + 3 * at;
     id[0] = a, id[1] = b, id[2] = c;
-    set_.leaflet_id[at] = piece_.image->leaflet_id;
-    set_.patch_id[at] = piece_.image->patch_id;
+    view(set_.leaflet_id)[at] = piece_.image->leaflet_id;
+    view(set_.patch_id)[at] = piece_.image->patch_id;
     ++piece_.n_triangles;
     return true;
   }
@@ -246,12 +247,12 @@ class PieceBuilder {
 
 // Makes room for all pieces. The old contents may stay: the pieces write everything.
 void make_room(std::int64_t n_vertices, std::int64_t n_triangles, bool has_velocities, TriangleSet &set) {
-  set.xyz.resize(3 * static_cast<std::size_t>(n_vertices));
-  set.uv.resize(2 * static_cast<std::size_t>(n_vertices));
-  set.velocity.resize(has_velocities ? 3 * static_cast<std::size_t>(n_vertices) : 0);
-  set.vertex_id.resize(3 * static_cast<std::size_t>(n_triangles));
-  set.leaflet_id.resize(static_cast<std::size_t>(n_triangles));
-  set.patch_id.resize(static_cast<std::size_t>(n_triangles));
+  resize(set.xyz, 3 * n_vertices);
+  resize(set.uv, 2 * n_vertices);
+  resize(set.velocity, has_velocities ? 3 * n_vertices : 0);
+  resize(set.vertex_id, 3 * n_triangles);
+  resize(set.leaflet_id, n_triangles);
+  resize(set.patch_id, n_triangles);
   set.n_zero_area = 0;
 }
 
@@ -276,11 +277,10 @@ void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
     set.n_zero_area += piece.n_zero_area;
     n += piece.n_triangles;
   }
-  const auto n_triangles = static_cast<std::size_t>(n);
-  set.vertex_id.resize(3 * n_triangles);
-  set.leaflet_id.resize(n_triangles);
-  set.patch_id.resize(n_triangles);
-  set.triangle_id.resize(n_triangles);
+  resize(set.vertex_id, 3 * n);
+  resize(set.leaflet_id, n);
+  resize(set.patch_id, n);
+  resize(set.triangle_id, n);
   std::iota(set.triangle_id.begin(), set.triangle_id.end(), std::int64_t{0});
 }
 
@@ -297,10 +297,8 @@ std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_er
                                               const PatchSet *before) {
   std::vector<QuadGrid> grids = make_grids(set, max_error, tightness, n_threads, before);
   std::vector<LevelledGrid> levelled(grids.size());
-  parallel_for(static_cast<std::int64_t>(grids.size()), n_threads, [&](std::int64_t i, int) {
-    const auto at = static_cast<std::size_t>(i);
-    levelled[at] = with_levels(std::move(grids[at]), max_error);
-  });
+  parallel_for(view(grids).size(), n_threads,
+               [&](std::int64_t i, int) { view(levelled)[i] = with_levels(std::move(view(grids)[i]), max_error); });
   return levelled;
 }
 
@@ -338,8 +336,8 @@ TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &
         check_count(static_cast<double>(n_triangles), max_error);
       }
     make_room(n_vertices, n_triangles, motion != nullptr, triangles);
-    parallel_for(static_cast<std::int64_t>(pieces.size()), n_threads, [&](std::int64_t i, int) {
-      Piece &piece = pieces[static_cast<std::size_t>(i)];
+    parallel_for(view(pieces).size(), n_threads, [&](std::int64_t i, int) {
+      Piece &piece = view(pieces)[i];
       std::optional<ImageMotion> image_motion;
       if (motion) image_motion.emplace(*piece.image, image_before(piece, grids, set, *before), placement, *motion);
       PieceBuilder(piece, placement, flip_normals, image_motion ? &*image_motion : nullptr, triangles).build();

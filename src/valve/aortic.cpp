@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
@@ -90,7 +91,7 @@ Bezier profile_curve(double radius_in, double radius_out, double angle, double p
 // there, to the last bit.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
-  below.control[static_cast<std::size_t>(below.degree)] = point;
+  view(below.control)[below.degree] = point;
   above.control[0] = point;
   return {below, above};
 }
@@ -147,7 +148,7 @@ void check_together(const ParameterValues &values) {
 // that: a high power with a long tangent, or a bending curve near the root.
 void check_reach(const Bezier &curve, const char *what, const char *parameters, std::size_t cusp, double size) {
   for (int i = 0; i <= curve.degree; ++i) {
-    const double reach = length(curve.control[static_cast<std::size_t>(i)]);
+    const double reach = length(view(curve.control)[i]);
     if (!(reach <= 5 * size))
       fail(RIIS_INVALID_PARAMETER, "the ", cusp_names[cusp], " cusp's ", what, " curve reaches ", reach,
            " from the root's middle, more than 5 times ", size,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "base/integer_array.hpp"
 
 namespace riis {
@@ -33,7 +34,7 @@ std::vector<Bezier> curves_of(const riis_patches &arrays) {
         if (!(std::abs(control[axis]) <= max_control))
           fail(RIIS_INVALID_PARAMETER, "xyz"[axis], " of control point ", k, " of curve ", i, " is ", control[axis],
                "; it must be finite and at most ", max_control, " in magnitude");
-      q[static_cast<std::size_t>(k)] = {control[0], control[1], control[2]};
+      view(q)[k] = {control[0], control[1], control[2]};
     }
     curves.push_back(degree == 1   ? Bezier::line(q[0], q[1])
                      : degree == 2 ? Bezier::quadratic(q[0], q[1], q[2])
@@ -47,7 +48,7 @@ double size_of(const std::vector<Bezier> &curves) {
   Vec3 lower = curves.front().first(), upper = lower;
   for (const Bezier &curve : curves)
     for (int k = 0; k <= curve.degree; ++k) {
-      const Vec3 q = curve.control[static_cast<std::size_t>(k)];
+      const Vec3 q = view(curve.control)[k];
       lower = {std::min(lower.x, q.x), std::min(lower.y, q.y), std::min(lower.z, q.z)};
       upper = {std::max(upper.x, q.x), std::max(upper.y, q.y), std::max(upper.z, q.z)};
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/nearest_name.hpp"
 #include "valve/aortic.hpp"
@@ -135,8 +136,8 @@ void Valve::check_open_values() const {
 
 Bezier blend(const Bezier &closed, const Bezier &open, double opening) {
   Bezier made = closed;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(closed.degree); ++i)
-    made.control[i] = blend(closed.control[i], open.control[i], opening);
+  for (int i = 0; i <= closed.degree; ++i)
+    view(made.control)[i] = blend(view(closed.control)[i], view(open.control)[i], opening);
   return made;
 }
 
@@ -147,7 +148,7 @@ ParameterSpec opening_spec(const char *description, double default_value) {
 void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Measure &measure, double least,
                  double most) {
   for (int i = 0; i < spec.n_values; ++i) {
-    const double value = values[static_cast<std::size_t>(i)];
+    const double value = view(values)[i];
     if (!(std::abs(value) >= least * measure.size && std::abs(value) <= most * measure.size))
       fail(RIIS_INVALID_PARAMETER, spec.name, " is ", value, "; it must be from ", least, " to ", most, " times ",
            measure.name, ", which is ", measure.size);

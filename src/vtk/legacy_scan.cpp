@@ -17,6 +17,7 @@
 #include <vtkInformationStringKey.h>
 #include <vtkInformationStringVectorKey.h>
 
+#include "base/array_view.hpp"
 #include "vtk/files.hpp"
 #include "vtk/text.hpp"
 #include "vtk/vtk_errors.hpp"
@@ -91,7 +92,7 @@ class Numbers {
       return n;
     }
     std::uint64_t bits = 0;
-    for (int i = 0; i < size_; ++i) bits = bits << 8 | static_cast<unsigned char>(rest_[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < size_; ++i) bits = bits << 8 | static_cast<unsigned char>(view(rest_)[i]);
     rest_.remove_prefix(static_cast<std::size_t>(size_));
     return size_ == 4 ? static_cast<std::int32_t>(bits) : static_cast<std::int64_t>(bits);
   }
@@ -170,7 +171,7 @@ class Scan {
     return n;
   }
 
-  std::int64_t n_bits_left() const { return 8 * static_cast<std::int64_t>(rest_.size()); }
+  std::int64_t n_bits_left() const { return 8 * view(rest_).size(); }
 
   void header() {
     const std::string magic = "# vtk datafile version ";
@@ -193,7 +194,7 @@ class Scan {
   }
 
   void skip_bytes(std::int64_t n) {
-    if (n > static_cast<std::int64_t>(rest_.size())) refuse_end();
+    if (n > view(rest_).size()) refuse_end();
     rest_.remove_prefix(static_cast<std::size_t>(n));
   }
 
@@ -218,7 +219,7 @@ class Scan {
     std::int64_t length = first & 63;
     for (int i = 1; i < n_length_bytes; ++i) {
       if (i >= static_cast<int>(rest_.size())) refuse_end();
-      length = length << 8 | static_cast<unsigned char>(rest_[static_cast<std::size_t>(i)]);
+      length = length << 8 | static_cast<unsigned char>(view(rest_)[i]);
     }
     skip_bytes(n_length_bytes);
     skip_bytes(length);

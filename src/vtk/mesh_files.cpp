@@ -16,6 +16,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include "base/array_view.hpp"
 #include "vtk/array_names.hpp"
 #include "vtk/edge_length.hpp"
 #include "vtk/files.hpp"
@@ -131,7 +132,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   riis_cells cells;
   check_core(riis_cells_init(&cells, sizeof cells));
   cells.n_nodes = grid->GetNumberOfPoints();
-  cells.n_cells = static_cast<std::int64_t>(volumes.offsets.size()) - 1;
+  cells.n_cells = view(volumes.offsets).size() - 1;
   cells.node_ids = volumes.node_ids.data();
   cells.offsets = volumes.offsets.data();
   cells.id_bits = 64;

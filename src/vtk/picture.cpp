@@ -9,19 +9,17 @@
 #include <vector>
 
 #include <vtkCamera.h>
-#include <vtkErrorCode.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkWindowToImageFilter.h>
 
 #include "vtk/array_names.hpp"
 #include "vtk/display.hpp"
+#include "vtk/drawing.hpp"
 #include "vtk/files.hpp"
 #include "vtk/mesh.hpp"
 #include "vtk/picture_options.hpp"
@@ -44,18 +42,9 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
 
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
   ReplacingFile file(path);
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->ReadFrontBufferOff();
-  image->ShouldRerenderOff();
-  // Into memory, since the PNG library itself prints when a file cannot be written.
-  vtkNew<vtkPNGWriter> writer;
-  writer->WriteToMemoryOn();
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->Write();
+  const vtkSmartPointer<vtkUnsignedCharArray> bytes = encoded_png(window);
   caught.check(path);
-  vtkUnsignedCharArray *bytes = writer->GetResult();
-  if (!bytes || writer->GetErrorCode() != vtkErrorCode::NoError) fail_file(path, "could not be encoded");
+  if (!bytes) fail_file(path, "could not be encoded");
   file.write(bytes->GetPointer(0), bytes->GetNumberOfValues());
   file.commit("IEND");
 }

@@ -64,7 +64,7 @@ class Polygons {
       vtkIdType n = 0;
       const vtkIdType *ids = nullptr;
       grid_->GetCells()->GetCellAtId(cell, n, ids);
-      for (const int corner : (*table)[static_cast<std::size_t>(face)]) {
+      for (const int corner : view(*table)[face]) {
         if (corner >= 0) corners_.push_back(ids[corner]);
       }
     } else {
@@ -120,10 +120,10 @@ class LoneFaces {
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
-    std::int64_t &first = first_[static_cast<std::size_t>(key[0])];
+    std::int64_t &first = view(first_)[key[0]];
     std::int64_t *link = &first;
     while (*link >= 0) {
-      Entry &entry = entries_[static_cast<std::size_t>(*link)];
+      Entry &entry = view(entries_)[*link];
       if (entry.key == key && entry.n_corners == corners.size()) {
         const std::int64_t freed = *link;
         *link = entry.next;
@@ -139,8 +139,7 @@ class LoneFaces {
   template <class Visit>
   void for_each(Visit &&visit) const {
     for (std::int64_t at : first_) {
-      for (; at >= 0; at = entries_[static_cast<std::size_t>(at)].next)
-        visit(entries_[static_cast<std::size_t>(at)].face);
+      for (; at >= 0; at = view(entries_)[at].next) visit(view(entries_)[at].face);
     }
   }
 
@@ -157,12 +156,12 @@ class LoneFaces {
   std::int64_t kept(const Entry &entry) {
     if (free_ >= 0) {
       const std::int64_t at = free_;
-      free_ = entries_[static_cast<std::size_t>(at)].next;
-      entries_[static_cast<std::size_t>(at)] = entry;
+      free_ = view(entries_)[at].next;
+      view(entries_)[at] = entry;
       return at;
     }
     entries_.push_back(entry);
-    return static_cast<std::int64_t>(entries_.size()) - 1;
+    return view(entries_).size() - 1;
   }
 
   std::vector<std::int64_t> first_;  // by least corner
@@ -181,7 +180,7 @@ class Collected {
   void add(const Corners &corners) {
     polygons_->InsertNextCell(static_cast<int>(corners.size()));
     for (const vtkIdType corner : corners) {
-      vtkIdType &place = place_[static_cast<std::size_t>(corner)];
+      vtkIdType &place = view(place_)[corner];
       if (place < 0) place = points_->InsertNextPoint(from_->GetPoint(corner));
       polygons_->InsertCellPoint(place);
     }
@@ -220,9 +219,7 @@ void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) 
   if (volume < 0) std::reverse(corners.begin(), corners.end());
 }
 
-bool is_wanted(const std::vector<std::uint8_t> *wanted, vtkIdType cell) {
-  return !wanted || (*wanted)[static_cast<std::size_t>(cell)] != 0;
-}
+bool is_wanted(const std::vector<std::uint8_t> *wanted, vtkIdType cell) { return !wanted || view(*wanted)[cell] != 0; }
 
 }  // namespace
 
@@ -230,7 +227,7 @@ CellDimensions::CellDimensions(vtkUnstructuredGrid *grid) {
   of_type_.fill(-1);
   vtkNew<vtkGenericCell> cell;
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
-    int &dimension = of_type_[static_cast<std::size_t>(grid->GetCellType(i))];
+    int &dimension = view(of_type_)[grid->GetCellType(i)];
     if (dimension >= 0) continue;
     cell->SetCellType(grid->GetCellType(i));
     dimension = cell->GetCellDimension();

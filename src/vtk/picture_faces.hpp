@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/array_view.hpp"
+
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -21,7 +23,7 @@ class CellDimensions {
   explicit CellDimensions(vtkUnstructuredGrid *grid);
   int largest() const { return largest_; }  // 0 to 3
   // Only for types of cells that are in the grid.
-  bool is_largest(int type) const { return of_type_[static_cast<std::size_t>(type)] == largest_; }
+  bool is_largest(int type) const { return view(of_type_)[type] == largest_; }
 
  private:
   std::array<int, 256> of_type_;

@@ -20,42 +20,29 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "vtk/array_names.hpp"
+#include "vtk/drawing.hpp"
 #include "vtk/picture_cut.hpp"
 #include "vtk/picture_faces.hpp"
 
 namespace riis::vtk {
 namespace {
 
-// Blue, orange, bluish green, reddish purple, vermilion, sky blue: told apart with any colour vision (Okabe, Ito 2008).
-constexpr unsigned char leaflet_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
-                                                {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
 constexpr double pale = 0.62;  // how much white partly marked cells have in their colour
 constexpr double outline_grey = 0.45;
 
 enum MarkedPart : std::uint8_t { not_marked, partly_marked, whole_marked };
 
 vtkSmartPointer<vtkRenderer> empty_panel() {
-  const auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->SetBackground(1, 1, 1);
-  renderer->TwoSidedLightingOn();
+  const vtkSmartPointer<vtkRenderer> renderer = white_renderer();
   vtkNew<vtkLightKit> lights;
   lights->AddLightsToRenderer(renderer);
   return renderer;
-}
-
-vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  const auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
 }
 
 vtkSmartPointer<vtkActor> flat_actor(vtkPolyData *data, const Colour &colour) {
@@ -80,9 +67,7 @@ void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, do
 }
 
 vtkSmartPointer<vtkActor> coloured_actor(vtkPolyData *faces) {
-  const vtkSmartPointer<vtkActor> actor = actor_of(faces);
-  actor->GetMapper()->SetScalarModeToUseCellData();
-  actor->GetMapper()->SetColorModeToDirectScalars();
+  const vtkSmartPointer<vtkActor> actor = coloured_actor_of(faces);
   // Some light of its own, so that what faces away from the lamps keeps its colour.
   actor->GetProperty()->SetAmbient(0.25);
   actor->GetProperty()->SetDiffuse(0.85);
@@ -159,7 +144,7 @@ void move_away(vtkActor *actor, const View &view, double length) {
 }  // namespace
 
 Colour colour_of_leaflet(vtkIdType leaflet) {
-  const unsigned char *bytes = leaflet_colours[static_cast<std::size_t>(leaflet) % std::size(leaflet_colours)];
+  const unsigned char *bytes = distinct_colours[static_cast<std::size_t>(leaflet) % std::size(distinct_colours)];
   return {bytes[0] / 255.0, bytes[1] / 255.0, bytes[2] / 255.0};
 }
 
@@ -172,12 +157,7 @@ SurfacePanel surface_panel(vtkPolyData *surface) {
     panel.leaflets.insert(leaflets.back());
   }
   colour_faces(surface, leaflets, 0);
-  vtkNew<vtkPolyDataNormals> smooth;
-  smooth->SetInputData(surface);
-  smooth->SetFeatureAngle(40);
-  smooth->ConsistencyOff();
-  smooth->Update();
-  panel.renderer->AddActor(coloured_actor(smooth->GetOutput()));
+  panel.renderer->AddActor(coloured_actor(smoothed(surface)));
   return panel;
 }
 

@@ -19,16 +19,13 @@
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
 
+#include "vtk/drawing.hpp"
+
 namespace riis::vtk {
 namespace {
 
 constexpr int least_letter = 6;
 constexpr int least_height_with_texts = 120;
-
-void set_font(vtkTextProperty *property, int letter) {
-  property->SetFontFamilyToArial();
-  property->SetFontSize(letter);
-}
 
 int width_of(const std::string &text, int letter) {
   if (text.empty()) return 0;

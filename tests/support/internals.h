@@ -88,19 +88,28 @@ riis_status bounded_quads(const char *kind, int n_parameters, const char *const 
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
-/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512. */
-enum { n_kernel_sets = 3 };
+/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512; and 3, the baseline of
+ * processors without any of these, which is there on others. */
+enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
+/* Whether this build's flags leave the baseline without instructions that round a product and a sum once. */
+int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 
 /* Squares of distances of pairs of a point and a triangle, by their positions; room for n + 7 is wanted in distance_sq. */
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
+/* The same for at most 8 pairs, with the closest points (3, n) and their barycentrics (3, n). */
+void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
+                    const double *corners, double *distance_sq, double *closest, double *barycentric);
+
 /* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);
 void kernels_group_free(kernel_group *group);
+/* Whether all bits of two groups and of their bounds are the same. */
+int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
 /* Single precision's squares of the distances of a point to its 16 lanes. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 

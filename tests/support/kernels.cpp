@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include "internals.h"
+#include "kernels/table.hpp"
 #include "surface/triangle_groups.hpp"
 
 using namespace riis;
 
-static_assert(n_kernel_sets == n_instruction_sets);
+static_assert(portable_set == n_instruction_sets && n_kernel_sets == n_instruction_sets + 1);
 
 struct kernel_group {
   TriangleGroup group;
@@ -19,7 +21,13 @@ struct kernel_group {
 
 namespace {
 
-const Kernels &of(int set) { return kernels(static_cast<InstructionSet>(set)); }
+const Kernels &of(int set) {
+#if defined(RIIS_PORTABLE_KERNELS)
+  static const Kernels portable{filter_kernels_portable, decision_kernels_portable};
+  if (set == portable_set) return portable;
+#endif
+  return kernels(static_cast<InstructionSet>(set));
+}
 
 // As cluster_search.cpp makes it.
 struct Filter {
@@ -76,16 +84,48 @@ constexpr std::int32_t untouched = -77;
 
 extern "C" {
 
-int kernels_there(int set) { return has(static_cast<InstructionSet>(set)); }
+int kernels_there(int set) {
+#if defined(RIIS_PORTABLE_KERNELS)
+  if (set == portable_set) return 1;
+#endif
+  return has(static_cast<InstructionSet>(set));
+}
+
+int kernels_baseline_rounds_twice() {
+#if defined(__FMA__)
+  return 0;
+#else
+  return 1;
+#endif
+}
 
 const char *kernels_name(int set) {
-  static const char *const names[] = {"baseline", "AVX2", "AVX-512"};
+  static const char *const names[] = {"baseline", "AVX2", "AVX-512", "portable"};
   return names[set];
 }
 
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq) {
   of(set).decide(n, point, triangle, points, corners, distance_sq);
+}
+
+void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
+                    const double *corners, double *distance_sq, double *closest, double *barycentric) {
+  PointsAndTriangles pairs;
+  PointsOnTriangles located;
+  for (int i = 0; i < pairs_at_once; ++i) {
+    const int pair = i < n ? i : 0;
+    for (int c = 0; c < 3; ++c) pairs.point[c][i] = points[3 * point[pair] + c];
+    for (int c = 0; c < 9; ++c) pairs.corners[c][i] = corners[9 * triangle[pair] + c];
+  }
+  of(set).locate(pairs, located);
+  for (int i = 0; i < n; ++i) {
+    distance_sq[i] = located.distance_sq[i];
+    for (int c = 0; c < 3; ++c) {
+      closest[3 * i + c] = located.point[c][i];
+      barycentric[3 * i + c] = located.barycentric[c][i];
+    }
+  }
 }
 
 kernel_group *kernels_group(int set, int n, const double *corners) {
@@ -99,6 +139,12 @@ kernel_group *kernels_group(int set, int n, const double *corners) {
 }
 
 void kernels_group_free(kernel_group *group) { delete group; }
+
+int kernels_groups_equal(const kernel_group *a, const kernel_group *b) {
+  static_assert(sizeof(TriangleGroup) == 19 * triangles_per_group * sizeof(float), "no gaps between its fields");
+  const GroupBounds &p = a->bounds, &q = b->bounds;
+  return std::memcmp(&a->group, &b->group, sizeof a->group) == 0 && std::memcmp(&p, &q, sizeof p) == 0;
+}
 
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin,
                              float *distance_sq) {

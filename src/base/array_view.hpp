@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Containers by int64_t, the type of every count and position here; their own functions take std::size_t.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <iterator>
+#include <type_traits>
+
+namespace riis {
+
+// The elements of an array that somebody else owns and keeps while the view is used.
+template <class T>
+class ArrayView {
+ public:
+  constexpr ArrayView(T *data, std::int64_t size) : data_(data), size_(size) {}
+
+  constexpr T &operator[](std::int64_t i) const {
+#if defined(_GLIBCXX_ASSERTIONS)  // then the containers check, and so does their view
+    if (i < 0 || i >= size_) std::abort();
+#endif
+    return data_[i];
+  }
+  constexpr std::int64_t size() const { return size_; }
+  constexpr T *begin() const { return data_; }
+  constexpr T *end() const { return data_ + size_; }
+
+ private:
+  T *data_;
+  std::int64_t size_;
+};
+
+// Views a std::vector, a std::array or an array of C. The view is of no use once the container has moved its elements.
+template <class Container>
+constexpr auto view(Container &container) {
+  return ArrayView<std::remove_pointer_t<decltype(std::data(container))>>(
+      std::data(container), static_cast<std::int64_t>(std::size(container)));
+}
+
+template <class Container>
+void resize(Container &container, std::int64_t n) {
+  container.resize(static_cast<std::size_t>(n));
+}
+
+}  // namespace riis

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps of drawing that pictures and the paper's figures have in common.
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+class vtkActor;
+class vtkPolyData;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkTextProperty;
+class vtkUnsignedCharArray;
+
+namespace riis::vtk {
+
+// Blue, orange, bluish green, reddish purple, vermilion, sky blue: told apart with any colour vision (Okabe, Ito 2008).
+inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
+                                                        {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
+
+// White, and faces are lit from both sides. It has no lights yet.
+vtkSmartPointer<vtkRenderer> white_renderer();
+
+vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
+
+// Each face has the colour that the cell scalars, three bytes each, give it.
+vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
+
+// The faces with normals at their corners that hide the edges between them, but not the sharp ones.
+vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData *faces);
+
+// The font of all texts; size is in pixels.
+void set_font(vtkTextProperty *property, int size);
+
+// The bytes of a PNG file with what the window last rendered; NULL if it could not be encoded.
+vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkRenderWindow *window);
+
+}  // namespace riis::vtk
