@@ -94,6 +94,12 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
   integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
 
+  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_LINEAR = 0
+  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_CUBIC = 1
+
+  integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
+  integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
+
   real(c_double), parameter :: RIIS_AUTO = -1.0_c_double
   real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.0e30_c_double
 
@@ -142,16 +148,18 @@ module riis_c
   type, bind(c) :: riis_surface_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: x, y, z           !< real(c_double), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
-                                     !! c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride     !< 3 for xyz(3, n_vertices)
+    type(c_ptr) :: x, y, z                !< real(c_double), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
+                                          !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride          !< 3 for xyz(3, n_vertices)
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: vertex_ids        !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
+    type(c_ptr) :: vertex_ids             !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
     integer(c_int32_t) :: vertex_id_bits
-    integer(c_int32_t) :: index_base !< 1 for ids that count as Fortran does
+    integer(c_int32_t) :: index_base      !< 1 for ids that count as Fortran does
     integer(c_int32_t) :: corners_per_face
     integer(c_int32_t) :: reserved
-    type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: leaflet_id             !< integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: vx, vy, vz             !< real(c_double), (n_vertices), or as x, y, z; or c_null_ptr
+    integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
   end type riis_surface_arrays
 
   !> The size of a surface, and the time that it took.
@@ -189,6 +197,9 @@ module riis_c
     real(c_double) :: far_distance
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
+    type(c_ptr) :: point_mask !< integer(c_int8_t), (n_points), or c_null_ptr
+    integer(c_int64_t) :: n_point_ids
+    type(c_ptr) :: point_ids  !< integer(c_int64_t), (n_point_ids), from 0; or c_null_ptr
   end type riis_closest_options
 
   !> c_null_ptr for what is not wanted
@@ -313,6 +324,67 @@ module riis_c
                                              !! these triangles
     real(c_double) :: seconds                !< wall time of riis_find_leaks
   end type riis_leaks
+
+  type, bind(c) :: riis_opening_table
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_keys
+    type(c_ptr) :: time    !< real(c_double), (n_keys)
+    type(c_ptr) :: opening !< real(c_double), (n_keys)
+    real(c_double) :: period
+    integer(c_int32_t) :: interpolation
+    integer(c_int32_t) :: reserved
+  end type riis_opening_table
+
+  type, bind(c) :: riis_opening_times
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: opening_start
+    real(c_double) :: opening_seconds
+    real(c_double) :: closing_start
+    real(c_double) :: closing_seconds
+    real(c_double) :: closed, open
+    real(c_double) :: period
+  end type riis_opening_times
+
+  type, bind(c) :: riis_opening_switch
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: opening_seconds
+    real(c_double) :: closing_seconds
+    real(c_double) :: open_above
+    real(c_double) :: close_below
+    real(c_double) :: filter_seconds
+    real(c_double) :: dwell_seconds
+  end type riis_opening_switch
+
+  type, bind(c) :: riis_opening_switch_state
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: time
+    real(c_double) :: opening, rate
+    real(c_double) :: progress
+    real(c_double) :: pressure_difference
+    real(c_double) :: flow
+    real(c_double) :: since
+    integer(c_int32_t) :: phase
+    integer(c_int32_t) :: reserved
+  end type riis_opening_switch_state
+
+  type, bind(c) :: riis_opening_angle
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: pressure_gain
+    real(c_double) :: flow_gain
+    real(c_double) :: friction
+    real(c_double) :: vortex_gain
+    real(c_double) :: angle_min
+    real(c_double) :: angle_max
+  end type riis_opening_angle
+
+  type, bind(c) :: riis_opening_angle_state
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: time
+    real(c_double) :: opening, rate
+    real(c_double) :: angle, angle_rate
+    real(c_double) :: pressure_difference
+    real(c_double) :: flow
+  end type riis_opening_angle_state
 
   ! -------------------------------------------------------------------------------------------------------------------
   ! What a log function looks like
@@ -994,6 +1066,108 @@ module riis_c
       type(c_ptr), intent(inout), optional :: node_id, length, distance
       integer(riis_status) :: status
     end function riis_mark_result_leaking_edges
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Laws of opening
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(table)
+    function riis_opening_table_init(table, struct_size) result(status) bind(c, name='riis_opening_table_init')
+      import :: c_int64_t, riis_opening_table, riis_status
+      implicit none
+      type(riis_opening_table), intent(inout) :: table
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_table_init
+
+    function riis_opening_from_table(table, time, opening, rate) result(status) bind(c, name='riis_opening_from_table')
+      import :: c_double, riis_opening_table, riis_status
+      implicit none
+      type(riis_opening_table), intent(in) :: table
+      real(c_double), value :: time
+      real(c_double), intent(inout), optional :: opening, rate
+      integer(riis_status) :: status
+    end function riis_opening_from_table
+
+    !>   struct_size  c_sizeof(times)
+    function riis_opening_times_init(times, struct_size) result(status) bind(c, name='riis_opening_times_init')
+      import :: c_int64_t, riis_opening_times, riis_status
+      implicit none
+      type(riis_opening_times), intent(inout) :: times
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_times_init
+
+    function riis_opening_from_times(times, time, opening, rate) result(status) bind(c, name='riis_opening_from_times')
+      import :: c_double, riis_opening_times, riis_status
+      implicit none
+      type(riis_opening_times), intent(in) :: times
+      real(c_double), value :: time
+      real(c_double), intent(inout), optional :: opening, rate
+      integer(riis_status) :: status
+    end function riis_opening_from_times
+
+    !>   struct_size  c_sizeof(law)
+    function riis_opening_switch_init(law, struct_size) result(status) bind(c, name='riis_opening_switch_init')
+      import :: c_int64_t, riis_opening_switch, riis_status
+      implicit none
+      type(riis_opening_switch), intent(inout) :: law
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_switch_init
+
+    !>   struct_size  c_sizeof(state)
+    function riis_opening_switch_state_init(state, struct_size) result(status) &
+        bind(c, name='riis_opening_switch_state_init')
+      import :: c_int64_t, riis_opening_switch_state, riis_status
+      implicit none
+      type(riis_opening_switch_state), intent(inout) :: state
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_switch_state_init
+
+    !>   now  another variable than before
+    function riis_opening_switch_advance(law, before, time, pressure_difference, flow, now) result(status) &
+        bind(c, name='riis_opening_switch_advance')
+      import :: c_double, riis_opening_switch, riis_opening_switch_state, riis_status
+      implicit none
+      type(riis_opening_switch), intent(in) :: law
+      type(riis_opening_switch_state), intent(in) :: before
+      real(c_double), value :: time, pressure_difference, flow
+      type(riis_opening_switch_state), intent(inout) :: now
+      integer(riis_status) :: status
+    end function riis_opening_switch_advance
+
+    !>   struct_size  c_sizeof(law)
+    function riis_opening_angle_init(law, struct_size) result(status) bind(c, name='riis_opening_angle_init')
+      import :: c_int64_t, riis_opening_angle, riis_status
+      implicit none
+      type(riis_opening_angle), intent(inout) :: law
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_angle_init
+
+    !>   struct_size  c_sizeof(state)
+    function riis_opening_angle_state_init(state, struct_size) result(status) &
+        bind(c, name='riis_opening_angle_state_init')
+      import :: c_int64_t, riis_opening_angle_state, riis_status
+      implicit none
+      type(riis_opening_angle_state), intent(inout) :: state
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_angle_state_init
+
+    !>   now  another variable than before
+    function riis_opening_angle_advance(law, before, time, pressure_difference, flow, now) result(status) &
+        bind(c, name='riis_opening_angle_advance')
+      import :: c_double, riis_opening_angle, riis_opening_angle_state, riis_status
+      implicit none
+      type(riis_opening_angle), intent(in) :: law
+      type(riis_opening_angle_state), intent(in) :: before
+      real(c_double), value :: time, pressure_difference, flow
+      type(riis_opening_angle_state), intent(inout) :: now
+      integer(riis_status) :: status
+    end function riis_opening_angle_advance
   end interface
 
   ! The C library's strlen, for riis_c_text.
