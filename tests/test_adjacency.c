@@ -233,26 +233,6 @@ static void one_cell_of_each_kind(void **state) {
   }
 }
 
-/* A rank of its own: no arrays at all, or nodes without cells. */
-static void nothing_makes_empty_rows(void **state) {
-  (void)state;
-  for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
-    riis_adjacency *adjacency = NULL;
-    pair_list none = {0};
-    riis_cells cells = cells_init();
-    cells.n_nodes = n_nodes;
-    CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
-    check_rows(adjacency, n_nodes, &none);
-    riis_adjacency_destroy(&adjacency);
-    riis_faces faces = faces_init();
-    faces.n_cells = n_nodes;
-    CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
-    check_rows(adjacency, n_nodes, &none);
-    riis_adjacency_destroy(&adjacency);
-    free_pairs(&none);
-  }
-}
-
 static void cells_that_are_refused(void **state) {
   (void)state;
   int32_t ids[12] = {0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5}, offsets[4] = {0, 4, 8, 12};
@@ -421,6 +401,26 @@ static void faces_in_every_layout(void **state) {
         }
     free_pairs(&expected);
     free(ends);
+  }
+}
+
+/* A rank without cells: no arrays at all. */
+static void nothing_makes_empty_rows(void **state) {
+  (void)state;
+  for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
+    riis_adjacency *adjacency = NULL;
+    pair_list none = {0};
+    riis_cells cells = cells_init();
+    cells.n_nodes = n_nodes;
+    CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
+    check_rows(adjacency, n_nodes, &none);
+    riis_adjacency_destroy(&adjacency);
+    riis_faces faces = faces_init();
+    faces.n_cells = n_nodes;
+    CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
+    check_rows(adjacency, n_nodes, &none);
+    riis_adjacency_destroy(&adjacency);
+    free_pairs(&none);
   }
 }
 
