@@ -5,8 +5,8 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_walk, twin_leaks, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, twin_layout, &
-    twin_n_layouts, twin_auto, twin_far_distance
+  public :: twin_list, twin_surface, twin_walk, twin_leaks, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
+    twin_layout, twin_n_layouts, twin_auto, twin_far_distance
 
   type, bind(c) :: twin_list
     integer(c_int64_t) :: n

@@ -20,11 +20,11 @@ for name in checks box c_twin; do
   "$flang" -O1 -c "$tests/$name.f90"
 done
 "$cc" -std=c11 -I"$source/include" -c "$tests/c_twin.c" -o c_twin_c.o
-for name in test_layout test_calls test_objects test_meshes test_marking error_stop; do
+for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_f2003 error_stop; do
   "$flang" -O1 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
 "$flang" -O1 -I"$source/fortran" "$tests/test_f77.f" ./riis*.o "${link[@]}" -o test_f77
-for name in test_layout test_calls test_objects test_meshes test_marking test_f77; do
+for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_f2003 test_f77; do
   echo "$name"
   "./$name"
 done

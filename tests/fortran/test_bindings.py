@@ -335,7 +335,7 @@ riis_valve_planted  What it does not say elsewhere.
         self.refuses("riis_valve_planted: no argument can have the name of the result, status")
 
     def test_no_semicolon(self):
-        self.plant(HEADER, "const double **distance);\n\n#ifdef __cplusplus", "const double **distance)\n\n#ifdef __cplusplus")
+        self.plant(HEADER, "_state *now);\n\n#ifdef __cplusplus", "_state *now)\n\n#ifdef __cplusplus")
         self.refuses("no semicolon ends what begins here")
 
 
