@@ -48,11 +48,11 @@
 !!   module was compiled with; leaflet_id, side and marks stay integer(int32). Compile these sources without gfortran's
 !!   -fno-automatic: local variables in static memory are not a thread's own, and texts of errors get lost.
 module riis
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_null_funptr, c_null_ptr, c_ptr, &
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_leaks, riis_c_text, riis_c_text_length, &
-    riis_last_error, &
+    riis_last_error, riis_band_sums, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
@@ -61,18 +61,20 @@ module riis
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE, &
+    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
+    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_version, &
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
   use riis_surfaces, only: riis_surface
   use riis_adjacencies, only: riis_adjacency
   use riis_meshes, only: riis_mesh
-  use riis_marking, only: riis_mark_result, riis_mark_nodes
+  use riis_marking, only: riis_mark_result, riis_mark_fields, riis_mark_nodes
   use riis_leaking, only: riis_find_leaks
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
-    riis_mark_result, riis_mark_nodes, riis_mark_stats, riis_find_leaks, riis_leaks
+    riis_mark_result, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks
   public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
   public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
     RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
@@ -83,6 +85,11 @@ module riis
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE
+  public :: RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
+    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT
+
+  integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids, for codes in
+                                                            !! Fortran 2003, which has no int64.
 
   !> The name of a status.
   interface riis_status_name

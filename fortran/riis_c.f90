@@ -82,6 +82,24 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_INSTRUCTIONS_AVX2 = 2
   integer(c_int32_t), parameter :: RIIS_INSTRUCTIONS_AVX512 = 3
 
+  integer(c_int32_t), parameter :: RIIS_FIELD_POINT = 1
+  integer(c_int32_t), parameter :: RIIS_FIELD_NORMAL = 2
+  integer(c_int32_t), parameter :: RIIS_FIELD_BARYCENTRIC = 4
+  integer(c_int32_t), parameter :: RIIS_FIELD_SIDE = 8
+  integer(c_int32_t), parameter :: RIIS_FIELD_RIM = 16
+  integer(c_int32_t), parameter :: RIIS_FIELD_UV = 32
+  integer(c_int32_t), parameter :: RIIS_FIELD_VELOCITY = 64
+  integer(c_int32_t), parameter :: RIIS_FIELD_PATCH = 128
+
+  integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
+  integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
+
+  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_LINEAR = 0
+  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_CUBIC = 1
+
+  integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
+  integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
+
   real(c_double), parameter :: RIIS_AUTO = -1.0_c_double
   real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.0e30_c_double
 
@@ -130,16 +148,18 @@ module riis_c
   type, bind(c) :: riis_surface_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: x, y, z           !< real(c_double), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
-                                     !! c_loc(xyz(2, 1)), ...
-    integer(c_int64_t) :: stride     !< 3 for xyz(3, n_vertices)
+    type(c_ptr) :: x, y, z                !< real(c_double), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
+                                          !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride          !< 3 for xyz(3, n_vertices)
     integer(c_int64_t) :: n_faces
-    type(c_ptr) :: vertex_ids        !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
+    type(c_ptr) :: vertex_ids             !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
     integer(c_int32_t) :: vertex_id_bits
-    integer(c_int32_t) :: index_base !< 1 for ids that count as Fortran does
+    integer(c_int32_t) :: index_base      !< 1 for ids that count as Fortran does
     integer(c_int32_t) :: corners_per_face
     integer(c_int32_t) :: reserved
-    type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: leaflet_id             !< integer(c_int32_t), (n_faces), or c_null_ptr
+    type(c_ptr) :: vx, vy, vz             !< real(c_double), (n_vertices), or as x, y, z; or c_null_ptr
+    integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
   end type riis_surface_arrays
 
   !> The size of a surface, and the time that it took.
@@ -177,6 +197,9 @@ module riis_c
     real(c_double) :: far_distance
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
+    type(c_ptr) :: point_mask !< integer(c_int8_t), (n_points), or c_null_ptr
+    integer(c_int64_t) :: n_point_ids
+    type(c_ptr) :: point_ids  !< integer(c_int64_t), (n_point_ids), from 0; or c_null_ptr
   end type riis_closest_options
 
   !> c_null_ptr for what is not wanted
@@ -238,7 +261,23 @@ module riis_c
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: instructions
     integer(c_int32_t) :: reserved
+    integer(c_int32_t) :: fields
+    integer(c_int32_t) :: reserved2
   end type riis_mark_options
+
+  !> c_null_ptr for fields that were not asked for, or with no nodes
+  type, bind(c) :: riis_mark_fields
+    integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
+    type(c_ptr) :: normal      !< real(c_double), (3, n_nodes), the unit normal of its triangle
+    type(c_ptr) :: barycentric !< real(c_double), (3, n_nodes), its weights of the triangle's vertices
+    type(c_ptr) :: uv          !< real(c_double), (2, n_nodes), its place on its patch
+    type(c_ptr) :: velocity    !< real(c_double), (3, n_nodes), the velocity of the surface there
+    type(c_ptr) :: side        !< integer(c_int32_t), (n_nodes), 1 downstream, -1 upstream, 0 on the surface or level
+                               !! with its rim
+    type(c_ptr) :: rim         !< integer(c_int32_t), (n_nodes), 1 if the point lies on the rim of the surface, else 0
+    type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_nodes), from 0
+  end type riis_mark_fields
 
   !> How the last marking went.
   type, bind(c) :: riis_mark_stats
@@ -257,6 +296,21 @@ module riis_c
                                          !! proof found
   end type riis_mark_stats
 
+  type, bind(c) :: riis_resistance
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: resistance
+    real(c_double) :: half_thickness
+    integer(c_int32_t) :: rim
+    integer(c_int32_t) :: reserved
+  end type riis_resistance
+
+  !> Sums over the nodes on either side of the surface: entry 1 is upstream, side -1, entry 2 downstream.
+  type, bind(c) :: riis_band_sums
+    real(c_double) :: sum(2)         !< of weight * value
+    real(c_double) :: weight(2)      !< of weight
+    integer(c_int64_t) :: n_nodes(2) !< nodes in the band
+  end type riis_band_sums
+
   !> An edge of the mesh leaks when it crosses the surface and neither of its nodes is marked: flow passes along it. An
   !! edge that crosses the surface and is at most two half thicknesses long always has a marked node.
   type, bind(c) :: riis_leaks
@@ -270,6 +324,67 @@ module riis_c
                                              !! these triangles
     real(c_double) :: seconds                !< wall time of riis_find_leaks
   end type riis_leaks
+
+  type, bind(c) :: riis_opening_table
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_keys
+    type(c_ptr) :: time    !< real(c_double), (n_keys)
+    type(c_ptr) :: opening !< real(c_double), (n_keys)
+    real(c_double) :: period
+    integer(c_int32_t) :: interpolation
+    integer(c_int32_t) :: reserved
+  end type riis_opening_table
+
+  type, bind(c) :: riis_opening_times
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: opening_start
+    real(c_double) :: opening_seconds
+    real(c_double) :: closing_start
+    real(c_double) :: closing_seconds
+    real(c_double) :: closed, open
+    real(c_double) :: period
+  end type riis_opening_times
+
+  type, bind(c) :: riis_opening_switch
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: opening_seconds
+    real(c_double) :: closing_seconds
+    real(c_double) :: open_above
+    real(c_double) :: close_below
+    real(c_double) :: filter_seconds
+    real(c_double) :: dwell_seconds
+  end type riis_opening_switch
+
+  type, bind(c) :: riis_opening_switch_state
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: time
+    real(c_double) :: opening, rate
+    real(c_double) :: progress
+    real(c_double) :: pressure_difference
+    real(c_double) :: flow
+    real(c_double) :: since
+    integer(c_int32_t) :: phase
+    integer(c_int32_t) :: reserved
+  end type riis_opening_switch_state
+
+  type, bind(c) :: riis_opening_angle
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: pressure_gain
+    real(c_double) :: flow_gain
+    real(c_double) :: friction
+    real(c_double) :: vortex_gain
+    real(c_double) :: angle_min
+    real(c_double) :: angle_max
+  end type riis_opening_angle
+
+  type, bind(c) :: riis_opening_angle_state
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: time
+    real(c_double) :: opening, rate
+    real(c_double) :: angle, angle_rate
+    real(c_double) :: pressure_difference
+    real(c_double) :: flow
+  end type riis_opening_angle_state
 
   ! -------------------------------------------------------------------------------------------------------------------
   ! What a log function looks like
@@ -339,6 +454,14 @@ module riis_c
       type(c_ptr), intent(inout) :: valve
       integer(riis_status) :: status
     end function riis_valve_create
+
+    function riis_valve_copy(valve, copy) result(status) bind(c, name='riis_valve_copy')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), intent(inout) :: copy
+      integer(riis_status) :: status
+    end function riis_valve_copy
 
     subroutine riis_valve_destroy(valve) bind(c, name='riis_valve_destroy')
       import :: c_ptr
@@ -478,6 +601,19 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update
 
+    !>   options         left out: those that the surface has
+    !!   options_before  left out: those of now
+    function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
+        bind(c, name='riis_surface_update_moving')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: valve, valve_before
+      real(c_double), value :: seconds
+      type(riis_surface_options), intent(in), optional :: options, options_before
+      integer(riis_status) :: status
+    end function riis_surface_update_moving
+
     !>   options  left out: those that the surface has
     function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
         bind(c, name='riis_surface_update_from_arrays')
@@ -525,6 +661,17 @@ module riis_c
       type(c_ptr), intent(inout), optional :: uv
       integer(riis_status) :: status
     end function riis_surface_vertex_parameters
+
+    !>   velocity  real(c_double), (3, n_vertices), c_null_ptr unless the last update gave velocities
+    function riis_surface_vertex_velocities(surface, n_vertices, velocity) result(status) &
+        bind(c, name='riis_surface_vertex_velocities')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: n_vertices
+      type(c_ptr), intent(inout), optional :: velocity
+      integer(riis_status) :: status
+    end function riis_surface_vertex_velocities
 
     !>   vertex_id             integer(c_int64_t), (3, n_triangles), from 0
     !!   triangle_id           integer(c_int64_t), (n_triangles)
@@ -785,6 +932,28 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_result_within_limit
 
+    !>   struct_size  c_sizeof(fields)
+    function riis_mark_result_marked_fields(result, fields, struct_size) result(status) &
+        bind(c, name='riis_mark_result_marked_fields')
+      import :: c_int64_t, c_ptr, riis_mark_fields, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      type(riis_mark_fields), intent(inout) :: fields
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_mark_result_marked_fields
+
+    !>   struct_size  c_sizeof(fields)
+    function riis_mark_result_within_limit_fields(result, fields, struct_size) result(status) &
+        bind(c, name='riis_mark_result_within_limit_fields')
+      import :: c_int64_t, c_ptr, riis_mark_fields, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      type(riis_mark_fields), intent(inout) :: fields
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_mark_result_within_limit_fields
+
     !>   mark, distance, triangle_id, leaflet_id  (n_nodes), contiguous, every entry is written
     function riis_mark_result_dense(result, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) &
         result(status) bind(c, name='riis_mark_result_dense')
@@ -809,6 +978,62 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_mark_result_stats
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Resistance
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(resistance)
+    function riis_resistance_init(resistance, struct_size) result(status) bind(c, name='riis_resistance_init')
+      import :: c_int64_t, riis_resistance, riis_status
+      implicit none
+      type(riis_resistance), intent(inout) :: resistance
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_resistance_init
+
+    !>   coefficient  (n_nodes), contiguous; added to at the nodes of the band
+    !!   momentum     (3, n_nodes), contiguous; added to at the nodes of the band
+    function riis_mark_result_add_resistance(result, resistance, n_nodes, coefficient, momentum) result(status) &
+        bind(c, name='riis_mark_result_add_resistance')
+      import :: c_double, c_int64_t, c_ptr, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      type(riis_resistance), intent(in) :: resistance
+      integer(c_int64_t), value :: n_nodes
+      real(c_double), intent(inout), optional :: coefficient(*), momentum(*)
+      integer(riis_status) :: status
+    end function riis_mark_result_add_resistance
+
+    !>   velocity  (3, n_nodes), contiguous
+    !!   weight    (n_nodes), contiguous
+    !!   force     added to
+    function riis_mark_result_add_reaction(result, resistance, n_nodes, velocity, weight, force) result(status) &
+        bind(c, name='riis_mark_result_add_reaction')
+      import :: c_double, c_int64_t, c_ptr, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      type(riis_resistance), intent(in) :: resistance
+      integer(c_int64_t), value :: n_nodes
+      real(c_double), intent(in) :: velocity(*), weight(*)
+      real(c_double), intent(inout) :: force(3)
+      integer(riis_status) :: status
+    end function riis_mark_result_add_reaction
+
+    !>   value, weight  (n_nodes), contiguous
+    !!   struct_size    c_sizeof(sums)
+    function riis_mark_result_band_sums(result, inner, outer, n_nodes, value, weight, sums, struct_size) &
+        result(status) bind(c, name='riis_mark_result_band_sums')
+      import :: c_double, c_int64_t, c_ptr, riis_band_sums, riis_status
+      implicit none
+      type(c_ptr), value :: result
+      real(c_double), value :: inner, outer
+      integer(c_int64_t), value :: n_nodes
+      real(c_double), intent(in) :: value(*), weight(*)
+      type(riis_band_sums), intent(inout) :: sums
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_mark_result_band_sums
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Leaks
@@ -841,6 +1066,108 @@ module riis_c
       type(c_ptr), intent(inout), optional :: node_id, length, distance
       integer(riis_status) :: status
     end function riis_mark_result_leaking_edges
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Laws of opening
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(table)
+    function riis_opening_table_init(table, struct_size) result(status) bind(c, name='riis_opening_table_init')
+      import :: c_int64_t, riis_opening_table, riis_status
+      implicit none
+      type(riis_opening_table), intent(inout) :: table
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_table_init
+
+    function riis_opening_from_table(table, time, opening, rate) result(status) bind(c, name='riis_opening_from_table')
+      import :: c_double, riis_opening_table, riis_status
+      implicit none
+      type(riis_opening_table), intent(in) :: table
+      real(c_double), value :: time
+      real(c_double), intent(inout), optional :: opening, rate
+      integer(riis_status) :: status
+    end function riis_opening_from_table
+
+    !>   struct_size  c_sizeof(times)
+    function riis_opening_times_init(times, struct_size) result(status) bind(c, name='riis_opening_times_init')
+      import :: c_int64_t, riis_opening_times, riis_status
+      implicit none
+      type(riis_opening_times), intent(inout) :: times
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_times_init
+
+    function riis_opening_from_times(times, time, opening, rate) result(status) bind(c, name='riis_opening_from_times')
+      import :: c_double, riis_opening_times, riis_status
+      implicit none
+      type(riis_opening_times), intent(in) :: times
+      real(c_double), value :: time
+      real(c_double), intent(inout), optional :: opening, rate
+      integer(riis_status) :: status
+    end function riis_opening_from_times
+
+    !>   struct_size  c_sizeof(law)
+    function riis_opening_switch_init(law, struct_size) result(status) bind(c, name='riis_opening_switch_init')
+      import :: c_int64_t, riis_opening_switch, riis_status
+      implicit none
+      type(riis_opening_switch), intent(inout) :: law
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_switch_init
+
+    !>   struct_size  c_sizeof(state)
+    function riis_opening_switch_state_init(state, struct_size) result(status) &
+        bind(c, name='riis_opening_switch_state_init')
+      import :: c_int64_t, riis_opening_switch_state, riis_status
+      implicit none
+      type(riis_opening_switch_state), intent(inout) :: state
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_switch_state_init
+
+    !>   now  another variable than before
+    function riis_opening_switch_advance(law, before, time, pressure_difference, flow, now) result(status) &
+        bind(c, name='riis_opening_switch_advance')
+      import :: c_double, riis_opening_switch, riis_opening_switch_state, riis_status
+      implicit none
+      type(riis_opening_switch), intent(in) :: law
+      type(riis_opening_switch_state), intent(in) :: before
+      real(c_double), value :: time, pressure_difference, flow
+      type(riis_opening_switch_state), intent(inout) :: now
+      integer(riis_status) :: status
+    end function riis_opening_switch_advance
+
+    !>   struct_size  c_sizeof(law)
+    function riis_opening_angle_init(law, struct_size) result(status) bind(c, name='riis_opening_angle_init')
+      import :: c_int64_t, riis_opening_angle, riis_status
+      implicit none
+      type(riis_opening_angle), intent(inout) :: law
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_angle_init
+
+    !>   struct_size  c_sizeof(state)
+    function riis_opening_angle_state_init(state, struct_size) result(status) &
+        bind(c, name='riis_opening_angle_state_init')
+      import :: c_int64_t, riis_opening_angle_state, riis_status
+      implicit none
+      type(riis_opening_angle_state), intent(inout) :: state
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_opening_angle_state_init
+
+    !>   now  another variable than before
+    function riis_opening_angle_advance(law, before, time, pressure_difference, flow, now) result(status) &
+        bind(c, name='riis_opening_angle_advance')
+      import :: c_double, riis_opening_angle, riis_opening_angle_state, riis_status
+      implicit none
+      type(riis_opening_angle), intent(in) :: law
+      type(riis_opening_angle_state), intent(in) :: before
+      real(c_double), value :: time, pressure_difference, flow
+      type(riis_opening_angle_state), intent(inout) :: now
+      integer(riis_status) :: status
+    end function riis_opening_angle_advance
   end interface
 
   ! The C library's strlen, for riis_c_text.

@@ -46,6 +46,22 @@ subroutine riisf_valve_create(kind, valve, status)
   if (status == RIIS_OK) valve = handle_of(c_handle)
 end subroutine riisf_valve_create
 
+!> Makes a second valve with the same parameters and states. Each is destroyed on its own.
+subroutine riisf_valve_copy(valve, copy, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, RIIS_OK, riis_valve_copy
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Created.
+  integer(int64), intent(inout) :: copy                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_valve_copy(c_handle_of(valve), c_handle)
+  if (status == RIIS_OK) copy = handle_of(c_handle)
+end subroutine riisf_valve_copy
+
 !> Sets a parameter, which has 1 or 3 values. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER
 !! naming the parameter and the value; the valve is then unchanged.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
@@ -197,6 +213,58 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 
+!> As riisf_surface_update, with the same triangles, and gives every vertex a velocity: from the point with the same patch, u
+!! and v of the state before to the vertex, over the time between. Errors: as of riisf_surface_create;
+!! RIIS_INVALID_ARGUMENT for seconds out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
+subroutine riisf_surface_update_moving(surface, valve, valve_before, seconds, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_update_moving
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
+  real(c_double), intent(in) :: seconds                   !< From valve_before to valve, 1e-30 to 1e30, or negative as time
+                                                          !! goes back.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), seconds)
+end subroutine riisf_surface_update_moving
+
+!> The same for a surface that is placed otherwise, now and before.
+subroutine riisf_surface_place_moving(surface, valve, valve_before, seconds, half_thickness, tolerance, scale, &
+    rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
+    translation_before, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update_moving
+  use riis_support, only: c_handle_of, get_placement
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
+  real(c_double), intent(in) :: seconds                   !< From valve_before to valve.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
+                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  real(c_double), intent(in) :: scale_before              !< At the state before; so the next three.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
+  real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options, before
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  if (status == RIIS_OK) status = get_placement(half_thickness, tolerance, scale_before, rotation_axis_before, &
+    rotation_angle_before, translation_before, before)
+  if (status /= RIIS_OK) return
+  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), seconds, options, &
+    before)
+end subroutine riisf_surface_place_moving
+
 !> Frees what the surface holds and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
@@ -219,7 +287,7 @@ subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use riis_c, only: riis_status, RIIS_OK, riis_mesh_create
   use riis_support, only: handle_of, location_of
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< >= 1.
+  integer(int32), intent(in) :: n_nodes                   !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -240,7 +308,7 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   use riis_c, only: riis_status, RIIS_OK, riis_mesh_create
   use riis_support, only: handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< >= 1.
+  integer(int64), intent(in) :: n_nodes                   !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -263,7 +331,7 @@ subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int32), intent(in) :: n_nodes                   !< >= 1.
+  integer(int32), intent(in) :: n_nodes                   !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -281,7 +349,7 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int64), intent(in) :: n_nodes                   !< >= 1.
+  integer(int64), intent(in) :: n_nodes                   !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).

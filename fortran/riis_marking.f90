@@ -4,13 +4,28 @@
 module riis_marking
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
-  use riis_c, c_mark_nodes => riis_mark_nodes
+  use riis_c, c_mark_nodes => riis_mark_nodes, c_mark_fields => riis_mark_fields
   use riis_support
   use riis_surfaces, only: riis_surface
   use riis_meshes, only: riis_mesh
   implicit none
   private
-  public :: riis_mark_result, riis_mark_nodes
+  public :: riis_mark_result, riis_mark_fields, riis_mark_nodes
+
+  !> Pointers to the fields of the closest points that riis_mark_nodes was asked for, by %marked_fields or
+  !! %within_limit_fields. The result owns the arrays; they count from 1. The size of a field that was not asked for is 0.
+  type :: riis_mark_fields
+    integer(int64) :: n_nodes = 0                           !< How many nodes.
+    real(c_double), pointer :: point(:, :) => null()        !< (3, n_nodes): the closest point of the surface.
+    real(c_double), pointer :: normal(:, :) => null()       !< (3, n_nodes): the unit normal of its triangle.
+    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): its weights of the triangle's vertices.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): its place on its patch, in [0, 1].
+    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the velocity of the surface there.
+    integer(int32), pointer :: side(:) => null()            !< (n_nodes): 1 downstream, -1 upstream, 0 on the surface or level
+                                                            !! with its rim.
+    integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the point lies on the rim of the surface, else 0.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes), from 0, as %triangles of the surface gives it.
+  end type riis_mark_fields
 
   !> The nodes that were found and where the surface is from them. Empty until riis_mark_nodes, which is to be called with
   !! the same variable every time step, since its memory is kept; empty again after %destroy, which has to be called. May be
@@ -25,6 +40,11 @@ module riis_marking
     procedure, non_overridable :: within_limit => result_within_limit   !< The same of those within the distance limit.
     generic :: marked_nodes => marked_int32, marked_int64               !< Copies of the marked nodes, counted from 1.
     generic :: nodes_within_limit => within_int32, within_int64         !< Copies of those within the limit, counted from 1.
+    procedure, non_overridable :: marked_fields => result_marked_fields !< Pointers to the marked nodes' fields.
+    procedure, non_overridable :: within_limit_fields => result_within_limit_fields !< The same of those within the limit.
+    procedure, non_overridable :: add_resistance => result_add_resistance !< Adds K and K u_surface to the caller's arrays.
+    procedure, non_overridable :: add_reaction => result_add_reaction   !< Adds the force of the flow on the surface.
+    procedure, non_overridable :: band_sums => result_band_sums         !< Sums on either side of the surface.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< One entry a node, into the caller's arrays.
     procedure, non_overridable :: get_stats => result_get_stats         !< How the last marking went.
     procedure, non_overridable :: leaking_edges => result_leaking_edges !< Pointers to what riis_find_leaks found.
@@ -56,7 +76,7 @@ module riis_marking
   end type node_list
 
   ! What a pointer points to where there is nothing: its size can be asked for.
-  real(c_double), target, save :: no_reals(0)
+  real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0), no_edges(2, 0)
 
@@ -66,7 +86,7 @@ contains
   !! them into the result, whose former content is replaced; pointers got from it before end. Errors: RIIS_INVALID_MESH for
   !! a coordinate that was made non-finite without %update; RIIS_INVALID_ARGUMENT for an option out of range. The content of
   !! the result is then as it was, though its arrays may have moved.
-  subroutine mark_nodes_logical(surface, mesh, result, distance_limit, node_mask, search, n_threads, status)
+  subroutine mark_nodes_logical(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
     class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
     class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
     class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
@@ -78,6 +98,8 @@ contains
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
                                                             !! calling thread may use.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
+                                                            !! closest points, for %marked_fields. Default 0: nothing.
     integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
     integer :: stat
     integer(riis_status) :: code
@@ -87,12 +109,12 @@ contains
       code = out_of_memory(stat)
       if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask)
     end if
-    call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, code)
+    call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_logical
 
   !> The same with a mask of bytes, which is not copied, unless it is a section that is not contiguous.
-  subroutine mark_nodes_int8(surface, mesh, result, distance_limit, node_mask, search, n_threads, status)
+  subroutine mark_nodes_int8(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
     class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
     class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
     class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
@@ -103,14 +125,16 @@ contains
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
                                                             !! calling thread may use.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
+                                                            !! closest points, for %marked_fields. Default 0: nothing.
     integer(riis_status) :: code
     code = RIIS_OK
-    call mark(surface, mesh, result, distance_limit, node_mask, search, n_threads, code)
+    call mark(surface, mesh, result, distance_limit, node_mask, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_int8
 
   !> The same with a mask of integers, which is copied.
-  subroutine mark_nodes_int32(surface, mesh, result, distance_limit, node_mask, search, n_threads, status)
+  subroutine mark_nodes_int32(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
     class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
     class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
     class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
@@ -121,24 +145,26 @@ contains
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
                                                             !! calling thread may use.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
+                                                            !! closest points, for %marked_fields. Default 0: nothing.
     integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
     integer :: stat
     integer(riis_status) :: code
     allocate (bytes(size(node_mask, kind=int64)), stat=stat)
     code = out_of_memory(stat)
     if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask /= 0)
-    call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, code)
+    call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_int32
 
   ! What all specifics of riis_mark_nodes have in common; does nothing after an error.
-  subroutine mark(surface, mesh, result, distance_limit, mask, search, n_threads, code)
+  subroutine mark(surface, mesh, result, distance_limit, mask, search, n_threads, fields, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
     class(riis_mark_result), intent(inout) :: result
     real(c_double), intent(in), optional :: distance_limit
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
-    class(*), intent(in), optional :: search, n_threads
+    class(*), intent(in), optional :: search, n_threads, fields
     integer(riis_status), intent(inout) :: code
     type(riis_mark_options) :: options
     logical :: was_empty
@@ -149,6 +175,7 @@ contains
     if (present(distance_limit)) options%distance_limit = distance_limit
     call get_integer(search, 'search', options%search, code)
     call get_integer(n_threads, 'n_threads', options%n_threads, code)
+    call get_integer(fields, 'fields', options%fields, code)
     if (code == RIIS_OK .and. present(mask)) then
       code = check_size(size(mask, kind=int64), mesh%n_nodes(), 'node_mask', 'nodes')
       if (size(mask, kind=int64) > 0) options%node_mask = c_loc(mask)
@@ -500,6 +527,175 @@ contains
     if (code == RIIS_OK) mark = bytes /= 0
     call finish(code, status)
   end subroutine result_dense_logical
+
+  !> Points to the result's own fields of the marked nodes, in the order of %marked: no copy. Valid until the next
+  !! riis_mark_nodes with the result or its destruction; not to be written to. On an error all sizes are 0.
+  subroutine result_marked_fields(this, fields, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    type(riis_mark_fields), intent(inout) :: fields         !< Every component is set.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_mark_fields) :: made
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = riis_mark_result_marked_fields(this%handle, made, c_sizeof(made))
+    if (code == RIIS_OK) then
+      call point_to_fields(made, fields)
+    else
+      call point_to_fields(c_mark_fields(0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, &
+        c_null_ptr, c_null_ptr), fields)
+    end if
+    call finish(code, status)
+  end subroutine result_marked_fields
+
+  !> The same for all nodes within the distance limit, in the order of %within_limit.
+  subroutine result_within_limit_fields(this, fields, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    type(riis_mark_fields), intent(inout) :: fields         !< Every component is set.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_mark_fields) :: made
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = riis_mark_result_within_limit_fields(this%handle, made, c_sizeof(made))
+    if (code == RIIS_OK) then
+      call point_to_fields(made, fields)
+    else
+      call point_to_fields(c_mark_fields(0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, &
+        c_null_ptr, c_null_ptr), fields)
+    end if
+    call finish(code, status)
+  end subroutine result_within_limit_fields
+
+  ! Points to what the library has; there is no address of a field that was not asked for, nor in one of no nodes.
+  subroutine point_to_fields(made, fields)
+    type(c_mark_fields), intent(in) :: made
+    type(riis_mark_fields), intent(inout) :: fields
+    fields%n_nodes = made%n_nodes
+    fields%point => no_vectors
+    if (c_associated(made%point)) call c_f_pointer(made%point, fields%point, [3_int64, made%n_nodes])
+    fields%normal => no_vectors
+    if (c_associated(made%normal)) call c_f_pointer(made%normal, fields%normal, [3_int64, made%n_nodes])
+    fields%barycentric => no_vectors
+    if (c_associated(made%barycentric)) call c_f_pointer(made%barycentric, fields%barycentric, [3_int64, made%n_nodes])
+    fields%velocity => no_vectors
+    if (c_associated(made%velocity)) call c_f_pointer(made%velocity, fields%velocity, [3_int64, made%n_nodes])
+    fields%uv => no_uv
+    if (c_associated(made%uv)) call c_f_pointer(made%uv, fields%uv, [2_int64, made%n_nodes])
+    fields%side => no_int32
+    if (c_associated(made%side)) call c_f_pointer(made%side, fields%side, [made%n_nodes])
+    fields%rim => no_int32
+    if (c_associated(made%rim)) call c_f_pointer(made%rim, fields%rim, [made%n_nodes])
+    fields%patch_id => no_int32
+    if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, fields%patch_id, [made%n_nodes])
+  end subroutine point_to_fields
+
+  ! The resistance as the library takes it; does nothing after an error.
+  subroutine get_resistance(resistance, half_thickness, rim, made, code)
+    real(c_double), intent(in) :: resistance
+    real(c_double), intent(in), optional :: half_thickness
+    class(*), intent(in), optional :: rim
+    type(riis_resistance), intent(inout) :: made
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = riis_resistance_init(made, c_sizeof(made))
+    made%resistance = resistance
+    if (present(half_thickness)) made%half_thickness = half_thickness
+    call get_integer(rim, 'rim', made%rim, code)
+  end subroutine get_resistance
+
+  ! A vector for each node: its shape is (3, n_nodes).
+  function check_vectors(vectors, n, name) result(code)
+    real(c_double), intent(in) :: vectors(:, :)
+    integer(int64), intent(in) :: n
+    character(len=*), intent(in) :: name
+    integer(riis_status) :: code
+    code = RIIS_OK
+    if (size(vectors, 1) /= 3 .or. size(vectors, 2, int64) /= n) code = refuse('the shape of ' // name // ' is (' // &
+      text_of(size(vectors, 1)) // ', ' // text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(n) // ')')
+  end function check_vectors
+
+  !> Adds the resistance K = (R / eps) delta(d), and K u_surface, to arrays of the caller's, so that several valves add up: a
+  !! scheme takes (sum of K) u - (sum of K u_surface). delta(d) is (1 + cos(pi d / eps)) / (2 eps) at the distance d < eps.
+  !! Errors: RIIS_INVALID_ARGUMENT for an argument out of range, another number of nodes, or a field that the result lacks;
+  !! the arrays are then as they were.
+  subroutine result_add_resistance(this, resistance, coefficient, momentum, half_thickness, rim, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(inout), contiguous, optional :: coefficient(:) !< (n_nodes): K is added.
+    real(c_double), intent(inout), contiguous, optional :: momentum(:, :) !< (3, n_nodes): K u_surface is added; needs
+                                                            !! RIIS_FIELD_VELOCITY.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_resistance) :: made
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = -1
+    code = check_created(this%handle, 'the result')
+    if (present(coefficient)) n = size(coefficient, kind=int64)
+    if (code == RIIS_OK .and. present(momentum)) then
+      if (n < 0) n = size(momentum, 2, int64)
+      code = check_vectors(momentum, n, 'momentum')
+    end if
+    if (code == RIIS_OK .and. n < 0) code = refuse('none of coefficient and momentum is given')
+    call get_resistance(resistance, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = riis_mark_result_add_resistance(this%handle, made, n, coefficient, momentum)
+    call finish(code, status)
+  end subroutine result_add_resistance
+
+  !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
+  !! u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as of %add_resistance.
+  subroutine result_add_reaction(this, resistance, velocity, weight, force, half_thickness, rim, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in), contiguous :: velocity(:, :) !< (3, n_nodes), of the flow.
+    real(c_double), intent(in), contiguous :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
+                                                            !! other ranks.
+    real(c_double), intent(inout) :: force(:)               !< (3): added to.
+    real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
+                                                            !! RIIS_AUTO: the half thickness of the marking.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
+                                                            !! RIIS_FIELD_RIM.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_resistance) :: made
+    real(c_double) :: sum_of_forces(3)
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(weight, kind=int64)
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
+    if (code == RIIS_OK .and. size(force) /= 3) &
+      code = refuse('the size of force is ' // text_of(size(force)) // '; it must be 3')
+    call get_resistance(resistance, half_thickness, rim, made, code)
+    if (code == RIIS_OK) then
+      sum_of_forces = force
+      code = riis_mark_result_add_reaction(this%handle, made, n, velocity, weight, sum_of_forces)
+    end if
+    if (code == RIIS_OK) force = sum_of_forces
+    call finish(code, status)
+  end subroutine result_add_reaction
+
+  !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest point
+  !! is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning. Errors:
+  !! RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the result lacks.
+  subroutine result_band_sums(this, inner, outer, value, weight, sums, status)
+    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
+    real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+    real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+    real(c_double), intent(in), contiguous :: value(:)      !< (n_nodes).
+    real(c_double), intent(in), contiguous :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
+                                                            !! other ranks.
+    type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int64) :: n
+    integer(riis_status) :: code
+    n = size(value, kind=int64)
+    code = check_created(this%handle, 'the result')
+    if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')
+    if (code == RIIS_OK) &
+      code = riis_mark_result_band_sums(this%handle, inner, outer, n, value, weight, sums, c_sizeof(sums))
+    call finish(code, status)
+  end subroutine result_band_sums
 
   !> How the last marking went.
   subroutine result_get_stats(this, stats, status)

@@ -94,7 +94,7 @@ contains
   !! compiler can check that there are so many.
   subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Empty before.
-    integer(int32), intent(in) :: n_nodes                   !< >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< >= 0.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
@@ -109,7 +109,7 @@ contains
   !> The same for integer(int64).
   subroutine mesh_create_first_int64(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Empty before.
-    integer(int64), intent(in) :: n_nodes                   !< >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< >= 0.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
@@ -151,7 +151,7 @@ contains
   !> The same for coordinates in an array of a derived type.
   subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int32), intent(in) :: n_nodes                   !< >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< >= 0.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
@@ -166,7 +166,7 @@ contains
   !> The same for integer(int64).
   subroutine mesh_update_first_int64(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(int64), intent(in) :: n_nodes                   !< >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< >= 0.
     real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.

@@ -26,11 +26,13 @@ module riis_surfaces
     generic :: create_from_arrays => create_xyz_int32, create_xyz_int64, create_x_y_z_int32, create_x_y_z_int64
                                                                !< From the caller's triangles or quads.
     procedure, non_overridable :: update => surface_update              !< For a valve that moved.
+    procedure, non_overridable :: update_moving => surface_update_moving !< The same, with the velocity of every vertex.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
                                                                !< For the caller's triangles or quads that moved.
     procedure, non_overridable :: get_info => surface_get_info          !< Counts, bounds, area, times.
     procedure, non_overridable :: vertices => surface_vertices          !< The vertices.
     procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Where they lie on their patches.
+    procedure, non_overridable :: vertex_velocities => surface_vertex_velocities !< How fast they move.
     procedure, non_overridable :: triangles => surface_triangles        !< The triangles.
     procedure, non_overridable :: closest_point => surface_closest_point !< Of one point.
     generic :: closest_points => closest_points_xyz, closest_points_x_y_z !< Of many points, in parallel.
@@ -130,6 +132,58 @@ contains
     end if
     call finish(code, status)
   end subroutine surface_update
+
+  !> Replaces the surface as %update does, with the same triangles to the last bit, and gives every vertex a velocity: from the
+  !! point with the same patch, u and v of an earlier state to the vertex, over the time between. Nothing is remembered from
+  !! call to call. A valve at rest is its own state before. Errors: as of %update; RIIS_INVALID_ARGUMENT for seconds out of
+  !! range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
+  subroutine surface_update_moving(this, valve, valve_before, seconds, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, flip_normals, distance, distance_tolerance, n_threads, scale_before, &
+      rotation_axis_before, rotation_angle_before, translation_before, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
+    class(riis_valve), intent(in) :: valve_before           !< The state before: of the same kind; a valve from patches has the
+                                                            !! same curves and sides. Read during the call only.
+    real(c_double), intent(in) :: seconds                   !< From valve_before to valve, 1e-30 to 1e30, or negative as time
+                                                            !! goes back.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
+    real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    real(c_double), intent(in), optional :: scale_before    !< At the state before. Default: as now; so the next three.
+    real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
+    real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(riis_surface_options) :: options, before
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
+    if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
+    if (code == RIIS_OK) then
+      options = this%options
+      call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+        flip_normals, code)
+      if (present(distance)) options%distance = distance
+      if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
+      if (present(n_threads)) options%n_threads = n_threads
+      before = options
+      if (present(scale_before)) before%scale = scale_before
+      if (present(rotation_angle_before)) before%rotation_angle = rotation_angle_before
+      call set_vector(rotation_axis_before, 'rotation_axis_before', before%rotation_axis, code)
+      call set_vector(translation_before, 'translation_before', before%translation, code)
+      if (code == RIIS_OK) code = riis_surface_update_moving(this%handle, valve%c_handle(), valve_before%c_handle(), seconds, &
+        options, before)
+      if (code == RIIS_OK) this%options = options
+    end if
+    call finish(code, status)
+  end subroutine surface_update_moving
 
   !> Makes a surface from the caller's triangles or quads, which are read during the call only; vertex_ids and leaflet_id
   !! are copied for it if they are sections that are not contiguous. The winding stays the caller's and makes the normal by
@@ -529,6 +583,23 @@ contains
     if (c_associated(location)) call c_f_pointer(location, uv, [2_int64, n])
     call finish(code, status)
   end subroutine surface_vertex_parameters
+
+  !> Points to the velocity of each vertex, after placement: no copy. Valid as %vertices; not to be written to.
+  subroutine surface_vertex_velocities(this, velocity, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), pointer, intent(out) :: velocity(:, :)  !< (3, n_vertices); (3, 0) unless the last update gave velocities.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    type(c_ptr) :: location
+    integer(int64) :: n
+    integer(riis_status) :: code
+    velocity => no_points
+    location = c_null_ptr
+    n = 0
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_vertex_velocities(this%handle, n, location)
+    if (c_associated(location)) call c_f_pointer(location, velocity, [3_int64, n])
+    call finish(code, status)
+  end subroutine surface_vertex_velocities
 
   !> Points to the surface's own triangles, those that closest points are sought on: no copy. Valid until its next update or
   !! its destruction; not to be written to. Sizes are 0 on an error.

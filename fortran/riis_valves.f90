@@ -28,6 +28,7 @@ module riis_valves
   contains
     procedure, non_overridable :: create => valve_create                !< By the name of its kind.
     generic :: create_from_patches => from_patches_int32, from_patches_int64 !< The caller's own valve.
+    procedure, non_overridable :: copy => valve_copy                    !< Makes a second valve like it.
     generic :: set => set_scalar, set_vector                            !< A parameter's value or values.
     generic :: get => get_scalar, get_vector                            !< A parameter's value or values.
     procedure, non_overridable :: set_open_state => valve_set_open_state !< A second state to open to.
@@ -60,6 +61,18 @@ contains
     if (code == RIIS_OK) code = riis_valve_create(riis_c_string(kind), this%handle)
     call finish(code, status)
   end subroutine valve_create
+
+  !> Makes a second valve with the same parameters, patches and states. Each is destroyed on its own.
+  subroutine valve_copy(this, copy, status)
+    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(inout) :: copy                !< Empty before.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status) :: code
+    code = check_created(this%handle, 'the valve')
+    if (code == RIIS_OK) code = check_not_created(copy%handle, 'copy')
+    if (code == RIIS_OK) code = riis_valve_copy(this%handle, copy%handle)
+    call finish(code, status)
+  end subroutine valve_copy
 
   !> Makes a valve from Coons patches by their four boundary curves, such as a prosthesis. Its only parameter is
   !! 'opening'. A patch's sides are named by the parameter that is constant on them; the sides v = 0 and v = 1 run with u,

@@ -252,10 +252,9 @@ static void cells_that_are_refused(void **state) {
     cells.change;                                                                       \
     CHECK_REFUSED(status, parts, riis_adjacency_create_from_cells(&cells, &adjacency)); \
   } while (0)
-  REFUSED_WITH(n_nodes = 0, RIIS_INVALID_ARGUMENT, "cells.n_nodes is 0");
+  REFUSED_WITH(n_nodes = 0, RIIS_INVALID_MESH, "node 0 of cell 0 is 0; there are nodes 0 to -1");
   REFUSED_WITH(n_nodes = -3, RIIS_INVALID_ARGUMENT, "cells.n_nodes is -3");
   REFUSED_WITH(n_nodes = INT64_MAX, RIIS_INVALID_ARGUMENT, "cells.n_nodes is 9223372036854775807");
-  REFUSED_WITH(n_cells = 0, RIIS_INVALID_ARGUMENT, "cells.n_cells is 0");
   REFUSED_WITH(n_cells = INT64_MIN, RIIS_INVALID_ARGUMENT, "cells.n_cells is -9223372036854775808");
   REFUSED_WITH(node_ids = NULL, RIIS_INVALID_ARGUMENT, "cells.node_ids|NULL");
   REFUSED_WITH(id_bits = 16, RIIS_INVALID_ARGUMENT, "cells.id_bits is 16|32 or 64");
@@ -405,6 +404,26 @@ static void faces_in_every_layout(void **state) {
   }
 }
 
+/* A rank without cells: no arrays at all. */
+static void nothing_makes_empty_rows(void **state) {
+  (void)state;
+  for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
+    riis_adjacency *adjacency = NULL;
+    pair_list none = {0};
+    riis_cells cells = cells_init();
+    cells.n_nodes = n_nodes;
+    CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
+    check_rows(adjacency, n_nodes, &none);
+    riis_adjacency_destroy(&adjacency);
+    riis_faces faces = faces_init();
+    faces.n_cells = n_nodes;
+    CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
+    check_rows(adjacency, n_nodes, &none);
+    riis_adjacency_destroy(&adjacency);
+    free_pairs(&none);
+  }
+}
+
 static void faces_that_are_refused(void **state) {
   (void)state;
   int32_t owner[3] = {0, 1, 2}, neighbor[3] = {1, 2, -1};
@@ -425,7 +444,7 @@ static void faces_that_are_refused(void **state) {
     faces.change;                                                                       \
     CHECK_REFUSED(status, parts, riis_adjacency_create_from_faces(&faces, &adjacency)); \
   } while (0)
-  REFUSED_WITH(n_cells = 0, RIIS_INVALID_ARGUMENT, "faces.n_cells is 0");
+  REFUSED_WITH(n_cells = 0, RIIS_INVALID_MESH, "owner of face 0 is 0; there are cells 0 to -1");
   REFUSED_WITH(n_cells = INT64_MAX, RIIS_INVALID_ARGUMENT, "faces.n_cells is 9223372036854775807");
   REFUSED_WITH(n_faces = -1, RIIS_INVALID_ARGUMENT, "faces.n_faces is -1");
   REFUSED_WITH(owner = NULL, RIIS_INVALID_ARGUMENT, "faces.owner|NULL");
@@ -681,6 +700,7 @@ static void when_an_adjacency_goes(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_of_every_kind),    cmocka_unit_test(one_cell_of_each_kind),
+      cmocka_unit_test(nothing_makes_empty_rows),
       cmocka_unit_test(cells_that_are_refused), cmocka_unit_test(wildest_integers_are_refused),
       cmocka_unit_test(faces_in_every_layout),  cmocka_unit_test(faces_that_are_refused),
       cmocka_unit_test(grids_of_any_dimension), cmocka_unit_test(grids_that_are_refused),

@@ -309,7 +309,6 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   CHECK_OK(riis_closest_options_init(&options, sizeof options));
   CHECK_OK(riis_closest_arrays_init(&out, sizeof out));
   out.distance = distance;
-  CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is 0", riis_mesh_create(0, xyz, xyz, xyz, 1, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold",
                 riis_mesh_create(INT64_C(1) << 40, xyz, xyz, xyz, INT64_C(1) << 20, &mesh));
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "n_nodes is 1099511627777|1099511627776",
@@ -386,7 +385,9 @@ static void struct_sizes_are_checked(void **state) {
   riis_surface_options options;
   memset(&options, 0x5a, sizeof options);
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 95|96", riis_surface_options_init(&options, 95));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 120|0.1.0", riis_surface_options_init(&options, 120));
+  char parts[40];
+  snprintf(parts, sizeof parts, "options is 120|riis %s ", riis_version_string());
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 120));
   assert_int_equal(options.zero_area, 0x5a5a5a5a); /* untouched */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;

@@ -27,7 +27,8 @@ list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 (cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
 refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
 grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"
-refused '(0.1.0): riis_mesh_create' "$scratch/new.symbols" "$header"
+version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$header" | paste -s -d .)
+refused "($version): riis_mesh_create" "$scratch/new.symbols" "$header"
 sed 's/^riis_mesh_create .*/riis_mesh_create 9.0.0/' "$list" >"$scratch/later.symbols"
 refused 'has something since 9.0.0' "$scratch/later.symbols" "$header"
 sed 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$header" >"$scratch/riis.h"

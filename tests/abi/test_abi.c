@@ -59,7 +59,7 @@ static void test_structs(void **state) {
   FIELD(riis_surface_options, n_threads, 100, 4);
   FIELD(riis_surface_options, distance_tolerance, 104, 8);
 
-  SIZE(riis_surface_arrays, 88);
+  SIZE(riis_surface_arrays, 120);
   FIELD(riis_surface_arrays, struct_size, 0, 8);
   FIELD(riis_surface_arrays, n_vertices, 8, 8);
   FIELD(riis_surface_arrays, x, 16, 8);
@@ -73,6 +73,10 @@ static void test_structs(void **state) {
   FIELD(riis_surface_arrays, corners_per_face, 72, 4);
   FIELD(riis_surface_arrays, reserved, 76, 4);
   FIELD(riis_surface_arrays, leaflet_id, 80, 8);
+  FIELD(riis_surface_arrays, vx, 88, 8);
+  FIELD(riis_surface_arrays, vy, 96, 8);
+  FIELD(riis_surface_arrays, vz, 104, 8);
+  FIELD(riis_surface_arrays, velocity_stride, 112, 8);
 
   SIZE(riis_surface_info, 104);
   FIELD(riis_surface_info, n_vertices, 0, 8);
@@ -94,12 +98,15 @@ static void test_structs(void **state) {
   FIELD(riis_closest, leaflet_id, 88, 4);
   FIELD(riis_closest, side, 92, 4);
 
-  SIZE(riis_closest_options, 32);
+  SIZE(riis_closest_options, 56);
   FIELD(riis_closest_options, struct_size, 0, 8);
   FIELD(riis_closest_options, distance_limit, 8, 8);
   FIELD(riis_closest_options, far_distance, 16, 8);
   FIELD(riis_closest_options, n_threads, 24, 4);
   FIELD(riis_closest_options, reserved, 28, 4);
+  FIELD(riis_closest_options, point_mask, 32, 8);
+  FIELD(riis_closest_options, n_point_ids, 40, 8);
+  FIELD(riis_closest_options, point_ids, 48, 8);
 
   SIZE(riis_closest_arrays, 64);
   FIELD(riis_closest_arrays, struct_size, 0, 8);
@@ -145,7 +152,7 @@ static void test_structs(void **state) {
   FIELD(riis_faces, n_threads, 56, 4);
   FIELD(riis_faces, reserved, 60, 4);
 
-  SIZE(riis_mark_options, 40);
+  SIZE(riis_mark_options, 48);
   FIELD(riis_mark_options, struct_size, 0, 8);
   FIELD(riis_mark_options, distance_limit, 8, 8);
   FIELD(riis_mark_options, node_mask, 16, 8);
@@ -153,6 +160,8 @@ static void test_structs(void **state) {
   FIELD(riis_mark_options, n_threads, 28, 4);
   FIELD(riis_mark_options, instructions, 32, 4);
   FIELD(riis_mark_options, reserved, 36, 4);
+  FIELD(riis_mark_options, fields, 40, 4);
+  FIELD(riis_mark_options, reserved2, 44, 4);
 
   SIZE(riis_mark_stats, 64);
   FIELD(riis_mark_stats, n_nodes, 0, 8);
@@ -173,6 +182,88 @@ static void test_structs(void **state) {
   FIELD(riis_leaks, longest_middle, 32, 24);
   FIELD(riis_leaks, half_thickness, 56, 8);
   FIELD(riis_leaks, seconds, 64, 8);
+
+  SIZE(riis_mark_fields, 72);
+  FIELD(riis_mark_fields, n_nodes, 0, 8);
+  FIELD(riis_mark_fields, point, 8, 8);
+  FIELD(riis_mark_fields, normal, 16, 8);
+  FIELD(riis_mark_fields, barycentric, 24, 8);
+  FIELD(riis_mark_fields, uv, 32, 8);
+  FIELD(riis_mark_fields, velocity, 40, 8);
+  FIELD(riis_mark_fields, side, 48, 8);
+  FIELD(riis_mark_fields, rim, 56, 8);
+  FIELD(riis_mark_fields, patch_id, 64, 8);
+
+  SIZE(riis_resistance, 32);
+  FIELD(riis_resistance, struct_size, 0, 8);
+  FIELD(riis_resistance, resistance, 8, 8);
+  FIELD(riis_resistance, half_thickness, 16, 8);
+  FIELD(riis_resistance, rim, 24, 4);
+  FIELD(riis_resistance, reserved, 28, 4);
+
+  SIZE(riis_band_sums, 48);
+  FIELD(riis_band_sums, sum, 0, 16);
+  FIELD(riis_band_sums, weight, 16, 16);
+  FIELD(riis_band_sums, n_nodes, 32, 16);
+
+  SIZE(riis_opening_table, 48);
+  FIELD(riis_opening_table, struct_size, 0, 8);
+  FIELD(riis_opening_table, n_keys, 8, 8);
+  FIELD(riis_opening_table, time, 16, 8);
+  FIELD(riis_opening_table, opening, 24, 8);
+  FIELD(riis_opening_table, period, 32, 8);
+  FIELD(riis_opening_table, interpolation, 40, 4);
+  FIELD(riis_opening_table, reserved, 44, 4);
+
+  SIZE(riis_opening_times, 64);
+  FIELD(riis_opening_times, struct_size, 0, 8);
+  FIELD(riis_opening_times, opening_start, 8, 8);
+  FIELD(riis_opening_times, opening_seconds, 16, 8);
+  FIELD(riis_opening_times, closing_start, 24, 8);
+  FIELD(riis_opening_times, closing_seconds, 32, 8);
+  FIELD(riis_opening_times, closed, 40, 8);
+  FIELD(riis_opening_times, open, 48, 8);
+  FIELD(riis_opening_times, period, 56, 8);
+
+  SIZE(riis_opening_switch, 56);
+  FIELD(riis_opening_switch, struct_size, 0, 8);
+  FIELD(riis_opening_switch, opening_seconds, 8, 8);
+  FIELD(riis_opening_switch, closing_seconds, 16, 8);
+  FIELD(riis_opening_switch, open_above, 24, 8);
+  FIELD(riis_opening_switch, close_below, 32, 8);
+  FIELD(riis_opening_switch, filter_seconds, 40, 8);
+  FIELD(riis_opening_switch, dwell_seconds, 48, 8);
+
+  SIZE(riis_opening_switch_state, 72);
+  FIELD(riis_opening_switch_state, struct_size, 0, 8);
+  FIELD(riis_opening_switch_state, time, 8, 8);
+  FIELD(riis_opening_switch_state, opening, 16, 8);
+  FIELD(riis_opening_switch_state, rate, 24, 8);
+  FIELD(riis_opening_switch_state, progress, 32, 8);
+  FIELD(riis_opening_switch_state, pressure_difference, 40, 8);
+  FIELD(riis_opening_switch_state, flow, 48, 8);
+  FIELD(riis_opening_switch_state, since, 56, 8);
+  FIELD(riis_opening_switch_state, phase, 64, 4);
+  FIELD(riis_opening_switch_state, reserved, 68, 4);
+
+  SIZE(riis_opening_angle, 56);
+  FIELD(riis_opening_angle, struct_size, 0, 8);
+  FIELD(riis_opening_angle, pressure_gain, 8, 8);
+  FIELD(riis_opening_angle, flow_gain, 16, 8);
+  FIELD(riis_opening_angle, friction, 24, 8);
+  FIELD(riis_opening_angle, vortex_gain, 32, 8);
+  FIELD(riis_opening_angle, angle_min, 40, 8);
+  FIELD(riis_opening_angle, angle_max, 48, 8);
+
+  SIZE(riis_opening_angle_state, 64);
+  FIELD(riis_opening_angle_state, struct_size, 0, 8);
+  FIELD(riis_opening_angle_state, time, 8, 8);
+  FIELD(riis_opening_angle_state, opening, 16, 8);
+  FIELD(riis_opening_angle_state, rate, 24, 8);
+  FIELD(riis_opening_angle_state, angle, 32, 8);
+  FIELD(riis_opening_angle_state, angle_rate, 40, 8);
+  FIELD(riis_opening_angle_state, pressure_difference, 48, 8);
+  FIELD(riis_opening_angle_state, flow, 56, 8);
 
   SIZE(riis_vtk_picture_options, 64);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
@@ -221,6 +312,20 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_INSTRUCTIONS_BASELINE, 1);
   assert_int_equal(RIIS_INSTRUCTIONS_AVX2, 2);
   assert_int_equal(RIIS_INSTRUCTIONS_AVX512, 3);
+  assert_int_equal(RIIS_FIELD_POINT, 1);
+  assert_int_equal(RIIS_FIELD_NORMAL, 2);
+  assert_int_equal(RIIS_FIELD_BARYCENTRIC, 4);
+  assert_int_equal(RIIS_FIELD_SIDE, 8);
+  assert_int_equal(RIIS_FIELD_RIM, 16);
+  assert_int_equal(RIIS_FIELD_UV, 32);
+  assert_int_equal(RIIS_FIELD_VELOCITY, 64);
+  assert_int_equal(RIIS_FIELD_PATCH, 128);
+  assert_int_equal(RIIS_RIM_ROUND, 0);
+  assert_int_equal(RIIS_RIM_CUT, 1);
+  assert_int_equal(RIIS_INTERPOLATION_LINEAR, 0);
+  assert_int_equal(RIIS_INTERPOLATION_CUBIC, 1);
+  assert_int_equal(RIIS_PHASE_CLOSING, 0);
+  assert_int_equal(RIIS_PHASE_OPENING, 1);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
   assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
   assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
@@ -300,6 +405,35 @@ static void test_signatures(void **state) {
             (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *, riis_leaks *, int64_t));
   SIGNATURE(riis_mark_result_leaking_edges, int32_t,
             (const riis_mark_result *, int64_t *, const int64_t **, const double **, const double **));
+  SIGNATURE(riis_valve_copy, int32_t, (const riis_valve *, riis_valve **));
+  SIGNATURE(riis_surface_update_moving, int32_t,
+            (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,
+             const riis_surface_options *));
+  SIGNATURE(riis_surface_vertex_velocities, int32_t, (const riis_surface *, int64_t *, const double **));
+  SIGNATURE(riis_mark_result_marked_fields, int32_t, (const riis_mark_result *, riis_mark_fields *, int64_t));
+  SIGNATURE(riis_mark_result_within_limit_fields, int32_t, (const riis_mark_result *, riis_mark_fields *, int64_t));
+  SIGNATURE(riis_resistance_init, int32_t, (riis_resistance *, int64_t));
+  SIGNATURE(riis_mark_result_add_resistance, int32_t,
+            (const riis_mark_result *, const riis_resistance *, int64_t, double *, double *));
+  SIGNATURE(riis_mark_result_add_reaction, int32_t,
+            (const riis_mark_result *, const riis_resistance *, int64_t, const double *, const double *, double *));
+  SIGNATURE(riis_mark_result_band_sums, int32_t,
+            (const riis_mark_result *, double, double, int64_t, const double *, const double *, riis_band_sums *,
+             int64_t));
+  SIGNATURE(riis_opening_table_init, int32_t, (riis_opening_table *, int64_t));
+  SIGNATURE(riis_opening_from_table, int32_t, (const riis_opening_table *, double, double *, double *));
+  SIGNATURE(riis_opening_times_init, int32_t, (riis_opening_times *, int64_t));
+  SIGNATURE(riis_opening_from_times, int32_t, (const riis_opening_times *, double, double *, double *));
+  SIGNATURE(riis_opening_switch_init, int32_t, (riis_opening_switch *, int64_t));
+  SIGNATURE(riis_opening_switch_state_init, int32_t, (riis_opening_switch_state *, int64_t));
+  SIGNATURE(riis_opening_switch_advance, int32_t,
+            (const riis_opening_switch *, const riis_opening_switch_state *, double, double, double,
+             riis_opening_switch_state *));
+  SIGNATURE(riis_opening_angle_init, int32_t, (riis_opening_angle *, int64_t));
+  SIGNATURE(riis_opening_angle_state_init, int32_t, (riis_opening_angle_state *, int64_t));
+  SIGNATURE(riis_opening_angle_advance, int32_t,
+            (const riis_opening_angle *, const riis_opening_angle_state *, double, double, double,
+             riis_opening_angle_state *));
   SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));

@@ -7,10 +7,10 @@
 #include <string.h>
 
 static riis_valve *valve, *thin_valve;
-static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin;
+static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *moving;
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
-static riis_mark_result *result, *leaking;
+static riis_mark_result *result, *leaking, *resisting;
 static void *memory[24];
 static int n_memory;
 
@@ -300,6 +300,93 @@ static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
   return find_leaks(&numbers->leaks);
 }
 
+/* Opens by 0.1 in 5 ms, while it is moved by 0.01 mm; marked with all fields, wider than the half thickness. */
+static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motion) {
+  riis_valve *before = NULL, *now = NULL, *open = NULL;
+  riis_surface_options options, options_before;
+  TRY(riis_valve_create("aortic", &before));
+  TRY(riis_valve_create("aortic", &open));
+  TRY(riis_valve_set_scalar(open, "leaflet_radius_in", 1.1));
+  TRY(riis_valve_set_open_state(before, open));
+  TRY(riis_valve_copy(before, &now));
+  TRY(riis_valve_set_scalar(before, "opening", 0.3));
+  TRY(riis_valve_set_scalar(now, "opening", 0.4));
+  TRY(riis_surface_options_init(&options, sizeof options));
+  options.scale = 10;
+  options_before = options;
+  options_before.translation[2] = -0.01;
+  TRY(riis_surface_create(before, &options_before, &moving));
+  TRY(riis_surface_update_moving(moving, now, before, 0.005, &options, &options_before));
+  riis_valve_destroy(&open);
+  riis_valve_destroy(&now);
+  riis_valve_destroy(&before);
+  TRY(list_surface(moving, &motion->surface));
+  TRY(riis_surface_vertex_velocities(moving, NULL, &motion->vertex_velocity));
+
+  riis_mark_options mark_options;
+  TRY(riis_mark_options_init(&mark_options, sizeof mark_options));
+  mark_options.distance_limit = 2.5;
+  mark_options.n_threads = 2;
+  mark_options.fields = 255;
+  TRY(riis_mark_result_create(&resisting));
+  TRY(riis_mark_nodes(moving, mesh, &mark_options, resisting));
+  TRY(riis_mark_result_marked_fields(resisting, &motion->marked, sizeof motion->marked));
+  TRY(riis_mark_result_within_limit_fields(resisting, &motion->within_limit, sizeof motion->within_limit));
+
+  riis_resistance resistance;
+  TRY(riis_resistance_init(&resistance, sizeof resistance));
+  resistance.resistance = 7;
+  resistance.half_thickness = 2;
+  resistance.rim = RIIS_RIM_CUT;
+  double *coefficient = allocate(n_nodes, sizeof *coefficient);
+  double *momentum = allocate(3 * n_nodes, sizeof *momentum);
+  for (int64_t i = 0; i < n_nodes; ++i) coefficient[i] = 0.25;
+  for (int64_t i = 0; i < 3 * n_nodes; ++i) momentum[i] = -1;
+  TRY(riis_mark_result_add_resistance(resisting, &resistance, n_nodes, coefficient, momentum));
+  motion->coefficient = coefficient;
+  motion->momentum = momentum;
+  /* The flow is as fast as the coordinates are long, and every node weighs what stands in coefficient now. */
+  for (int c = 0; c < 3; ++c) motion->force[c] = c;
+  TRY(riis_mark_result_add_reaction(resisting, &resistance, n_nodes, xyz, coefficient, motion->force));
+  return riis_mark_result_band_sums(resisting, 0.5, 2, n_nodes, coefficient, coefficient, &motion->sums,
+                                    sizeof motion->sums);
+}
+
+static riis_status open_by_laws(twin_laws *laws) {
+  const double time[3] = {0, 0.3, 0.5}, openings[3] = {0, 1, 0.2};
+  riis_opening_table table;
+  TRY(riis_opening_table_init(&table, sizeof table));
+  table.n_keys = 3;
+  table.time = time;
+  table.opening = openings;
+  table.interpolation = RIIS_INTERPOLATION_CUBIC;
+  TRY(riis_opening_from_table(&table, 0.1, &laws->by_table[0], &laws->by_table[1]));
+  riis_opening_times times;
+  TRY(riis_opening_times_init(&times, sizeof times));
+  times.opening_start = 0.45;
+  times.opening_seconds = 0.05;
+  times.closing_start = 0.95;
+  times.closing_seconds = 0.05;
+  TRY(riis_opening_from_times(&times, 0.47, &laws->by_times[0], &laws->by_times[1]));
+  riis_opening_switch by_switch;
+  TRY(riis_opening_switch_init(&by_switch, sizeof by_switch));
+  TRY(riis_opening_switch_state_init(&laws->by_switch, sizeof laws->by_switch));
+  by_switch.opening_seconds = 0.04;
+  by_switch.closing_seconds = 0.05;
+  riis_opening_angle by_angle;
+  TRY(riis_opening_angle_init(&by_angle, sizeof by_angle));
+  TRY(riis_opening_angle_state_init(&laws->by_angle, sizeof laws->by_angle));
+  by_angle.pressure_gain = 5500;
+  by_angle.flow_gain = 2;
+  by_angle.friction = 50;
+  by_angle.vortex_gain = 7;
+  for (int step = 1; step <= 5; ++step) {
+    TRY(riis_opening_switch_advance(&by_switch, &laws->by_switch, 0.003 * step, 2, 10 * step, &laws->by_switch));
+    TRY(riis_opening_angle_advance(&by_angle, &laws->by_angle, 0.003 * step, 2, 10 * step, &laws->by_angle));
+  }
+  return RIIS_OK;
+}
+
 riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers) {
   const int64_t n_nodes = per_side * per_side * per_side;
   TRY(make_surface(numbers));
@@ -309,10 +396,14 @@ riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers)
   TRY(make_plate());
   TRY(find_closest(n_nodes, xyz, numbers));
   TRY(mark(n_nodes, xyz, numbers));
+  TRY(resist(n_nodes, xyz, &numbers->motion));
+  TRY(open_by_laws(&numbers->laws));
   return walk_along_all(per_side, numbers);
 }
 
 void twin_end(void) {
+  riis_mark_result_destroy(&resisting);
+  riis_surface_destroy(&moving);
   riis_mark_result_destroy(&leaking);
   riis_surface_destroy(&thin);
   riis_valve_destroy(&thin_valve);

@@ -5,8 +5,8 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_walk, twin_leaks, twin_numbers, twin_run, twin_end, twin_layout, &
-    twin_n_layouts, twin_auto, twin_far_distance
+  public :: twin_list, twin_surface, twin_walk, twin_leaks, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
+    twin_layout, twin_n_layouts, twin_auto, twin_far_distance
 
   type, bind(c) :: twin_list
     integer(c_int64_t) :: n
@@ -30,6 +30,21 @@ module c_twin
     type(c_ptr) :: node_id, length, distance
   end type twin_leaks
 
+  type, bind(c) :: twin_motion
+    type(twin_surface) :: surface
+    type(c_ptr) :: vertex_velocity
+    type(riis_mark_fields) :: marked, within_limit
+    type(c_ptr) :: coefficient, momentum
+    real(c_double) :: force(3)
+    type(riis_band_sums) :: sums
+  end type twin_motion
+
+  type, bind(c) :: twin_laws
+    real(c_double) :: by_table(2), by_times(2)
+    type(riis_opening_switch_state) :: by_switch
+    type(riis_opening_angle_state) :: by_angle
+  end type twin_laws
+
   type, bind(c) :: twin_numbers
     integer(c_int64_t) :: n_parameters
     type(c_ptr) :: parameters
@@ -42,6 +57,8 @@ module c_twin
     type(twin_walk) :: cells, faces, grid
     type(riis_mark_stats) :: paper
     type(twin_leaks) :: leaks
+    type(twin_motion) :: motion
+    type(twin_laws) :: laws
   end type twin_numbers
 
   interface

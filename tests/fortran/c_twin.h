@@ -36,6 +36,23 @@ typedef struct twin_leaks {
   const double *length, *distance;
 } twin_leaks;
 
+/* An aortic valve that opens, and what is computed with its fields. */
+typedef struct twin_motion {
+  twin_surface surface;
+  const double *vertex_velocity;
+  riis_mark_fields marked, within_limit;
+  const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
+  double force[3];
+  riis_band_sums sums;
+} twin_motion;
+
+/* What the laws of opening say. */
+typedef struct twin_laws {
+  double by_table[2], by_times[2]; /* opening and rate */
+  riis_opening_switch_state by_switch;
+  riis_opening_angle_state by_angle;
+} twin_laws;
+
 /* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
 typedef struct twin_numbers {
   int64_t n_parameters;
@@ -55,6 +72,8 @@ typedef struct twin_numbers {
   twin_walk cells, faces, grid; /* RIIS_SEARCH_NEIGHBOR */
   riis_mark_stats paper;        /* RIIS_SEARCH_PAPER along the grid */
   twin_leaks leaks;             /* of a thin aortic valve, along the tetrahedra */
+  twin_motion motion;
+  twin_laws laws;
 } twin_numbers;
 
 /* Makes the calls that test_calls.f90 makes, from C, on its grid of per_side^3 nodes. Returns the first status that is

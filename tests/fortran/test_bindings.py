@@ -116,9 +116,9 @@ class Fields(Planted):
         self.plant(HEADER, "} riis_mark_options;",
                    "  double planted[2], other; /* a text */\n  int32_t last;\n} riis_mark_options;")
         self.writes()
-        self.assertIn("    integer(c_int32_t) :: reserved\n    real(c_double) :: planted(2), other\n"
+        self.assertIn("    integer(c_int32_t) :: reserved2\n    real(c_double) :: planted(2), other\n"
                       "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
-        self.assertIn("       AT(instructions), AT(reserved), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
+        self.assertIn("       AT(instructions), AT(reserved), AT(fields), AT(reserved2), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
 
     def test_the_order_is_that_of_the_header(self):
         self.plant(HEADER, "  int64_t n_curves; ", "  int64_t planted;\n  int64_t n_curves; ")
@@ -335,7 +335,7 @@ riis_valve_planted  What it does not say elsewhere.
         self.refuses("riis_valve_planted: no argument can have the name of the result, status")
 
     def test_no_semicolon(self):
-        self.plant(HEADER, "const double **distance);\n\n#ifdef __cplusplus", "const double **distance)\n\n#ifdef __cplusplus")
+        self.plant(HEADER, "_state *now);\n\n#ifdef __cplusplus", "_state *now)\n\n#ifdef __cplusplus")
         self.refuses("no semicolon ends what begins here")
 
 

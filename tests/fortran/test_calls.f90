@@ -57,6 +57,8 @@ program test_calls
   call test_surface_from_arrays()
   call test_closest_points()
   call test_marking()
+  call test_motion()
+  call test_laws()
   call test_mixed_cells()
   call test_adjacency()
   call test_own_rows()
@@ -505,8 +507,15 @@ contains
     call check_refused(riis_mesh_create(1_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t, other), &
       RIIS_INVALID_MESH, '1e+300')
     call check(.not. c_associated(other), 'no mesh is made by a call that is refused')
-    call check_refused(riis_mesh_update(mesh, 0_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t), &
+    call check_refused(riis_mesh_update(mesh, -1_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t), &
       RIIS_INVALID_MESH, 'n_nodes')
+    call check_ok(riis_mesh_create(0_c_int64_t, c_null_ptr, c_null_ptr, c_null_ptr, 3_c_int64_t, other), 'no nodes')
+    call check_ok(riis_mark_nodes(surface, other, result=result), 'mark no nodes')
+    call check_ok(riis_mark_result_marked(result, n_default), 'the marked nodes of none')
+    call check(n_default == 0, 'none of no nodes is marked')
+    call riis_mesh_destroy(other)
+    call check_ok(riis_mesh_update(mesh, n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t), &
+      'the nodes are back')
   end subroutine test_marking
 
   subroutine check_same_list(a, b, what)
@@ -518,6 +527,167 @@ contains
     call check_same_bytes(a%triangle_id, b%triangle_id, 8 * min(a%n, b%n), what // ': triangle ids')
     call check_same_bytes(a%leaflet_id, b%leaflet_id, 4 * min(a%n, b%n), what // ': leaflet ids')
   end subroutine check_same_list
+
+  ! A valve that opens, all fields, and the resistance.
+  subroutine test_motion()
+    type(c_ptr) :: before, now, open, moving, resisting, velocity
+    type(riis_surface_options) :: options, options_before
+    type(riis_mark_options) :: mark_options
+    type(riis_mark_fields) :: marked, within
+    type(riis_resistance) :: resistance
+    type(riis_band_sums), target :: sums
+    real(c_double), target, allocatable :: coefficient(:), momentum(:, :)
+    real(c_double), target :: force(3)
+    integer(c_int64_t) :: n
+
+    before = c_null_ptr
+    now = c_null_ptr
+    open = c_null_ptr
+    moving = c_null_ptr
+    resisting = c_null_ptr
+    call check_ok(riis_valve_create(riis_c_string('aortic'), before), 'create a valve')
+    call check_ok(riis_valve_create(riis_c_string('aortic'), open), 'create its open state')
+    call check_ok(riis_valve_set_scalar(open, riis_c_string('leaflet_radius_in'), 1.1d0), 'change the open state')
+    call check_ok(riis_valve_set_open_state(before, open), 'set the open state')
+    call check_refused(riis_valve_copy(c_null_ptr, now), RIIS_INVALID_ARGUMENT, 'valve')
+    call check_ok(riis_valve_copy(before, now), 'copy a valve')
+    call check_ok(riis_valve_set_scalar(before, riis_c_string('opening'), 0.3d0), 'open it')
+    call check_ok(riis_valve_set_scalar(now, riis_c_string('opening'), 0.4d0), 'open the copy further')
+    call check_ok(riis_surface_options_init(options, c_sizeof(options)), 'default surface options')
+    options%scale = 10
+    options_before = options
+    options_before%translation(3) = -0.01d0
+    call check_ok(riis_surface_create(before, options_before, moving), 'create a surface')
+    velocity = c_loc(force)
+    call check_ok(riis_surface_vertex_velocities(moving, velocity=velocity), 'vertex velocities of a surface at rest')
+    call check(.not. c_associated(velocity), 'a surface that was not updated so has no velocity')
+    call check_refused(riis_surface_update_moving(moving, now, before, 0d0), RIIS_INVALID_ARGUMENT, 'seconds is 0')
+    call check_refused(riis_surface_update_moving(moving, now, c_null_ptr, 1d0), RIIS_INVALID_ARGUMENT, 'valve_before')
+    call check_ok(riis_surface_update_moving(moving, now, before, 0.005d0, options, options_before), 'update a moving surface')
+    call riis_valve_destroy(open)
+    call riis_valve_destroy(now)
+    call riis_valve_destroy(before)
+    call check_same_surface(moving, twin%motion%surface, 'the moving valve')
+    call check_ok(riis_surface_vertex_velocities(moving, n, velocity), 'vertex velocities')
+    call check(n == twin%motion%surface%info%n_vertices, 'the number of vertex velocities')
+    call check_same_bytes(velocity, twin%motion%vertex_velocity, 24 * n, 'vertex velocities')
+
+    call check_ok(riis_mark_result_create(resisting), 'create a result')
+    call check_ok(riis_mark_options_init(mark_options, c_sizeof(mark_options)), 'default mark options')
+    mark_options%distance_limit = 2.5d0
+    mark_options%n_threads = 2
+    mark_options%fields = 256
+    call check_refused(riis_mark_nodes(moving, mesh, mark_options, resisting), RIIS_INVALID_ARGUMENT, 'fields is 256')
+    mark_options%fields = RIIS_FIELD_POINT + RIIS_FIELD_NORMAL + RIIS_FIELD_BARYCENTRIC + RIIS_FIELD_SIDE + &
+      RIIS_FIELD_RIM + RIIS_FIELD_UV + RIIS_FIELD_VELOCITY + RIIS_FIELD_PATCH
+    call check_ok(riis_mark_nodes(moving, mesh, mark_options, resisting), 'mark with all fields')
+    call check_refused(riis_mark_result_marked_fields(resisting, marked, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'fields')
+    call check_ok(riis_mark_result_marked_fields(resisting, marked, c_sizeof(marked)), 'fields of the marked nodes')
+    call check_same_fields(marked, twin%motion%marked, 'marked')
+    call check_ok(riis_mark_result_within_limit_fields(resisting, within, c_sizeof(within)), 'fields within the limit')
+    call check_same_fields(within, twin%motion%within_limit, 'within the limit')
+
+    call check_refused(riis_resistance_init(resistance, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'resistance')
+    call check_ok(riis_resistance_init(resistance, c_sizeof(resistance)), 'the default resistance')
+    allocate (coefficient(n_nodes), momentum(3, n_nodes))
+    coefficient = 0.25d0
+    momentum = -1
+    call check_refused(riis_mark_result_add_resistance(resisting, resistance, n_nodes, coefficient), &
+      RIIS_INVALID_ARGUMENT, 'resistance.resistance is nan')
+    resistance%resistance = 7
+    resistance%half_thickness = 2
+    resistance%rim = RIIS_RIM_CUT
+    call check_refused(riis_mark_result_add_resistance(resisting, resistance, n_nodes - 1, coefficient), &
+      RIIS_INVALID_ARGUMENT, 'n_nodes is 7999')
+    call check_ok(riis_mark_result_add_resistance(resisting, resistance, n_nodes, coefficient, momentum), 'add resistance')
+    call check_same_bytes(c_loc(coefficient), twin%motion%coefficient, 8 * n_nodes, 'resistance')
+    call check_same_bytes(c_loc(momentum), twin%motion%momentum, 24 * n_nodes, 'resistance times velocity')
+    call check(any(coefficient > 0.25d0) .and. any(momentum > -1), 'there is resistance')
+    force = [0, 1, 2]
+    call check_ok(riis_mark_result_add_reaction(resisting, resistance, n_nodes, xyz, coefficient, force), 'add a reaction')
+    call check_same_bytes(c_loc(force), c_loc(twin%motion%force), 24_c_int64_t, 'the reaction')
+    call check_refused(riis_mark_result_band_sums(resisting, 0.5d0, 3d0, n_nodes, coefficient, coefficient, sums, &
+      c_sizeof(sums)), RIIS_INVALID_ARGUMENT, 'outer is 3')
+    call check_ok(riis_mark_result_band_sums(resisting, 0.5d0, 2d0, n_nodes, coefficient, coefficient, sums, &
+      c_sizeof(sums)), 'sums of a band')
+    call check_same_bytes(c_loc(sums), c_loc(twin%motion%sums), int(c_sizeof(sums), c_int64_t), 'sums of a band')
+    call check(all(sums%n_nodes > 100), 'both sides have nodes')
+    call riis_mark_result_destroy(resisting)
+    call riis_surface_destroy(moving)
+  end subroutine test_motion
+
+  subroutine check_same_fields(a, b, what)
+    type(riis_mark_fields), intent(in) :: a, b
+    character(len=*), intent(in) :: what
+    call check(a%n_nodes == b%n_nodes .and. a%n_nodes > 0, what // ': as many nodes as from C')
+    call check_same_bytes(a%point, b%point, 24 * a%n_nodes, what // ': points')
+    call check_same_bytes(a%normal, b%normal, 24 * a%n_nodes, what // ': normals')
+    call check_same_bytes(a%barycentric, b%barycentric, 24 * a%n_nodes, what // ': barycentric coordinates')
+    call check_same_bytes(a%uv, b%uv, 16 * a%n_nodes, what // ': u and v')
+    call check_same_bytes(a%velocity, b%velocity, 24 * a%n_nodes, what // ': velocities')
+    call check_same_bytes(a%side, b%side, 4 * a%n_nodes, what // ': sides')
+    call check_same_bytes(a%rim, b%rim, 4 * a%n_nodes, what // ': rims')
+    call check_same_bytes(a%patch_id, b%patch_id, 4 * a%n_nodes, what // ': patches')
+  end subroutine check_same_fields
+
+  subroutine test_laws()
+    real(c_double), target :: time(3), openings(3)
+    real(c_double) :: opening, rate
+    type(riis_opening_table) :: table
+    type(riis_opening_times) :: times
+    type(riis_opening_switch) :: by_switch
+    type(riis_opening_switch_state), target :: switched, switched_before
+    type(riis_opening_angle) :: by_angle
+    type(riis_opening_angle_state), target :: turned, turned_before
+    integer :: step
+
+    time = [0d0, 0.3d0, 0.5d0]
+    openings = [0d0, 1d0, 0.2d0]
+    call check_ok(riis_opening_table_init(table, c_sizeof(table)), 'the default table')
+    table%n_keys = 3
+    table%time = c_loc(time)
+    table%opening = c_loc(openings)
+    table%interpolation = RIIS_INTERPOLATION_CUBIC
+    call check_ok(riis_opening_from_table(table, 0.1d0, opening, rate), 'an opening by a table')
+    call check(all(same([opening, rate], twin%laws%by_table)) .and. opening > 0 .and. rate > 0, 'an opening by a table')
+    table%interpolation = 7
+    call check_refused(riis_opening_from_table(table, 0.1d0), RIIS_INVALID_ARGUMENT, 'interpolation is 7')
+
+    call check_ok(riis_opening_times_init(times, c_sizeof(times)), 'the default times')
+    call check_refused(riis_opening_from_times(times, 0.47d0, opening), RIIS_INVALID_ARGUMENT, 'opening_start is nan')
+    times%opening_start = 0.45d0
+    times%opening_seconds = 0.05d0
+    times%closing_start = 0.95d0
+    times%closing_seconds = 0.05d0
+    call check_ok(riis_opening_from_times(times, 0.47d0, opening, rate), 'an opening by times')
+    call check(all(same([opening, rate], twin%laws%by_times)) .and. opening > 0 .and. rate > 0, 'an opening by times')
+
+    call check_ok(riis_opening_switch_init(by_switch, c_sizeof(by_switch)), 'the default switch')
+    call check_ok(riis_opening_switch_state_init(switched, c_sizeof(switched)), 'a closed valve')
+    by_switch%opening_seconds = 0.04d0
+    by_switch%closing_seconds = 0.05d0
+    call check_ok(riis_opening_angle_init(by_angle, c_sizeof(by_angle)), 'the default law of the angle')
+    call check_ok(riis_opening_angle_state_init(turned, c_sizeof(turned)), 'a valve at rest')
+    by_angle%pressure_gain = 5500
+    by_angle%flow_gain = 2
+    by_angle%friction = 50
+    by_angle%vortex_gain = 7
+    do step = 1, 5
+      switched_before = switched
+      call check_ok(riis_opening_switch_advance(by_switch, switched_before, 0.003d0 * step, 2d0, 10d0 * step, switched), &
+        'advance a switch')
+      turned_before = turned
+      call check_ok(riis_opening_angle_advance(by_angle, turned_before, 0.003d0 * step, 2d0, 10d0 * step, turned), &
+        'advance an angle')
+    end do
+    call check_same_bytes(c_loc(switched), c_loc(twin%laws%by_switch), int(c_sizeof(switched), c_int64_t), 'the switch')
+    call check_same_bytes(c_loc(turned), c_loc(twin%laws%by_angle), int(c_sizeof(turned), c_int64_t), 'the angle')
+    call check(switched%phase == RIIS_PHASE_OPENING .and. switched%opening > 0 .and. turned%opening > 0, 'both open')
+    call check_refused(riis_opening_switch_advance(by_switch, switched_before, 0d0, 2d0, 1d0, switched), &
+      RIIS_INVALID_ARGUMENT, 'time is 0')
+    call check_refused(riis_opening_angle_advance(by_angle, turned_before, 0d0, 2d0, 1d0, turned), &
+      RIIS_INVALID_ARGUMENT, 'time is 0')
+  end subroutine test_laws
 
   ! A hexahedron, a pyramid on it, a prism beside it and a tetrahedron between these two.
   subroutine test_mixed_cells()

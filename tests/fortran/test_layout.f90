@@ -22,6 +22,15 @@ program test_layout
   type(riis_mark_stats), target :: ms
   integer :: n_compared = 0
   type(riis_leaks), target :: lk
+  type(riis_mark_fields), target :: mf
+  type(riis_resistance), target :: re
+  type(riis_band_sums), target :: bs
+  type(riis_opening_table), target :: ot
+  type(riis_opening_times), target :: oi
+  type(riis_opening_switch), target :: ow
+  type(riis_opening_switch_state), target :: os
+  type(riis_opening_angle), target :: oa
+  type(riis_opening_angle_state), target :: og
 
   call compare('riis_patches', c_sizeof(pa), c_loc(pa), [at(c_loc(pa%struct_size)), at(c_loc(pa%n_curves)), &
     at(c_loc(pa%degree)), at(c_loc(pa%control)), at(c_loc(pa%n_patches)), at(c_loc(pa%curve_id)), &
@@ -35,8 +44,9 @@ program test_layout
     at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%distance_tolerance))])
   call compare('riis_surface_arrays', c_sizeof(sa), c_loc(sa), [at(c_loc(sa%struct_size)), at(c_loc(sa%n_vertices)), &
     at(c_loc(sa%x)), at(c_loc(sa%y)), at(c_loc(sa%z)), at(c_loc(sa%stride)), at(c_loc(sa%n_faces)), &
-    at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), at(c_loc(sa%corners_per_face)), &
-    at(c_loc(sa%reserved)), at(c_loc(sa%leaflet_id))])
+    at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), &
+    at(c_loc(sa%corners_per_face)), at(c_loc(sa%reserved)), at(c_loc(sa%leaflet_id)), at(c_loc(sa%vx)), &
+    at(c_loc(sa%vy)), at(c_loc(sa%vz)), at(c_loc(sa%velocity_stride))])
   call compare('riis_surface_info', c_sizeof(si), c_loc(si), [at(c_loc(si%n_vertices)), at(c_loc(si%n_triangles)), &
     at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
     at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene))])
@@ -44,7 +54,8 @@ program test_layout
     at(c_loc(c%barycentric)), at(c_loc(c%normal)), at(c_loc(c%triangle_id)), at(c_loc(c%leaflet_id)), &
     at(c_loc(c%side))])
   call compare('riis_closest_options', c_sizeof(co), c_loc(co), [at(c_loc(co%struct_size)), &
-    at(c_loc(co%distance_limit)), at(c_loc(co%far_distance)), at(c_loc(co%n_threads)), at(c_loc(co%reserved))])
+    at(c_loc(co%distance_limit)), at(c_loc(co%far_distance)), at(c_loc(co%n_threads)), at(c_loc(co%reserved)), &
+    at(c_loc(co%point_mask)), at(c_loc(co%n_point_ids)), at(c_loc(co%point_ids))])
   call compare('riis_closest_arrays', c_sizeof(ca), c_loc(ca), [at(c_loc(ca%struct_size)), at(c_loc(ca%distance)), &
     at(c_loc(ca%point)), at(c_loc(ca%barycentric)), at(c_loc(ca%normal)), at(c_loc(ca%triangle_id)), &
     at(c_loc(ca%leaflet_id)), at(c_loc(ca%side))])
@@ -57,14 +68,39 @@ program test_layout
   call compare('riis_faces', c_sizeof(fa), c_loc(fa), [at(c_loc(fa%struct_size)), at(c_loc(fa%n_cells)), &
     at(c_loc(fa%n_faces)), at(c_loc(fa%owner)), at(c_loc(fa%neighbor)), at(c_loc(fa%stride)), at(c_loc(fa%id_bits)), &
     at(c_loc(fa%index_base)), at(c_loc(fa%n_threads)), at(c_loc(fa%reserved))])
-  call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), at(c_loc(mo%distance_limit)), &
-    at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads)), at(c_loc(mo%instructions)), &
-    at(c_loc(mo%reserved))])
+  call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), &
+    at(c_loc(mo%distance_limit)), at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads)), &
+    at(c_loc(mo%instructions)), at(c_loc(mo%reserved)), at(c_loc(mo%fields)), at(c_loc(mo%reserved2))])
   call compare('riis_mark_stats', c_sizeof(ms), c_loc(ms), [at(c_loc(ms%n_nodes)), at(c_loc(ms%n_marked)), &
     at(c_loc(ms%n_within_limit)), at(c_loc(ms%n_queries)), at(c_loc(ms%seconds)), at(c_loc(ms%search)), &
     at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%instructions)), at(c_loc(ms%n_unreached))])
   call compare('riis_leaks', c_sizeof(lk), c_loc(lk), [at(c_loc(lk%n_edges)), at(c_loc(lk%longest_node_id)), &
     at(c_loc(lk%longest_length)), at(c_loc(lk%longest_middle)), at(c_loc(lk%half_thickness)), at(c_loc(lk%seconds))])
+  call compare('riis_mark_fields', c_sizeof(mf), c_loc(mf), [at(c_loc(mf%n_nodes)), at(c_loc(mf%point)), &
+    at(c_loc(mf%normal)), at(c_loc(mf%barycentric)), at(c_loc(mf%uv)), at(c_loc(mf%velocity)), at(c_loc(mf%side)), &
+    at(c_loc(mf%rim)), at(c_loc(mf%patch_id))])
+  call compare('riis_resistance', c_sizeof(re), c_loc(re), [at(c_loc(re%struct_size)), at(c_loc(re%resistance)), &
+    at(c_loc(re%half_thickness)), at(c_loc(re%rim)), at(c_loc(re%reserved))])
+  call compare('riis_band_sums', c_sizeof(bs), c_loc(bs), [at(c_loc(bs%sum)), at(c_loc(bs%weight)), &
+    at(c_loc(bs%n_nodes))])
+  call compare('riis_opening_table', c_sizeof(ot), c_loc(ot), [at(c_loc(ot%struct_size)), at(c_loc(ot%n_keys)), &
+    at(c_loc(ot%time)), at(c_loc(ot%opening)), at(c_loc(ot%period)), at(c_loc(ot%interpolation)), &
+    at(c_loc(ot%reserved))])
+  call compare('riis_opening_times', c_sizeof(oi), c_loc(oi), [at(c_loc(oi%struct_size)), &
+    at(c_loc(oi%opening_start)), at(c_loc(oi%opening_seconds)), at(c_loc(oi%closing_start)), &
+    at(c_loc(oi%closing_seconds)), at(c_loc(oi%closed)), at(c_loc(oi%open)), at(c_loc(oi%period))])
+  call compare('riis_opening_switch', c_sizeof(ow), c_loc(ow), [at(c_loc(ow%struct_size)), &
+    at(c_loc(ow%opening_seconds)), at(c_loc(ow%closing_seconds)), at(c_loc(ow%open_above)), &
+    at(c_loc(ow%close_below)), at(c_loc(ow%filter_seconds)), at(c_loc(ow%dwell_seconds))])
+  call compare('riis_opening_switch_state', c_sizeof(os), c_loc(os), [at(c_loc(os%struct_size)), at(c_loc(os%time)), &
+    at(c_loc(os%opening)), at(c_loc(os%rate)), at(c_loc(os%progress)), at(c_loc(os%pressure_difference)), &
+    at(c_loc(os%flow)), at(c_loc(os%since)), at(c_loc(os%phase)), at(c_loc(os%reserved))])
+  call compare('riis_opening_angle', c_sizeof(oa), c_loc(oa), [at(c_loc(oa%struct_size)), &
+    at(c_loc(oa%pressure_gain)), at(c_loc(oa%flow_gain)), at(c_loc(oa%friction)), at(c_loc(oa%vortex_gain)), &
+    at(c_loc(oa%angle_min)), at(c_loc(oa%angle_max))])
+  call compare('riis_opening_angle_state', c_sizeof(og), c_loc(og), [at(c_loc(og%struct_size)), at(c_loc(og%time)), &
+    at(c_loc(og%opening)), at(c_loc(og%rate)), at(c_loc(og%angle)), at(c_loc(og%angle_rate)), &
+    at(c_loc(og%pressure_difference)), at(c_loc(og%flow))])
 
   call check(n_compared == twin_n_layouts(), 'every struct of riis.h is compared')
 
