@@ -14,12 +14,6 @@ static random_source rng;
 
 static double power_of_ten(double from, double to) { return pow(10, random_between(&rng, from, to)); }
 
-static riis_mesh *mesh_of(int64_t n, const double *xyz) {
-  riis_mesh *mesh = NULL;
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  return mesh;
-}
-
 /* Whether this processor has them. */
 static int is_refused(riis_status status, int32_t instructions) {
   if (status == RIIS_OK) return 0;
@@ -36,6 +30,7 @@ static int64_t most_within;
 /* By all instructions that there are and up to so many threads; expected_search is what runs. A fresh mesh each time if fresh. */
 static void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                        int32_t expected_search) {
+  const int owned_before = n_owned();
   riis_mark_result *expected = new_result(), *result = new_result();
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   options.instructions = RIIS_INSTRUCTIONS_BASELINE;
@@ -66,8 +61,7 @@ static void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_o
       n_sets += threads == 1;
     }
   assert_true(n_sets >= 1);
-  riis_mark_result_destroy(&expected);
-  riis_mark_result_destroy(&result);
+  free_owned_after(owned_before);
 }
 
 static void check(const riis_surface *surface, int64_t n, const double *xyz, double limit) {
@@ -75,7 +69,7 @@ static void check(const riis_surface *surface, int64_t n, const double *xyz, dou
   riis_mark_options options = mark_options();
   options.distance_limit = limit;
   check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
+  free_one_owned(mesh);
 }
 
 /* A point of a surface's triangle, moved by up to so much. */
@@ -92,12 +86,7 @@ static void point_near(const riis_surface *surface, double off, double *p) {
 }
 
 static riis_surface *valve_surface(const char *kind, riis_surface_options options) {
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create(kind, &valve));
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
-  riis_valve_destroy(&valve);
-  return surface;
+  return surface_of_kind(kind, &options);
 }
 
 /* --- Meshes ---------------------------------------------------------------------------------------------------------- */
@@ -114,7 +103,6 @@ static void meshes_of_few_nodes(void **state) {
     check(surface, n, xyz, n % 2 ? RIIS_AUTO : 0.2);
   }
   assert_true(most_within > 20);
-  riis_surface_destroy(&surface);
 }
 
 /* All in one place, in few places, on a line, in a plane; counts around those of leaves, clusters and regions. */
@@ -140,7 +128,6 @@ static void nodes_without_extent(void **state) {
       check(surface, n, xyz, RIIS_AUTO);
       if (kind < 2) assert_int_equal(most_within, n);
     }
-  riis_surface_destroy(&surface);
 }
 
 /* Differences of coordinates that have no inverse, or are the smallest that there are. */
@@ -154,6 +141,7 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
   options.half_thickness = 0.1;
   riis_surface *surface = surface_from(&arrays, &options);
   for (size_t k = 0; k < sizeof steps / sizeof steps[0]; ++k) {
+    const int owned_before = n_owned();
     enum { n = 700 };
     for (int i = 0; i < 3 * n; ++i) xyz[i] = (double)(random_bits(&rng) % 3) * steps[k];
     riis_mesh *mesh = mesh_of(n, xyz);
@@ -163,10 +151,8 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
     CHECK_OK(riis_mesh_prepare(mesh, 1));
     CHECK_OK(riis_mark_nodes(surface, mesh, &of_clusters, result));
     assert_int_equal(marked_in(result).n, n);
-    riis_mark_result_destroy(&result);
-    riis_mesh_destroy(&mesh);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&surface);
 }
 
 /* Both valves; spacings that grow to one side, and cells a hundred times as long as they are high; limits from next to nothing to beyond
@@ -177,12 +163,14 @@ static void graded_and_anisotropic_meshes(void **state) {
   most_threads = 0;
   for (int mitral = 0; mitral < 2; ++mitral)
     for (size_t k = 0; k < sizeof limits / sizeof limits[0]; ++k) {
+      const int owned_before = n_owned();
       riis_surface_options options = surface_options();
       options.half_thickness = fmax(1e-4, fmin(limits[k], 0.1));
       options.tolerance = 0.5;
       riis_surface *surface = valve_surface(mitral ? "mitral" : "aortic", options);
       const int64_t counts[2][3] = {{30, 30, 30}, {5, 20, 270}};
       for (int kind = 0; kind < 2; ++kind) {
+        const int n_outside = n_owned();
         const double lower[3] = {-2, -2, -2}, upper[3] = {2, 2, 2};
         test_mesh nodes = lattice(counts[kind], lower, upper);
         for (int64_t i = 0; i < 3 * nodes.n && kind == 0; ++i) nodes.xyz[i] = nodes.xyz[i] * fabs(nodes.xyz[i]);
@@ -190,10 +178,9 @@ static void graded_and_anisotropic_meshes(void **state) {
         riis_mark_options marking = mark_options();
         marking.distance_limit = fmax(limits[k], options.half_thickness);
         check_with(surface, mesh, marking, kind == 0 ? 4 : 1, RIIS_SEARCH_CLUSTERS);
-        riis_mesh_destroy(&mesh);
-        free_test_mesh(&nodes);
+        free_owned_after(n_outside);
       }
-      riis_surface_destroy(&surface);
+      free_owned_after(owned_before);
     }
   /* Threads are as many as were asked for, if OpenMP gives them: more than one ran. */
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
@@ -204,7 +191,7 @@ static void masked_nodes_are_left_out(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.09, 0.3);
   riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
-  uint8_t *mask = malloc((size_t)nodes.n);
+  uint8_t *mask = own(malloc((size_t)nodes.n));
   for (int kind = 0; kind < 5; ++kind) {
     for (int64_t i = 0; i < nodes.n; ++i)
       mask[i] = kind == 0   ? 0
@@ -217,10 +204,6 @@ static void masked_nodes_are_left_out(void **state) {
     options.distance_limit = 0.25;
     check_with(surface, mesh, options, 3, RIIS_SEARCH_CLUSTERS);
   }
-  free(mask);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
 }
 
 /* A node alone, so that nothing but what is allowed for single precision makes its box large: the limit is its distance, or a bit less. */
@@ -250,7 +233,6 @@ static void nodes_at_the_limit_are_found(void **state) {
       ++n_tried;
     }
     assert_true(n_tried > 150);
-    riis_surface_destroy(&surfaces[k]);
   }
 }
 
@@ -258,8 +240,8 @@ static void nodes_at_the_limit_are_found(void **state) {
 
 /* A sphere about the origin, (2 n) times n quads, two triangles each but at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
-  double *at = malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at);
-  int32_t *ids = malloc((size_t)(4 * n * n) * 3 * sizeof *ids);
+  double *at = own(malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at));
+  int32_t *ids = own(malloc((size_t)(4 * n * n) * 3 * sizeof *ids));
   int64_t n_triangles = 0;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i < 2 * n; ++i) {
@@ -278,9 +260,7 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
   options.zero_area = RIIS_ZERO_AREA_SKIP;
-  riis_surface *surface = surface_from(&arrays, &options);
-  free(at), free(ids);
-  return surface;
+  return surface_from(&arrays, &options);
 }
 
 /* The surface's middle is as far from all of it: far more pairs than there is room for. How many pairs must be left for the decision is
@@ -307,7 +287,6 @@ static void more_pairs_than_room(void **state) {
     assert_int_equal(most_within, n);
     check(surface, n, xyz, smallest); /* only what is there exactly, or nearer */
   }
-  riis_surface_destroy(&surface);
 }
 
 /* Triangles by arrays: any, needles down to 1e-11, sizes over many powers of ten, levels, pieces apart; in units from 1e-50 to 1e50 and far
@@ -320,6 +299,7 @@ static void surfaces_from_arrays(void **state) {
   for (int i = 0; i < 3 * max_triangles; ++i) ids[i] = i;
   most_within = 0;
   for (int trial = 0; trial < 150; ++trial) {
+    const int owned_before = n_owned();
     const int64_t n_triangles = 8 + (int64_t)(random_bits(&rng) % (max_triangles - 8));
     const double unit = trial % 3 ? 1 : power_of_ten(-45, 45), far = trial % 2   ? 0
                                                                      : trial % 4 ? 300
@@ -346,13 +326,14 @@ static void surfaces_from_arrays(void **state) {
     const riis_status status = riis_surface_create_from_arrays(&arrays, &options, &surface);
     if (status == RIIS_INVALID_SURFACE) continue; /* only triangles without an area */
     CHECK_OK(status);
+    own(surface);
     const double off = unit * power_of_ten(-6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
     for (int i = 0; i < n; i += 50) /* some far away: the mesh is larger than the surface, or the same */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
     check(surface, n, xyz, fmax(options.half_thickness, off * power_of_ten(-1, 1)));
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
   assert_int_equal(most_within, n);
 }
@@ -365,6 +346,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
   int32_t ids[3 * n_triangles];
   for (int i = 0; i < 3 * n_triangles; ++i) ids[i] = i;
   for (int trial = 0; trial < 20; ++trial) {
+    const int owned_before = n_owned();
     for (int i = 0; i < n_triangles; ++i) {
       double *p = corners + 9 * i;
       const double size = power_of_ten(-8, -5), at = random_between(&rng, 0, 1e-4);
@@ -384,7 +366,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
     if (trial == 0) assert_true(info_of(surface).n_triangles > n_triangles / 2);
     for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -0.5, 1);
     check(surface, n, xyz, RIIS_AUTO);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -393,6 +375,7 @@ static void valves_far_from_the_origin(void **state) {
   (void)state;
   static const double far[] = {300, 1e4, 1e6};
   for (size_t k = 0; k < sizeof far / sizeof far[0]; ++k) {
+    const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     for (int c = 0; c < 3; ++c) options.translation[c] = far[k] * random_between(&rng, -1, 1);
     options.tolerance = 0.5;
@@ -403,8 +386,7 @@ static void valves_far_from_the_origin(void **state) {
     check(surface, nodes.n, nodes.xyz, RIIS_AUTO);
     check(surface, nodes.n, nodes.xyz, 0.4);
     assert_true(most_within > 1000);
-    free_test_mesh(&nodes);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -427,6 +409,7 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
       {1e5, 1e5, 2e5, RIIS_SEARCH_CLUSTERS},        {3e5, 3e5, 5e5, RIIS_SEARCH_CLUSTERS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    const int owned_before = n_owned();
     for (int i = 0; i < 3 * n; ++i) xyz[i] = cases[k].at + cases[k].size * random_between(&rng, -1, 1);
     for (int i = 0; i < 20; ++i) /* some are near */
       if (cases[k].at == 0 && cases[k].size > 1) point_near(surface, 0.1, xyz + 3 * i);
@@ -434,9 +417,8 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
     riis_mark_options options = mark_options();
     options.distance_limit = cases[k].limit;
     check_with(surface, mesh, options, 2, cases[k].search);
-    riis_mesh_destroy(&mesh);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&surface);
 }
 
 static void what_options_say(void **state) {
@@ -465,9 +447,6 @@ static void what_options_say(void **state) {
     if (set <= best) assert_int_equal(stats_of(result).instructions, set);
   }
   assert_int_equal(within_in(result).n, n_within);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 /* --- From step to step ----------------------------------------------------------------------------------------------- */
@@ -475,10 +454,8 @@ static void what_options_say(void **state) {
 static void nodes_and_valve_move(void **state) {
   (void)state;
   enum { n = 9000 };
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  riis_valve *valve = new_valve("mitral");
+  riis_surface *surface = new_surface(valve, NULL);
   for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -2, 2);
   static double other[3 * n];
   memcpy(other, xyz, sizeof other);
@@ -499,9 +476,6 @@ static void nodes_and_valve_move(void **state) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     CHECK_OK(riis_surface_update(surface, valve, NULL));
   }
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 static void non_finite_coordinates(void **state) {
@@ -516,6 +490,7 @@ static void non_finite_coordinates(void **state) {
   for (int k = 0; k < 4; ++k)
     for (int threads = 1; threads <= 3; threads += 2)
       for (int made_before = 0; made_before < 3; ++made_before) {
+        const int owned_before = n_owned();
         const int which = 1 + 3 * (int)(random_bits(&rng) % n);
         const double was = xyz[which];
         riis_mesh *mesh = mesh_of(n, xyz);
@@ -523,7 +498,7 @@ static void non_finite_coordinates(void **state) {
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
         if (made_before < 2) { /* else they are as they were when they are next asked for */
-          riis_mesh_destroy(&mesh);
+          free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
         /* Clusters that are to be made, or to be placed. */
@@ -543,11 +518,8 @@ static void non_finite_coordinates(void **state) {
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
         assert_int_equal(stats_of(result).search, RIIS_SEARCH_CLUSTERS);
         assert_true(same_results(result, kept));
-        riis_mesh_destroy(&mesh);
+        free_owned_after(owned_before);
       }
-  riis_mark_result_destroy(&result);
-  riis_mark_result_destroy(&kept);
-  riis_surface_destroy(&surface);
 }
 
 static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int32_t asked_for) {
@@ -556,7 +528,7 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   options.search = asked_for;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   const int32_t search = stats_of(result).search;
-  riis_mark_result_destroy(&result);
+  free_one_owned(result);
   return search;
 }
 
@@ -575,7 +547,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n - 1, xyz, xyz + 1, xyz + 2, 3)); /* other nodes */
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
+  free_one_owned(mesh);
   mesh = mesh_of(n, xyz);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is -1", riis_mesh_prepare(mesh, -1));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025", riis_mesh_prepare(mesh, 1025));
@@ -585,17 +557,15 @@ static void what_auto_is(void **state) {
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* moved after the first marking, or before it */
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
+  free_one_owned(mesh);
   mesh = mesh_of(n, xyz);
   CHECK_OK(riis_mesh_prepare(mesh, 1));
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
+  free_one_owned(mesh);
   mesh = mesh_of(n, xyz); /* a marking is one, whatever its search */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
@@ -640,7 +610,7 @@ static void several_callers_of_one_mesh(void **state) {
     for (int nested = 1; nested <= RIIS_TEST_MOST_NESTED; ++nested)
       for (int moved = 0; moved < 2; ++moved) {
         int n_wrong = 0;
-        riis_mesh_destroy(&mesh);
+        free_one_owned(mesh);
         mesh = mesh_of(nodes.n, nodes.xyz);
         if (moved) { /* only to be placed */
           CHECK_OK(riis_mesh_prepare(mesh, 1));
@@ -652,10 +622,6 @@ static void several_callers_of_one_mesh(void **state) {
         assert_int_equal(n_wrong, 0);
       }
   omp_set_max_active_levels(levels);
-  riis_mark_result_destroy(&expected);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
 }
 
 /* So many nodes that threads share the sorting of them. */
@@ -663,7 +629,7 @@ static void a_mesh_that_threads_sort_together(void **state) {
   (void)state;
   const int64_t n = 300000;
   riis_surface *surface = aortic_surface(NULL);
-  double *many = malloc((size_t)n * 3 * sizeof *many);
+  double *many = own(malloc((size_t)n * 3 * sizeof *many));
   for (int64_t i = 0; i < n; ++i)
     if (i % 8 == 0)
       point_near(surface, 0.2, many + 3 * i);
@@ -673,6 +639,7 @@ static void a_mesh_that_threads_sort_together(void **state) {
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   for (int threads = 1; threads <= 3; ++threads) {
+    const int owned_before = n_owned();
     riis_mesh *mesh = mesh_of(n, many);
     options.n_threads = threads;
     if (threads == 1) CHECK_OK(riis_mark_nodes(surface, mesh, &options, one));
@@ -681,12 +648,8 @@ static void a_mesh_that_threads_sort_together(void **state) {
     CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
     assert_true(same_results(result, one));
     assert_true(marked_in(result).n > n / 50);
-    riis_mesh_destroy(&mesh);
+    free_owned_after(owned_before);
   }
-  riis_mark_result_destroy(&one);
-  riis_mark_result_destroy(&result);
-  free(many);
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {

@@ -37,9 +37,8 @@ static leak_list leaks_of(const riis_surface *surface, const riis_mesh *mesh, co
 }
 
 static riis_mesh *mesh_with_rows(const test_mesh *nodes, int64_t n_all) {
-  riis_mesh *mesh = NULL;
+  riis_mesh *mesh = mesh_of(nodes->n, nodes->xyz);
   riis_csr csr;
-  CHECK_OK(riis_mesh_create(nodes->n, nodes->xyz, nodes->xyz + 1, nodes->xyz + 2, 3, &mesh));
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = nodes->n;
   csr.n_all = n_all;
@@ -135,7 +134,7 @@ static void make_case(whole_case *c) {
 }
 
 static double *scaled(const int64_t *whole_numbers, int64_t n, int exponent) {
-  double *made = malloc((size_t)n * sizeof *made);
+  double *made = own(malloc((size_t)n * sizeof *made));
   for (int64_t i = 0; i < n; ++i) made[i] = ldexp((double)whole_numbers[i], exponent);
   return made;
 }
@@ -146,7 +145,6 @@ static riis_surface *surface_of_case(const whole_case *c, double half_thickness)
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
   riis_surface *surface = surface_from(&arrays, &options);
-  free(xyz);
   return surface;
 }
 
@@ -220,18 +218,19 @@ static void check_list(const whole_case *c, const double *xyz, const riis_surfac
 
 /* How many leaks there are with another half thickness. */
 static int64_t n_leaks_with(const whole_case *c, const riis_mesh *mesh, double half_thickness) {
+  const int owned_before = n_owned();
   riis_surface *surface = surface_of_case(c, half_thickness);
   riis_mark_result *result = new_result();
   riis_mark_options options = mark_options();
   if (c->is_masked) options.node_mask = c->mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   const int64_t n = leaks_of(surface, mesh, &options, result).sum.n_edges;
-  riis_mark_result_destroy(&result);
-  riis_surface_destroy(&surface);
+  free_owned_after(owned_before);
   return n;
 }
 
 static int64_t check_case(const whole_case *c) {
+  const int owned_before = n_owned();
   static uint8_t marks[max_nodes], leaks[max_nodes * max_nodes];
   double *xyz = scaled(c->node, 3 * c->n_nodes, c->exponent);
   test_mesh nodes = {c->n_nodes, xyz, (int64_t *)c->offsets, (int64_t *)c->columns};
@@ -251,10 +250,7 @@ static int64_t check_case(const whole_case *c) {
     assert_int_equal(n_leaks_with(c, mesh, list.sum.half_thickness), 0);
     assert_true(n_leaks_with(c, mesh, nextafter(list.sum.half_thickness, 0)) > 0);
   }
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
+  free_owned_after(owned_before);
   return n;
 }
 
@@ -337,11 +333,6 @@ static void threads_do_not_matter(void **state) {
     assert_memory_equal(a.length, b.length, n * sizeof *a.length);
     assert_memory_equal(a.distance, b.distance, n * sizeof *a.distance);
   }
-  riis_mark_result_destroy(&many);
-  riis_mark_result_destroy(&one);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free_test_mesh(&nodes);
 }
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
@@ -413,15 +404,13 @@ static test_mesh mesh_round(const riis_surface *surface, double spacing) {
 }
 
 static riis_surface *valve_surface(const char *kind, double opening, int32_t distance) {
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
   riis_surface_options options = surface_options();
   options.distance = distance;
   options.tolerance = 0.5;
-  CHECK_OK(riis_valve_create(kind, &valve));
+  riis_valve *valve = new_valve(kind);
   CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
-  riis_valve_destroy(&valve);
+  riis_surface *surface = new_surface(valve, &options);
+  free_one_owned(valve);
   return surface;
 }
 
@@ -431,19 +420,16 @@ static void valves_leak_where_the_loop_says(void **state) {
   static const char *const kinds[2] = {"aortic", "mitral"};
   int64_t n_leaking[3] = {0, 0, 0};
   for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
     riis_surface *surface = valve_surface(kinds[trial % 2], 0, (int32_t)(trial % 3));
     test_mesh nodes = mesh_round(surface, trial < 6 ? 0.27 : 0.24);
     riis_mesh *mesh = mesh_with_rows(&nodes, 0);
     riis_mark_result *result = new_result();
-    uint8_t *marks = malloc((size_t)nodes.n);
+    uint8_t *marks = own(malloc((size_t)nodes.n));
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
     CHECK_OK(riis_mark_result_dense(result, nodes.n, 1e30, marks, NULL, NULL, NULL));
     n_leaking[trial % 3] += check_against_valve(&nodes, surface, marks, leaks_of(surface, mesh, NULL, result));
-    free(marks);
-    riis_mark_result_destroy(&result);
-    riis_mesh_destroy(&mesh);
-    riis_surface_destroy(&surface);
-    free_test_mesh(&nodes);
+    free_owned_after(owned_before);
   }
   for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
 }
@@ -452,16 +438,14 @@ static void valves_leak_where_the_loop_says(void **state) {
 static void short_edges_do_not_leak(void **state) {
   (void)state;
   for (int trial = 0; trial < 4; ++trial) {
+    const int owned_before = n_owned();
     riis_surface *surface = valve_surface(trial % 2 ? "mitral" : "aortic", 0, RIIS_DISTANCE_TRIANGLES);
     test_mesh nodes = mesh_round(surface, 0.2 * (1 - 1e-15));
     riis_mesh *mesh = mesh_with_rows(&nodes, 0);
     riis_mark_result *result = new_result();
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
     assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0);
-    riis_mark_result_destroy(&result);
-    riis_mesh_destroy(&mesh);
-    riis_surface_destroy(&surface);
-    free_test_mesh(&nodes);
+    free_owned_after(owned_before);
   }
 }
 
@@ -499,10 +483,6 @@ static void what_the_papers_search_misses_leaks(void **state) {
   const leak_list list = leaks_of(surface, mesh, &options, result);
   assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2); /* a node on the plate has two edges that touch it */
   CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free_test_mesh(&nodes);
 }
 
 /* The list is of what the mesh and its adjacency are now, and of the last marking. */
@@ -542,10 +522,6 @@ static void changes_are_seen(void **state) {
   assert_int_equal(list.sum.n_edges, 1);
   CHECK_NEAR(list.sum.longest_length, 10, 1e-14);
   CHECK_NEAR(list.sum.half_thickness, 0.8, 1e-14);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free_test_mesh(&nodes);
 }
 
 /* --- Refusals ---------------------------------------------------------------------------------------------------------- */
@@ -568,7 +544,7 @@ static void what_makes_no_sense_is_refused(void **state) {
 
   CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
   REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", mesh);
-  riis_mesh_destroy(&mesh);
+  free_one_owned(mesh);
   mesh = mesh_with_rows(&nodes, 0);
   nodes.xyz[20] = NAN;
   REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", mesh);
@@ -584,20 +560,12 @@ static void what_makes_no_sense_is_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 64|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 64));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 80|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 80));
 
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
+  riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_surface_update(surface, valve, NULL)); /* keeps its half thickness */
   riis_surface_options thicker = surface_options();
   thicker.half_thickness = 0.3;
   CHECK_OK(riis_surface_update(surface, valve, &thicker));
   REFUSED(RIIS_INVALID_ARGUMENT, "half thickness 0.25|surface has 0.3|mark the nodes again", mesh);
-  riis_valve_destroy(&valve);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&other);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free_test_mesh(&fewer);
-  free_test_mesh(&nodes);
 }
 
 int main(void) {

@@ -40,15 +40,15 @@ static riis_valve *valve_from(const shape *from) {
   riis_valve *valve = NULL;
   arrays_from(from, &arrays);
   CHECK_OK(riis_valve_create_from_patches(&arrays.patches, &valve));
+  own(valve);
   memset(&arrays, -1, sizeof arrays); /* nothing stays borrowed */
   return valve;
 }
 
 static riis_surface *surface_of(const shape *from, const riis_surface_options *options) {
   riis_valve *valve = valve_from(from);
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, options, &surface));
-  riis_valve_destroy(&valve);
+  riis_surface *surface = new_surface(valve, options);
+  free_one_owned(valve);
   return surface;
 }
 
@@ -92,8 +92,8 @@ static int is_same(const riis_surface *a, const riis_surface *b) {
 /* Both surfaces are destroyed. */
 static void check_same_surfaces(riis_surface *a, riis_surface *b) {
   const int same = is_same(a, b);
-  riis_surface_destroy(&a);
-  riis_surface_destroy(&b);
+  free_one_owned(a);
+  free_one_owned(b);
   assert_true(same);
 }
 
@@ -130,14 +130,11 @@ static void nulls_are_named(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_set_open_state(NULL, valve));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(valve, NULL));
   assert_null(none);
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is a handle of another kind",
                 riis_valve_set_open_state(valve, (const void *)surface));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is a handle of another kind",
                 riis_valve_set_open_state((void *)surface, valve));
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 static void null_arrays_are_named(void **state) {
@@ -240,7 +237,6 @@ static void sides_have_to_meet(void **state) {
   nearly.control[0][1][2] = 1e-9;
   riis_surface *surface = surface_of(&nearly, NULL);
   CHECK_NEAR(info_of(surface).area, 1, 1e-8);
-  riis_surface_destroy(&surface);
 }
 
 static void open_states_are_built_alike(void **state) {
@@ -249,14 +245,13 @@ static void open_states_are_built_alike(void **state) {
   shape raised = square;
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 2; ++k) raised.control[i][k][2] = 1;
-  riis_valve *valve = valve_from(&square), *good = valve_from(&raised), *aortic = NULL;
+  riis_valve *valve = valve_from(&square), *good = valve_from(&raised), *aortic = new_valve("aortic");
   riis_surface *surface = NULL;
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "opening is 1|one state only|riis_valve_set_open_state",
                 riis_surface_create(valve, NULL, &surface));
   assert_null(surface);
   CHECK_OK(riis_valve_set_open_state(valve, good));
-  CHECK_OK(riis_valve_create("aortic", &aortic));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "aortic", riis_valve_set_open_state(valve, aortic));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "aortic", riis_valve_set_open_state(aortic, valve));
 #define OPEN_IS_REFUSED(change, parts)                                                   \
@@ -265,7 +260,7 @@ static void open_states_are_built_alike(void **state) {
     change;                                                                              \
     riis_valve *bad = valve_from(&other);                                                \
     CHECK_REFUSED(RIIS_INVALID_PARAMETER, parts, riis_valve_set_open_state(valve, bad)); \
-    riis_valve_destroy(&bad);                                                            \
+    free_one_owned(bad);                                                                 \
   } while (0)
   OPEN_IS_REFUSED((add_line(&other, 0, 0, 1, 1, 0, 1), add_patch(&other, 4, 1, 2, 3)),
                   "open state has 5 curves and 2 patches, the valve 4 and 1");
@@ -278,12 +273,8 @@ static void open_states_are_built_alike(void **state) {
                   "patch 0 has other sides in the open state");
 #undef OPEN_IS_REFUSED
   /* The open state that it had is still there. */
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  surface = new_surface(valve, NULL);
   CHECK_SAME(info_of(surface).lower[2], 1);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&aortic);
-  riis_valve_destroy(&good);
-  riis_valve_destroy(&valve);
 }
 
 static void opening_is_the_only_parameter(void **state) {
@@ -310,13 +301,13 @@ static void opening_is_the_only_parameter(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "opening|nan", riis_valve_set_scalar(valve, "opening", NAN));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "root_radius", riis_valve_set_scalar(valve, "root_radius", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "root_radius", riis_valve_get(valve, "root_radius", 1, &value));
-  riis_valve_destroy(&valve);
 }
 
 static void patches_without_area_make_no_surface(void **state) {
   (void)state;
   shape flat = unit_square(); /* to a line, to a point, to nearly nothing */
   for (int attempt = 0; attempt < 3; ++attempt) {
+    const int owned_before = n_owned();
     const double scale[3][2] = {{1, 0}, {0, 0}, {1e-200, 1e-200}};
     shape made = flat;
     riis_surface *surface = NULL;
@@ -326,7 +317,7 @@ static void patches_without_area_make_no_surface(void **state) {
     riis_valve *valve = valve_from(&made);
     CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has no area", riis_surface_create(valve, NULL, &surface));
     assert_null(surface);
-    riis_valve_destroy(&valve);
+    free_owned_after(owned_before);
   }
 }
 
@@ -334,6 +325,7 @@ static void patches_without_area_make_no_surface(void **state) {
 static void a_patch_thinner_than_the_tolerance_stays(void **state) {
   (void)state;
   for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
+    const int owned_before = n_owned();
     shape made = unit_square();
     const double y = 4; /* apart from the square, which has the tolerance all to itself */
     const int32_t straight = (int32_t)made.n_curves;
@@ -354,7 +346,7 @@ static void a_patch_thinner_than_the_tolerance_stays(void **state) {
     riis_surface *surface = surface_of(&made, &options);
     for (double x = 0; x <= 1; x += 0.125)
       CHECK_AT_MOST(closest_to(surface, x, y + sagitta * 2 * x * (1 - x), 0).distance, 0.1 * options.tolerance);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -391,7 +383,7 @@ static void square_has_its_area_and_normal(void **state) {
   const surface_content all = surface_content_of(surface);
   for (int64_t i = 0; i < all.n_vertices; ++i) /* u is x and v is y */
     for (int c = 0; c < 2; ++c) CHECK_SAME(all.uv[2 * i + c], all.xyz[3 * i + c]);
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
 
   square.n_patches = 0; /* u and v change places */
   add_patch(&square, 2, 3, 0, 1);
@@ -399,7 +391,6 @@ static void square_has_its_area_and_normal(void **state) {
   above = closest_to(surface, 0.3, 0.6, 2);
   CHECK_NEAR(above.normal[2], -1, 1e-15);
   assert_int_equal(above.side, -1);
-  riis_surface_destroy(&surface);
 }
 
 /* A wavy patch with curves of every degree. Coordinates are small multiples of 1/8: blending does not round. */
@@ -422,15 +413,15 @@ static void both_bases_and_no_optional_arrays_give_the_same(void **state) {
   shape one_based = from;
   arrays_of_shape arrays;
   riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
   for (int i = 0; i < 4; ++i) ++one_based.curve_id[i];
   arrays_from(&one_based, &arrays);
   arrays.patches.index_base = 1;
   arrays.patches.reversed = NULL;
   arrays.patches.leaflet_id = NULL;
   CHECK_OK(riis_valve_create_from_patches(&arrays.patches, &valve));
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
-  riis_valve_destroy(&valve);
+  own(valve);
+  riis_surface *surface = new_surface(valve, NULL);
+  free_one_owned(valve);
   check_same_surfaces(surface, surface_of(&from, NULL));
 }
 
@@ -532,13 +523,13 @@ static double largest_distance(const riis_surface *to, const riis_surface *from)
 
 /* The dense surface is itself right to about 1e-4. */
 static void check_against_dense(const shape *from, double tolerance) {
+  const int owned_before = n_owned();
   riis_surface_options options = surface_options();
   options.tolerance = tolerance;
   riis_surface *dense = dense_surface(from), *surface = surface_of(from, &options);
   const double bound = tolerance * info_of(surface).half_thickness + 1e-4;
   const double there = largest_distance(surface, dense), back = largest_distance(dense, surface);
-  riis_surface_destroy(&surface);
-  riis_surface_destroy(&dense);
+  free_owned_after(owned_before);
   CHECK_AT_MOST(there, bound);
   CHECK_AT_MOST(back, bound);
 }
@@ -679,6 +670,7 @@ static void shared_curves_leave_no_cracks(void **state) {
   enum { most = 50000 };
   static boundary_vertex a[most], b[most], of_curve[most];
   for (int is_plane = 0; is_plane < 2; ++is_plane) {
+    const int owned_before = n_owned();
     shape pair = pair_of_patches(is_plane ? 0 : 0.25);
     if (is_plane) { /* a straight far side, too: all grid lines there are the shared curve's */
       pair.degree[6] = 1;
@@ -704,8 +696,7 @@ static void shared_curves_leave_no_cracks(void **state) {
     /* The normals of both are along S_u x S_v. */
     assert_int_equal(closest_to(surface, -0.5, 0.5, 5).side, 1);
     assert_int_equal(closest_to(surface, 1.5, 0.5, 5).side, 1);
-    riis_surface_destroy(&alone);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -743,7 +734,7 @@ static void collapsed_sides_leave_no_triangles_without_area(void **state) {
       }
       assert_true(sqrt(size) > 1e-12 * longest * longest);
     }
-    riis_surface_destroy(&surface);
+    free_one_owned(surface);
     check_against_dense(&from, 0.05);
   }
 }
@@ -763,18 +754,16 @@ static void opening_blends_control_points(void **state) {
   riis_valve *valve = valve_from(&closed), *other = valve_from(&open);
   CHECK_OK(riis_valve_set_scalar(other, "opening", 0.25)); /* does not matter */
   CHECK_OK(riis_valve_set_open_state(valve, other));
-  riis_valve_destroy(&other);
+  free_one_owned(other);
   for (int step = 0; step <= 2; ++step) {
-    riis_surface *surface = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5 * step));
-    CHECK_OK(riis_surface_create(valve, NULL, &surface));
+    riis_surface *surface = new_surface(valve, NULL);
     check_same_surfaces(surface, surface_of(expected[step], NULL));
   }
   /* The valve's own state serves as the open one, too. */
   CHECK_OK(riis_valve_set_open_state(valve, valve));
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
-  riis_valve_destroy(&valve);
+  riis_surface *surface = new_surface(valve, NULL);
+  free_one_owned(valve);
   check_same_surfaces(surface, surface_of(&closed, NULL));
 }
 
@@ -786,12 +775,11 @@ static void sizes_are_limited_by_precision_and_number(void **state) {
       for (int c = 0; c < 3; ++c) large.control[i][k][c] *= 1e30;
   riis_surface_options options = surface_options();
   options.half_thickness = 1e29;
-  riis_surface *surface = surface_of(&large, &options);
-  CHECK_NEAR(info_of(surface).area, 1e60, 1e46);
-  riis_surface_destroy(&surface);
+  CHECK_NEAR(info_of(surface_of(&large, &options)).area, 1e60, 1e46);
+  riis_surface *surface = NULL;
   riis_valve *valve = valve_from(&large);
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "coordinates up to 1e+30", riis_surface_create(valve, NULL, &surface));
-  riis_valve_destroy(&valve);
+  free_one_owned(valve);
 
   const shape from = wavy();
   valve = valve_from(&from);
@@ -799,7 +787,6 @@ static void sizes_are_limited_by_precision_and_number(void **state) {
   options.tolerance = 1e-6;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "more than 16777216 triangles", riis_surface_create(valve, &options, &surface));
   assert_null(surface);
-  riis_valve_destroy(&valve);
 }
 
 int main(void) {
