@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Adjacencies: the builders against lists of pairs made by other means, and what is refused of rows, cells, faces and grids.
+ * Adjacencies: the builders against lists of pairs made by other means, and what is refused of cells, faces and grids.
  */
 #include <riis/riis.h>
 
@@ -21,7 +21,10 @@ static void add_pair(pair_list *list, int64_t a, int64_t b) {
   if (a == b) return;
   if (list->n + 2 > list->room) {
     list->room = 2 * list->room + 64;
-    list->ends = realloc(list->ends, (size_t)list->room * 2 * sizeof *list->ends);
+    int64_t *longer = own(malloc((size_t)list->room * 2 * sizeof *longer));
+    if (list->n) memcpy(longer, list->ends, (size_t)list->n * 2 * sizeof *longer);
+    free_one_owned(list->ends);
+    list->ends = longer;
   }
   int64_t *to = list->ends + 2 * list->n;
   to[0] = a, to[1] = b, to[2] = b, to[3] = a;
@@ -43,11 +46,6 @@ static void tidy_pairs(pair_list *list) {
     if (compare_pairs(list->ends + 2 * i, list->ends + 2 * (m - 1)) != 0)
       memmove(list->ends + 2 * m++, list->ends + 2 * i, 2 * sizeof *list->ends);
   list->n = m;
-}
-
-static void free_pairs(pair_list *list) {
-  free(list->ends);
-  memset(list, 0, sizeof *list);
 }
 
 static riis_csr rows_of(const riis_adjacency *adjacency) {
@@ -112,8 +110,8 @@ typedef struct cell_list {
 /* kind: 4, 5, 6, 8, or 0 for a mixture. Nodes n_used to n_nodes - 1 are in no cell. */
 static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t n_cells, int repeated_nodes) {
   static const int kinds[4] = {4, 5, 6, 8};
-  cell_list list = {n_nodes, n_cells, calloc((size_t)n_cells + 1, sizeof(int64_t)),
-                    malloc((size_t)n_cells * 8 * sizeof(int64_t))};
+  cell_list list = {n_nodes, n_cells, own(calloc((size_t)n_cells + 1, sizeof(int64_t))),
+                    own(malloc((size_t)n_cells * 8 * sizeof(int64_t)))};
   for (int64_t c = 0; c < n_cells; ++c) {
     const int n = kind ? kind : kinds[random_bits(&rng) % 4];
     int64_t *nodes = list.nodes + list.offsets[c];
@@ -130,8 +128,6 @@ static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t
   return list;
 }
 
-static void free_cells(cell_list *list) { free(list->offsets), free(list->nodes); }
-
 static pair_list pairs_of_cells(const cell_list *list) {
   pair_list pairs = {0};
   for (int64_t c = 0; c < list->n_cells; ++c) {
@@ -144,9 +140,9 @@ static pair_list pairs_of_cells(const cell_list *list) {
   return pairs;
 }
 
-/* n integers plus base, as 32 or 64 bits; to be freed. */
+/* n integers plus base, as 32 or 64 bits. */
 static void *as_bits(const int64_t *from, int64_t n, int bits, int64_t base) {
-  int32_t *narrow = malloc((size_t)(n + 1) * sizeof(int64_t));
+  int32_t *narrow = own(malloc((size_t)(n + 1) * sizeof(int64_t)));
   int64_t *wide = (int64_t *)(void *)narrow;
   for (int64_t i = 0; i < n; ++i) {
     if (bits == 32)
@@ -169,6 +165,7 @@ static void cells_of_every_kind(void **state) {
   for (int k = 0; k < 5; ++k)
     for (int repeated_nodes = 0; repeated_nodes < 2; ++repeated_nodes)
       for (int trial = 0; trial < 2; ++trial) {
+        const int owned_before = n_owned();
         const int64_t n_used = 60 + (int64_t)(random_bits(&rng) % 9000),
                       n_nodes = n_used + (int64_t)(random_bits(&rng) % 50);
         cell_list list =
@@ -176,6 +173,7 @@ static void cells_of_every_kind(void **state) {
         pair_list expected = pairs_of_cells(&list);
         for (int bits = 32; bits <= 64; bits += 32)
           for (int base = 0; base < 2; ++base) {
+            const int n_outside = n_owned();
             void *nodes = as_bits(list.nodes, list.offsets[list.n_cells], bits, base);
             void *offsets = as_bits(list.offsets, list.n_cells + 1, bits, 0);
             riis_cells cells = cells_init();
@@ -194,15 +192,13 @@ static void cells_of_every_kind(void **state) {
             check_rows(one, n_nodes, &expected);
             cells.n_threads = 4;
             CHECK_OK(riis_adjacency_create_from_cells(&cells, &four));
+            own(four);
             assert_true(same_rows(one, four));
-            riis_adjacency_destroy(&four);
             riis_adjacency_destroy(&one);
             assert_null(one);
-            free(nodes);
-            free(offsets);
+            free_owned_after(n_outside);
           }
-        free_pairs(&expected);
-        free_cells(&list);
+        free_owned_after(owned_before);
       }
 }
 
@@ -218,6 +214,7 @@ static void one_cell_of_each_kind(void **state) {
   };
   const int32_t ids[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   for (int k = 0; k < 4; ++k) {
+    const int owned_before = n_owned();
     riis_cells cells = cells_init();
     cells.n_nodes = 10;
     cells.n_cells = 1;
@@ -225,11 +222,11 @@ static void one_cell_of_each_kind(void **state) {
     cells.nodes_per_cell = n_corners[k];
     riis_adjacency *adjacency = NULL;
     CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
+    own(adjacency);
     pair_list expected = {0};
     for (int e = 0; e < n_edges[k]; ++e) add_pair(&expected, edges[k][2 * e], edges[k][2 * e + 1]);
     check_rows(adjacency, 10, &expected);
-    free_pairs(&expected);
-    riis_adjacency_destroy(&adjacency);
+    free_owned_after(owned_before);
   }
 }
 
@@ -299,6 +296,7 @@ static void wildest_integers_are_refused(void **state) {
   (void)state;
   const int64_t ids[4] = {1, 2, 3, INT64_MIN}, offsets[2] = {1, 2}, columns[1] = {INT64_MIN};
   for (int base = 0; base < 2; ++base) {
+    const int owned_before = n_owned();
     riis_adjacency *adjacency = NULL;
     riis_cells cells = cells_init();
     cells.n_nodes = 6;
@@ -323,17 +321,16 @@ static void wildest_integers_are_refused(void **state) {
                   riis_adjacency_create_from_faces(&faces, &adjacency));
     const double xyz[3] = {0};
     const int64_t offsets_0[2] = {0, 1};
-    riis_mesh *mesh = NULL;
     riis_csr csr;
     CHECK_OK(riis_csr_init(&csr, sizeof csr));
-    CHECK_OK(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &mesh));
+    riis_mesh *mesh = mesh_of(1, xyz);
     csr.n_rows = 1;
     csr.offsets = base ? offsets : offsets_0;
     csr.columns = columns;
     csr.offset_bits = csr.column_bits = 64;
     csr.index_base = base;
     CHECK_REFUSED(RIIS_INVALID_MESH, "row 0|column -9223372036854775808", riis_mesh_set_adjacency(mesh, &csr));
-    riis_mesh_destroy(&mesh);
+    free_owned_after(owned_before);
   }
   const int64_t wild_offsets[3] = {0, 4, INT64_MIN};
   riis_adjacency *adjacency = NULL;
@@ -357,8 +354,9 @@ static riis_faces faces_init(void) {
 static void faces_in_every_layout(void **state) {
   (void)state;
   for (int trial = 0; trial < 6; ++trial) {
+    const int owned_before = n_owned();
     const int64_t n_cells = 1 + (int64_t)(random_bits(&rng) % 9000), n_faces = trial == 5 ? 0 : 4 * n_cells;
-    int64_t *ends = malloc((size_t)(2 * n_faces + 2) * sizeof *ends);
+    int64_t *ends = own(malloc((size_t)(2 * n_faces + 2) * sizeof *ends));
     pair_list expected = {0};
     for (int64_t f = 0; f < n_faces; ++f) {
       int64_t *face = ends + 2 * f;
@@ -375,7 +373,8 @@ static void faces_in_every_layout(void **state) {
     for (int bits = 32; bits <= 64; bits += 32)
       for (int base = 0; base < 2; ++base)
         for (int stride = 1; stride <= 2; ++stride) {
-          int64_t *laid_out = malloc((size_t)(2 * n_faces + 2) * sizeof *laid_out);
+          const int n_outside = n_owned();
+          int64_t *laid_out = own(malloc((size_t)(2 * n_faces + 2) * sizeof *laid_out));
           for (int64_t f = 0; f < n_faces; ++f)
             for (int e = 0; e < 2; ++e) laid_out[stride == 2 ? 2 * f + e : e * n_faces + f] = ends[2 * f + e];
           char *numbers = as_bits(laid_out, 2 * n_faces, bits, base);
@@ -390,17 +389,15 @@ static void faces_in_every_layout(void **state) {
           faces.n_threads = 1;
           riis_adjacency *one = NULL, *four = NULL;
           CHECK_OK(riis_adjacency_create_from_faces(&faces, &one));
+          own(one);
           check_rows(one, n_cells, &expected);
           faces.n_threads = 4;
           CHECK_OK(riis_adjacency_create_from_faces(&faces, &four));
+          own(four);
           assert_true(same_rows(one, four));
-          riis_adjacency_destroy(&one);
-          riis_adjacency_destroy(&four);
-          free(numbers);
-          free(laid_out);
+          free_owned_after(n_outside);
         }
-    free_pairs(&expected);
-    free(ends);
+    free_owned_after(owned_before);
   }
 }
 
@@ -477,6 +474,7 @@ static void grids_of_any_dimension(void **state) {
   static const int64_t counts[9][3] = {{1, 1, 1}, {7, 1, 1},   {1, 7, 1},    {1, 1, 7}, {5, 4, 1},
                                        {5, 1, 4}, {1, 90, 80}, {20, 21, 22}, {2, 2, 2}};
   for (int g = 0; g < 9; ++g) {
+    const int owned_before = n_owned();
     const int64_t *c = counts[g], n = c[0] * c[1] * c[2];
     pair_list expected = {0};
     for (int64_t k = 0; k < c[2]; ++k)
@@ -489,12 +487,12 @@ static void grids_of_any_dimension(void **state) {
         }
     riis_adjacency *one = NULL, *four = NULL;
     CHECK_OK(riis_adjacency_create_from_grid(c[0], c[1], c[2], 1, &one));
+    own(one);
     CHECK_OK(riis_adjacency_create_from_grid(c[0], c[1], c[2], 4, &four));
+    own(four);
     check_rows(one, n, &expected);
     assert_true(same_rows(one, four));
-    riis_adjacency_destroy(&one);
-    riis_adjacency_destroy(&four);
-    free_pairs(&expected);
+    free_owned_after(owned_before);
   }
 }
 
@@ -516,187 +514,6 @@ static void grids_that_are_refused(void **state) {
   assert_null(adjacency);
 }
 
-/* --- The handle and its rows ----------------------------------------------------------------------------------------- */
-
-static void handles_of_adjacencies(void **state) {
-  (void)state;
-  riis_adjacency *adjacency = NULL;
-  riis_csr csr;
-  CHECK_OK(riis_adjacency_create_from_grid(3, 2, 1, 0, &adjacency));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_csr(NULL, &csr, sizeof csr));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_adjacency_csr(adjacency, NULL, sizeof csr));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 48", riis_adjacency_csr(adjacency, &csr, 48));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 64", riis_adjacency_csr(adjacency, &csr, 64));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_csr_init(NULL, sizeof csr));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is -8", riis_csr_init(&csr, -8));
-  /* A mesh in its place, and it in a mesh's. */
-  const double xyz[18] = {0};
-  riis_mesh *mesh = NULL;
-  CHECK_OK(riis_mesh_create(6, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency is a handle of another kind",
-                riis_adjacency_csr((const riis_adjacency *)(const void *)mesh, &csr, sizeof csr));
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is a handle of another kind",
-                riis_mesh_set_adjacency((riis_mesh *)(void *)adjacency, &csr));
-  riis_adjacency *wrong = (riis_adjacency *)(void *)mesh;
-  riis_adjacency_destroy(&wrong);
-  assert_non_null(wrong); /* left alone */
-  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  riis_mesh_destroy(&mesh);
-  riis_adjacency_destroy(&adjacency);
-  assert_null(adjacency);
-  riis_adjacency_destroy(&adjacency);
-  riis_adjacency_destroy(NULL);
-}
-
-/* 1 if the mesh can be searched along an adjacency. */
-static int has_adjacency(const riis_surface *surface, const riis_mesh *mesh) {
-  riis_mark_result *result = new_result();
-  riis_mark_options options = mark_options();
-  options.search = RIIS_SEARCH_NEIGHBOR;
-  options.n_threads = 1;
-  const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
-  riis_mark_result_destroy(&result);
-  if (status == RIIS_OK) return 1;
-  assert_int_equal(status, RIIS_INVALID_ARGUMENT);
-  return 0;
-}
-
-static void rows_that_are_refused(void **state) {
-  (void)state;
-  enum { n = 5 };
-  riis_surface *surface = aortic_surface(NULL);
-  double xyz[3 * n] = {0};
-  int32_t offsets[n + 1] = {0, 1, 3, 5, 7, 8}, columns[8] = {1, 0, 2, 1, 3, 2, 4, 3};
-  riis_mesh *mesh = NULL;
-  riis_csr good, csr;
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_OK(riis_csr_init(&good, sizeof good));
-  assert_int_equal(good.struct_size, sizeof good);
-  assert_int_equal(good.n_rows, 0);
-  assert_int_equal(good.n_all, 0);
-  assert_null(good.offsets);
-  assert_null(good.columns);
-  assert_int_equal(good.offset_bits, 32);
-  assert_int_equal(good.column_bits, 32);
-  assert_int_equal(good.index_base, 0);
-  good.n_rows = n;
-  good.offsets = offsets;
-  good.columns = columns;
-  /* Before there is one and while there is one, which stays. */
-  for (int has_one = 0; has_one < 2; ++has_one) {
-    if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
-#define REFUSED(status, parts)                                         \
-  do {                                                                 \
-    CHECK_REFUSED(status, parts, riis_mesh_set_adjacency(mesh, &csr)); \
-    assert_int_equal(has_adjacency(surface, mesh), has_one);           \
-  } while (0)
-#define REFUSED_WITH(change, status, parts) \
-  do {                                      \
-    csr = good;                             \
-    csr.change;                             \
-    REFUSED(status, parts);                 \
-  } while (0)
-    REFUSED_WITH(n_rows = n - 1, RIIS_INVALID_ARGUMENT, "csr.n_rows is 4|5 nodes");
-    REFUSED_WITH(n_rows = n + 1, RIIS_INVALID_ARGUMENT, "csr.n_rows is 6|5 nodes");
-    REFUSED_WITH(n_rows = 0, RIIS_INVALID_ARGUMENT, "csr.n_rows is 0");
-    REFUSED_WITH(n_all = n - 1, RIIS_INVALID_ARGUMENT, "csr.n_all is 4|at least n_rows");
-    REFUSED_WITH(n_all = -1, RIIS_INVALID_ARGUMENT, "csr.n_all is -1");
-    REFUSED_WITH(offset_bits = 16, RIIS_INVALID_ARGUMENT, "csr.offset_bits is 16|32 or 64");
-    REFUSED_WITH(column_bits = 0, RIIS_INVALID_ARGUMENT, "csr.column_bits is 0|32 or 64");
-    REFUSED_WITH(index_base = 2, RIIS_INVALID_ARGUMENT, "csr.index_base is 2|0 or 1");
-    REFUSED_WITH(reserved = 9, RIIS_INVALID_ARGUMENT, "csr.reserved is 9");
-    REFUSED_WITH(offsets = NULL, RIIS_INVALID_ARGUMENT, "csr.offsets|NULL");
-    REFUSED_WITH(columns = NULL, RIIS_INVALID_ARGUMENT, "csr.columns|NULL");
-    REFUSED_WITH(struct_size = 0, RIIS_INVALID_STRUCT_SIZE, "csr is 0");
-    REFUSED_WITH(struct_size = sizeof csr + 8, RIIS_INVALID_STRUCT_SIZE, "csr is 64");
-    csr = good;
-    columns[4] = 5;
-    REFUSED(RIIS_INVALID_MESH, "row 2|column 5|nodes 0 to 4");
-    columns[4] = -1;
-    REFUSED(RIIS_INVALID_MESH, "row 2|column -1");
-    columns[4] = 3;
-    offsets[3] = 2;
-    REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
-    offsets[3] = 1000; /* beyond what the last one promises: nothing is read there */
-    REFUSED(RIIS_INVALID_MESH, "row 3|ends at 7|begins, at 1000");
-    offsets[3] = 5;
-    offsets[0] = 1;
-    REFUSED(RIIS_INVALID_MESH, "csr.offsets begins with 1|begin with 0");
-    csr.index_base = 1;
-    REFUSED(RIIS_INVALID_MESH, "row 1|column 0|nodes 1 to 5");
-    offsets[0] = 0;
-    csr.index_base = 1;
-    REFUSED(RIIS_INVALID_MESH, "csr.offsets begins with 0|begin with 1");
-#undef REFUSED
-#undef REFUSED_WITH
-  }
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh|NULL", riis_mesh_set_adjacency(NULL, &good));
-  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
-  assert_int_equal(has_adjacency(surface, mesh), 0);
-  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-}
-
-static void when_an_adjacency_goes(void **state) {
-  (void)state;
-  enum { n = 4 };
-  riis_surface *surface = aortic_surface(NULL);
-  double xyz[3 * (n + 1)] = {0};
-  /* Columns 4 and 5 are ghosts; the rest of the rows is the node itself, and again. */
-  int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
-  riis_mesh *mesh = NULL;
-  riis_csr csr;
-  riis_mark_result *result = new_result();
-  riis_mark_options options = mark_options();
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_OK(riis_csr_init(&csr, sizeof csr));
-  csr.n_rows = n;
-  csr.offsets = offsets;
-  csr.columns = columns;
-  csr.offset_bits = csr.column_bits = 64;
-  csr.index_base = 1;
-  CHECK_REFUSED(RIIS_INVALID_MESH, "row 0|column 5|nodes 1 to 4", riis_mesh_set_adjacency(mesh, &csr));
-  csr.n_all = n + 1;
-  CHECK_REFUSED(RIIS_INVALID_MESH, "row 0|column 6|nodes 1 to 5", riis_mesh_set_adjacency(mesh, &csr));
-  csr.n_all = n + 2;
-  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* As many nodes: it stays. A refused update: it stays. Another number: it goes. */
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-  assert_int_equal(has_adjacency(surface, mesh), 1);
-  xyz[3 * n] = NAN;
-  CHECK_REFUSED(RIIS_INVALID_MESH, "x of node 4 is nan", riis_mesh_update(mesh, n + 1, xyz, xyz + 1, xyz + 2, 3));
-  assert_int_equal(has_adjacency(surface, mesh), 1);
-  xyz[3 * n] = 0;
-  CHECK_OK(riis_mesh_update(mesh, n + 1, xyz, xyz + 1, xyz + 2, 3));
-  assert_int_equal(has_adjacency(surface, mesh), 0);
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr.n_rows is 4|5 nodes", riis_mesh_set_adjacency(mesh, &csr));
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-  assert_int_equal(has_adjacency(surface, mesh), 0);
-  options.search = RIIS_SEARCH_NEIGHBOR;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 2|adjacency",
-                riis_mark_nodes(surface, mesh, &options, result));
-  options.search = RIIS_SEARCH_PAPER;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 3|adjacency",
-                riis_mark_nodes(surface, mesh, &options, result));
-  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  assert_int_equal(has_adjacency(surface, mesh), 1);
-  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
-  assert_int_equal(has_adjacency(surface, mesh), 0);
-  /* All rows empty: no columns are wanted. */
-  const int32_t nothing[n + 1] = {0};
-  CHECK_OK(riis_csr_init(&csr, sizeof csr));
-  csr.n_rows = n;
-  csr.offsets = nothing;
-  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  assert_int_equal(has_adjacency(surface, mesh), 1);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_of_every_kind),    cmocka_unit_test(one_cell_of_each_kind),
@@ -704,8 +521,6 @@ int main(void) {
       cmocka_unit_test(cells_that_are_refused), cmocka_unit_test(wildest_integers_are_refused),
       cmocka_unit_test(faces_in_every_layout),  cmocka_unit_test(faces_that_are_refused),
       cmocka_unit_test(grids_of_any_dimension), cmocka_unit_test(grids_that_are_refused),
-      cmocka_unit_test(handles_of_adjacencies), cmocka_unit_test(rows_that_are_refused),
-      cmocka_unit_test(when_an_adjacency_goes),
   };
   rng = random_start("test_adjacency");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,7 @@ static void numbers_of_the_model(void **state) {
     options.tolerance = tolerance[i];
     riis_surface *surface = aortic_surface(&options);
     const riis_surface_info info = info_of(surface);
-    riis_surface_destroy(&surface);
+    free_one_owned(surface);
     CHECK_NEAR(info.area, 6.9862, area_error[i]);
     assert_true(info.area > last_area);
     last_area = info.area;
@@ -34,15 +34,14 @@ static void default_half_thickness_follows_the_scale(void **state) {
   riis_surface_options options = surface_options();
   riis_surface *surface = aortic_surface(NULL);
   CHECK_NEAR(info_of(surface).half_thickness, 0.1, 1e-17);
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   options.scale = 0.01;
   surface = aortic_surface(&options);
   CHECK_NEAR(info_of(surface).half_thickness, 0.001, 1e-18);
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   options.half_thickness = 0.0005;
   surface = aortic_surface(&options);
   CHECK_SAME(info_of(surface).half_thickness, 0.0005);
-  riis_surface_destroy(&surface);
 }
 
 /* Everything the triangles carry, checked one by one. */
@@ -92,7 +91,6 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
     assert_int_equal(per_patch[i], per_patch[i + 2]);
     assert_int_equal(per_patch[i + 1], per_patch[i + 3]);
   }
-  riis_surface_destroy(&surface);
 }
 
 /* Downstream is from the ventricle to the sinus: a point in each sinus, between cusp and wall, is on the side +1, a
@@ -101,6 +99,7 @@ static void normals_point_downstream(void **state) {
   (void)state;
   const double angle[3] = {0, 119.5, -121.5};
   for (int flip = 0; flip < 2; ++flip) {
+    const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     options.flip_normals = flip;
     riis_surface *surface = aortic_surface(&options);
@@ -135,7 +134,7 @@ static void normals_point_downstream(void **state) {
       assert_true(outwards[cusp] > 0.5);
       assert_true(upwards[cusp] > 0.5);
     }
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -161,8 +160,6 @@ static void placement_is_applied_last(void **state) {
     CHECK_NEAR(b[i + 1], -0.01 * a[i + 2] - 7, 1e-14);
     CHECK_NEAR(b[i + 2], 0.01 * a[i + 1] + 11, 1e-14);
   }
-  riis_surface_destroy(&plain);
-  riis_surface_destroy(&placed);
 }
 
 static void three_cusps_are_three_pieces(void **state) {
@@ -176,7 +173,7 @@ static void three_cusps_are_three_pieces(void **state) {
   CHECK_OK(riis_surface_triangles(surface, &n, &id, NULL, &leaflet_id, NULL));
   /* No vertex of one cusp touches another's: the radii differ at the commissures. Smallest gap at each. */
   double gap = INFINITY;
-  int32_t *of_vertex = malloc((size_t)n_vertices * sizeof *of_vertex);
+  int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
   for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* vertices that only triangles without area had */
   for (int64_t i = 0; i < 3 * n; ++i) of_vertex[id[i]] = leaflet_id[i / 3];
   for (int64_t i = 0; i < n_vertices; ++i)
@@ -185,8 +182,6 @@ static void three_cusps_are_three_pieces(void **state) {
         const double *a = xyz + 3 * i, *b = xyz + 3 * j;
         gap = fmin(gap, hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]));
       }
-  free(of_vertex);
-  riis_surface_destroy(&surface);
   printf("smallest gap between vertices of two cusps: %.3g\n", gap);
   assert_true(gap > 1e-3);
 }
@@ -197,11 +192,10 @@ static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 *
  * there (u = 0 at both ends) is of exactly two triangles. Sides depend on it where the cusp is folded. */
 static void halves_meet_to_the_last_bit(void **state) {
   (void)state;
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
-  CHECK_OK(riis_valve_create("aortic", &valve));
+  riis_valve *valve = new_valve("aortic");
   for (int trial = 0; trial < 3; ++trial) {
+    const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     if (trial == 1) { /* as sharply folded as it gets */
       CHECK_OK(riis_valve_set_scalar(valve, "leaflet_power", 1));
@@ -216,15 +210,14 @@ static void halves_meet_to_the_last_bit(void **state) {
       options.rotation_angle = 33;
       options.translation[1] = 3;
     }
-    surface = NULL;
-    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    riis_surface *surface = new_surface(valve, &options);
     int64_t n, n_edges = 0;
     const double *xyz, *uv;
     const int64_t *id;
     CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
     CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
     CHECK_OK(riis_surface_triangles(surface, &n, &id, NULL, NULL, NULL));
-    double(*edges)[6] = malloc((size_t)n * 3 * sizeof *edges);
+    double(*edges)[6] = own(malloc((size_t)n * 3 * sizeof *edges));
     for (int64_t i = 0; i < 3 * n; ++i) {
       const int64_t a = id[i], b = id[i % 3 == 2 ? i - 2 : i + 1];
       if (uv[2 * a] != 0 || uv[2 * b] != 0) continue;
@@ -238,12 +231,10 @@ static void halves_meet_to_the_last_bit(void **state) {
     qsort(edges, (size_t)n_edges, sizeof *edges, compare_edges);
     int64_t n_lonely = n_edges % 2;
     for (int64_t i = 0; i + 1 < n_edges; i += 2) n_lonely += compare_edges(edges[i], edges[i + 1]) != 0;
-    free(edges);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
     assert_true(n_edges > 50);
     assert_int_equal(n_lonely, 0);
   }
-  riis_valve_destroy(&valve);
 }
 
 static void parameters_change_the_surface_and_update_keeps_the_handle(void **state) {
@@ -324,9 +315,8 @@ static void every_parameter_by_name(void **state) {
       {"non_coronary.rotation", {0, 0, -121.5}}, {"right.translation", {0, 0, -1}}, {"left.translation", {0, 0, -1}},
       {"non_coronary.translation", {0, 0, -1}}};
   const int n_scalars = sizeof table / sizeof *table, n_vectors = sizeof vectors / sizeof *vectors;
-  riis_valve *valve = NULL;
   int64_t n = 0;
-  CHECK_OK(riis_valve_create("aortic", &valve));
+  riis_valve *valve = new_valve("aortic");
   CHECK_OK(riis_valve_n_parameters(valve, &n));
   assert_int_equal(n, n_scalars + n_vectors + 1); /* and the opening */
   for (int i = 0; i < n_scalars + n_vectors; ++i) {
@@ -337,16 +327,15 @@ static void every_parameter_by_name(void **state) {
     CHECK_OK(riis_valve_get(valve, name, n_values, values));
     for (int k = 0; k < n_values; ++k) CHECK_SAME(values[k], expected[k]);
     /* Changed a little, the surface changes; put back, it is the same again. */
-    riis_surface *before = NULL, *after = NULL;
-    CHECK_OK(riis_surface_create(valve, NULL, &before));
+    const int owned_before = n_owned();
+    riis_surface *before = new_surface(valve, NULL);
     for (int k = 0; k < n_values; ++k) values[k] += 0.01;
     CHECK_OK(riis_valve_set(valve, name, n_values, values));
-    CHECK_OK(riis_surface_create(valve, NULL, &after));
+    riis_surface *after = new_surface(valve, NULL);
     const int changed = info_of(before).area != info_of(after).area ||
                         info_of(before).upper[2] != info_of(after).upper[2] ||
                         info_of(before).upper[0] != info_of(after).upper[0];
-    riis_surface_destroy(&before);
-    riis_surface_destroy(&after);
+    free_owned_after(owned_before);
     if (changed != (strcmp(name, "root_height") != 0))
       fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");
     CHECK_OK(riis_valve_set(valve, name, n_values, expected));
@@ -362,7 +351,6 @@ static void every_parameter_by_name(void **state) {
     }
     assert_true(strlen(parameter.unit) > 0 && strlen(parameter.description) > 10);
   }
-  riis_valve_destroy(&valve);
 }
 
 int main(void) {

@@ -36,6 +36,7 @@ static void aortic_valve_equals_the_oracle(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
   for (int trial = 0; trial < 4; ++trial) {
+    const int owned_before = n_owned();
     /* Near the origin, 300 cm away, in metres and turned. */
     options.scale = trial < 2 ? 1 : 0.01;
     options.rotation_angle = 77 * trial;
@@ -43,13 +44,14 @@ static void aortic_valve_equals_the_oracle(void **state) {
     riis_surface *surface = aortic_surface(&options);
     single_equals_the_oracle(surface, 250, 0.5);
     single_equals_the_oracle(surface, 20, 1000);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
 static void random_soups_equal_the_oracle(void **state) {
   (void)state;
   for (int trial = 0; trial < 40; ++trial) {
+    const int owned_before = n_owned();
     const int64_t n = 1 + (int64_t)(random_bits(&rng) % 300);
     double *xyz;
     int32_t *ids;
@@ -60,9 +62,7 @@ static void random_soups_equal_the_oracle(void **state) {
     for (int c = 0; c < 3; ++c) options.translation[c] = options.scale * random_between(&rng, -100, 100);
     riis_surface *surface = surface_from(&arrays, &options);
     single_equals_the_oracle(surface, 200, trial % 2 ? 0.3 : 30);
-    riis_surface_destroy(&surface);
-    free(xyz);
-    free(ids);
+    free_owned_after(owned_before);
   }
 }
 
@@ -80,7 +80,6 @@ static void far_points_equal_the_oracle(void **state) {
     const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
     CHECK_NEAR(closest.distance / r, (double)oracle_distance(p, n, vertex_id, xyz, &triangle) / r, 1e-15);
   }
-  riis_surface_destroy(&surface);
 }
 
 /* Equal distances: a grid of coplanar, repeated and mirrored triangles has ties everywhere; the lowest id wins,
@@ -103,7 +102,6 @@ static void ties_go_to_the_lowest_id(void **state) {
   assert_int_equal(closest_to(surface, 0.2, 0.2, 3).triangle_id, 1);
   assert_int_equal(closest_to(surface, 0.2, 0.2, -3).triangle_id, 0);
   assert_int_equal(closest_to(surface, -5, -5, 0).triangle_id, 0);
-  riis_surface_destroy(&surface);
 }
 
 /* Batches: every output equal to the single query's, bit by bit, for any number of threads, layout and choice of
@@ -164,7 +162,6 @@ static void batches_equal_single_queries(void **state) {
   CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
   assert_memory_equal(limited, distance, sizeof limited);
   CHECK_OK(riis_closest_points(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
-  riis_surface_destroy(&surface);
 }
 
 /* What single queries report fits together: the point on the triangle, at the distance, the normal its own, the side
@@ -201,7 +198,6 @@ static void closest_is_consistent(void **state) {
       assert_int_equal(c.side, height > 0 ? 1 : -1);
     }
   }
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {

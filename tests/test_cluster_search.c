@@ -10,94 +10,20 @@
 #include "oracle.h"
 #include "searches.h"
 
-static random_source rng;
+#include "cluster_checks.h"
 
 static double power_of_ten(double from, double to) { return pow(10, random_between(&rng, from, to)); }
-
-static riis_mesh *mesh_of(int64_t n, const double *xyz) {
-  riis_mesh *mesh = NULL;
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  return mesh;
-}
-
-/* Whether this processor has them. */
-static int is_refused(riis_status status, int32_t instructions) {
-  if (status == RIIS_OK) return 0;
-  char text[64];
-  snprintf(text, sizeof text, "options.instructions is %d, which this processor has not", instructions);
-  assert_true(instructions > RIIS_INSTRUCTIONS_BASELINE);
-  CHECK_REFUSED(RIIS_UNAVAILABLE, text, status);
-  return 1;
-}
-
-static int32_t most_threads; /* that ran in any of these */
-static int64_t most_within;
-
-/* By all instructions that there are and up to so many threads; expected_search is what runs. A fresh mesh each time if fresh. */
-static void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
-                       int32_t expected_search) {
-  riis_mark_result *expected = new_result(), *result = new_result();
-  options.search = RIIS_SEARCH_EXHAUSTIVE;
-  options.instructions = RIIS_INSTRUCTIONS_BASELINE;
-  options.n_threads = 1;
-  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
-  int n_sets = 0;
-  for (int32_t set = RIIS_INSTRUCTIONS_BASELINE; set <= RIIS_INSTRUCTIONS_AVX512; ++set)
-    for (int threads = 1; threads <= max_threads; ++threads) {
-      options.search = RIIS_SEARCH_CLUSTERS;
-      options.instructions = set;
-      options.n_threads = threads;
-      if (is_refused(riis_mark_nodes(surface, mesh, &options, result), set)) break;
-      const riis_mark_stats stats = stats_of(result), of_expected = stats_of(expected);
-      if (!same_results(result, expected))
-        fail_msg(
-            "instructions %d, %d threads: %lld nodes within %g instead of %lld, %lld marked instead of %lld; or not "
-            "the same bits",
-            set, threads, (long long)stats.n_within_limit, options.distance_limit,
-            (long long)of_expected.n_within_limit, (long long)stats.n_marked, (long long)of_expected.n_marked);
-      assert_int_equal(stats.search, expected_search);
-      assert_int_equal(stats.instructions, set);
-      assert_int_equal(stats.complete, 1);
-      assert_int_equal(stats.n_unreached, 0);
-      assert_int_equal(stats.n_nodes, of_expected.n_nodes);
-      assert_true(stats.n_threads >= 1 && stats.n_threads <= threads);
-      if (stats.n_threads > most_threads) most_threads = stats.n_threads;
-      if (stats.n_within_limit > most_within) most_within = stats.n_within_limit;
-      n_sets += threads == 1;
-    }
-  assert_true(n_sets >= 1);
-  riis_mark_result_destroy(&expected);
-  riis_mark_result_destroy(&result);
-}
 
 static void check(const riis_surface *surface, int64_t n, const double *xyz, double limit) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_options options = mark_options();
   options.distance_limit = limit;
   check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
-}
-
-/* A point of a surface's triangle, moved by up to so much. */
-static void point_near(const riis_surface *surface, double off, double *p) {
-  const surface_content all = surface_content_of(surface);
-  const int64_t *id = all.vertex_id + 3 * (random_bits(&rng) % (uint64_t)all.n_triangles);
-  double w[3] = {random_between(&rng, 0, 1), 0, 0};
-  w[1] = random_between(&rng, 0, 1) * (1 - w[0]), w[2] = 1 - w[0] - w[1];
-  if (random_bits(&rng) % 3 == 0) w[0] = 1, w[1] = w[2] = 0;
-  for (int c = 0; c < 3; ++c) {
-    p[c] = off * random_between(&rng, -1, 1);
-    for (int k = 0; k < 3; ++k) p[c] += w[k] * all.xyz[3 * id[k] + c];
-  }
+  free_one_owned(mesh);
 }
 
 static riis_surface *valve_surface(const char *kind, riis_surface_options options) {
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create(kind, &valve));
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
-  riis_valve_destroy(&valve);
-  return surface;
+  return surface_of_kind(kind, &options);
 }
 
 /* --- Meshes ---------------------------------------------------------------------------------------------------------- */
@@ -114,7 +40,6 @@ static void meshes_of_few_nodes(void **state) {
     check(surface, n, xyz, n % 2 ? RIIS_AUTO : 0.2);
   }
   assert_true(most_within > 20);
-  riis_surface_destroy(&surface);
 }
 
 /* All in one place, in few places, on a line, in a plane; counts around those of leaves, clusters and regions. */
@@ -140,7 +65,6 @@ static void nodes_without_extent(void **state) {
       check(surface, n, xyz, RIIS_AUTO);
       if (kind < 2) assert_int_equal(most_within, n);
     }
-  riis_surface_destroy(&surface);
 }
 
 /* Differences of coordinates that have no inverse, or are the smallest that there are. */
@@ -154,6 +78,7 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
   options.half_thickness = 0.1;
   riis_surface *surface = surface_from(&arrays, &options);
   for (size_t k = 0; k < sizeof steps / sizeof steps[0]; ++k) {
+    const int owned_before = n_owned();
     enum { n = 700 };
     for (int i = 0; i < 3 * n; ++i) xyz[i] = (double)(random_bits(&rng) % 3) * steps[k];
     riis_mesh *mesh = mesh_of(n, xyz);
@@ -163,10 +88,8 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
     CHECK_OK(riis_mesh_prepare(mesh, 1));
     CHECK_OK(riis_mark_nodes(surface, mesh, &of_clusters, result));
     assert_int_equal(marked_in(result).n, n);
-    riis_mark_result_destroy(&result);
-    riis_mesh_destroy(&mesh);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&surface);
 }
 
 /* Both valves; spacings that grow to one side, and cells a hundred times as long as they are high; limits from next to nothing to beyond
@@ -177,12 +100,14 @@ static void graded_and_anisotropic_meshes(void **state) {
   most_threads = 0;
   for (int mitral = 0; mitral < 2; ++mitral)
     for (size_t k = 0; k < sizeof limits / sizeof limits[0]; ++k) {
+      const int owned_before = n_owned();
       riis_surface_options options = surface_options();
       options.half_thickness = fmax(1e-4, fmin(limits[k], 0.1));
       options.tolerance = 0.5;
       riis_surface *surface = valve_surface(mitral ? "mitral" : "aortic", options);
       const int64_t counts[2][3] = {{30, 30, 30}, {5, 20, 270}};
       for (int kind = 0; kind < 2; ++kind) {
+        const int n_outside = n_owned();
         const double lower[3] = {-2, -2, -2}, upper[3] = {2, 2, 2};
         test_mesh nodes = lattice(counts[kind], lower, upper);
         for (int64_t i = 0; i < 3 * nodes.n && kind == 0; ++i) nodes.xyz[i] = nodes.xyz[i] * fabs(nodes.xyz[i]);
@@ -190,10 +115,9 @@ static void graded_and_anisotropic_meshes(void **state) {
         riis_mark_options marking = mark_options();
         marking.distance_limit = fmax(limits[k], options.half_thickness);
         check_with(surface, mesh, marking, kind == 0 ? 4 : 1, RIIS_SEARCH_CLUSTERS);
-        riis_mesh_destroy(&mesh);
-        free_test_mesh(&nodes);
+        free_owned_after(n_outside);
       }
-      riis_surface_destroy(&surface);
+      free_owned_after(owned_before);
     }
   /* Threads are as many as were asked for, if OpenMP gives them: more than one ran. */
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
@@ -204,7 +128,7 @@ static void masked_nodes_are_left_out(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.09, 0.3);
   riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
-  uint8_t *mask = malloc((size_t)nodes.n);
+  uint8_t *mask = own(malloc((size_t)nodes.n));
   for (int kind = 0; kind < 5; ++kind) {
     for (int64_t i = 0; i < nodes.n; ++i)
       mask[i] = kind == 0   ? 0
@@ -217,10 +141,6 @@ static void masked_nodes_are_left_out(void **state) {
     options.distance_limit = 0.25;
     check_with(surface, mesh, options, 3, RIIS_SEARCH_CLUSTERS);
   }
-  free(mask);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
 }
 
 /* A node alone, so that nothing but what is allowed for single precision makes its box large: the limit is its distance, or a bit less. */
@@ -250,7 +170,6 @@ static void nodes_at_the_limit_are_found(void **state) {
       ++n_tried;
     }
     assert_true(n_tried > 150);
-    riis_surface_destroy(&surfaces[k]);
   }
 }
 
@@ -258,8 +177,8 @@ static void nodes_at_the_limit_are_found(void **state) {
 
 /* A sphere about the origin, (2 n) times n quads, two triangles each but at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
-  double *at = malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at);
-  int32_t *ids = malloc((size_t)(4 * n * n) * 3 * sizeof *ids);
+  double *at = own(malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at));
+  int32_t *ids = own(malloc((size_t)(4 * n * n) * 3 * sizeof *ids));
   int64_t n_triangles = 0;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i < 2 * n; ++i) {
@@ -278,9 +197,7 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
   options.zero_area = RIIS_ZERO_AREA_SKIP;
-  riis_surface *surface = surface_from(&arrays, &options);
-  free(at), free(ids);
-  return surface;
+  return surface_from(&arrays, &options);
 }
 
 /* The surface's middle is as far from all of it: far more pairs than there is room for. How many pairs must be left for the decision is
@@ -307,7 +224,6 @@ static void more_pairs_than_room(void **state) {
     assert_int_equal(most_within, n);
     check(surface, n, xyz, smallest); /* only what is there exactly, or nearer */
   }
-  riis_surface_destroy(&surface);
 }
 
 /* Triangles by arrays: any, needles down to 1e-11, sizes over many powers of ten, levels, pieces apart; in units from 1e-50 to 1e50 and far
@@ -320,6 +236,7 @@ static void surfaces_from_arrays(void **state) {
   for (int i = 0; i < 3 * max_triangles; ++i) ids[i] = i;
   most_within = 0;
   for (int trial = 0; trial < 150; ++trial) {
+    const int owned_before = n_owned();
     const int64_t n_triangles = 8 + (int64_t)(random_bits(&rng) % (max_triangles - 8));
     const double unit = trial % 3 ? 1 : power_of_ten(-45, 45), far = trial % 2   ? 0
                                                                      : trial % 4 ? 300
@@ -346,13 +263,14 @@ static void surfaces_from_arrays(void **state) {
     const riis_status status = riis_surface_create_from_arrays(&arrays, &options, &surface);
     if (status == RIIS_INVALID_SURFACE) continue; /* only triangles without an area */
     CHECK_OK(status);
+    own(surface);
     const double off = unit * power_of_ten(-6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
     for (int i = 0; i < n; i += 50) /* some far away: the mesh is larger than the surface, or the same */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
     check(surface, n, xyz, fmax(options.half_thickness, off * power_of_ten(-1, 1)));
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
   assert_int_equal(most_within, n);
 }
@@ -365,6 +283,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
   int32_t ids[3 * n_triangles];
   for (int i = 0; i < 3 * n_triangles; ++i) ids[i] = i;
   for (int trial = 0; trial < 20; ++trial) {
+    const int owned_before = n_owned();
     for (int i = 0; i < n_triangles; ++i) {
       double *p = corners + 9 * i;
       const double size = power_of_ten(-8, -5), at = random_between(&rng, 0, 1e-4);
@@ -384,7 +303,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
     if (trial == 0) assert_true(info_of(surface).n_triangles > n_triangles / 2);
     for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -0.5, 1);
     check(surface, n, xyz, RIIS_AUTO);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -393,6 +312,7 @@ static void valves_far_from_the_origin(void **state) {
   (void)state;
   static const double far[] = {300, 1e4, 1e6};
   for (size_t k = 0; k < sizeof far / sizeof far[0]; ++k) {
+    const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     for (int c = 0; c < 3; ++c) options.translation[c] = far[k] * random_between(&rng, -1, 1);
     options.tolerance = 0.5;
@@ -403,8 +323,7 @@ static void valves_far_from_the_origin(void **state) {
     check(surface, nodes.n, nodes.xyz, RIIS_AUTO);
     check(surface, nodes.n, nodes.xyz, 0.4);
     assert_true(most_within > 1000);
-    free_test_mesh(&nodes);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -427,6 +346,7 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
       {1e5, 1e5, 2e5, RIIS_SEARCH_CLUSTERS},        {3e5, 3e5, 5e5, RIIS_SEARCH_CLUSTERS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    const int owned_before = n_owned();
     for (int i = 0; i < 3 * n; ++i) xyz[i] = cases[k].at + cases[k].size * random_between(&rng, -1, 1);
     for (int i = 0; i < 20; ++i) /* some are near */
       if (cases[k].at == 0 && cases[k].size > 1) point_near(surface, 0.1, xyz + 3 * i);
@@ -434,9 +354,8 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
     riis_mark_options options = mark_options();
     options.distance_limit = cases[k].limit;
     check_with(surface, mesh, options, 2, cases[k].search);
-    riis_mesh_destroy(&mesh);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&surface);
 }
 
 static void what_options_say(void **state) {
@@ -465,228 +384,6 @@ static void what_options_say(void **state) {
     if (set <= best) assert_int_equal(stats_of(result).instructions, set);
   }
   assert_int_equal(within_in(result).n, n_within);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-}
-
-/* --- From step to step ----------------------------------------------------------------------------------------------- */
-
-static void nodes_and_valve_move(void **state) {
-  (void)state;
-  enum { n = 9000 };
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
-  for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -2, 2);
-  static double other[3 * n];
-  memcpy(other, xyz, sizeof other);
-  riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_options options = mark_options();
-  for (int step = 0; step < 8; ++step) {
-    check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
-    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* slowly, then far apart, then all mixed */
-    double *to = step % 2 ? xyz : other;
-    for (int i = 0; i < n; ++i) {
-      const double *p = (step % 2 ? other : xyz) + 3 * i, x = p[0], y = p[1];
-      to[3 * i] = grow * (x * cos(turn) - y * sin(turn)), to[3 * i + 1] = grow * (x * sin(turn) + y * cos(turn)),
-             to[3 * i + 2] = p[2];
-    }
-    for (int i = 0; i < 3 * n && step == 6; ++i) to[i] = random_between(&rng, -2, 2);
-    const int64_t n_now = step == 3 ? 77 : step == 4 ? n - 5 : n;
-    CHECK_OK(riis_mesh_update(mesh, n_now, to, to + 1, to + 2, 3));
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
-    CHECK_OK(riis_surface_update(surface, valve, NULL));
-  }
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
-}
-
-static void non_finite_coordinates(void **state) {
-  (void)state;
-  enum { n = 3000 };
-  riis_surface *surface = aortic_surface(NULL);
-  for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
-  riis_mark_result *result = new_result(), *kept = new_result();
-  riis_mark_options options = mark_options();
-  options.search = RIIS_SEARCH_CLUSTERS;
-  const double spoilt[] = {NAN, INFINITY, -INFINITY, 1e61};
-  for (int k = 0; k < 4; ++k)
-    for (int threads = 1; threads <= 3; threads += 2)
-      for (int made_before = 0; made_before < 3; ++made_before) {
-        const int which = 1 + 3 * (int)(random_bits(&rng) % n);
-        const double was = xyz[which];
-        riis_mesh *mesh = mesh_of(n, xyz);
-        options.n_threads = threads;
-        CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
-        CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* else they are as they were when they are next asked for */
-          riis_mesh_destroy(&mesh);
-          mesh = mesh_of(n, xyz);
-        }
-        /* Clusters that are to be made, or to be placed. */
-        if (made_before == 1) {
-          CHECK_OK(riis_mesh_prepare(mesh, threads));
-          CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-        }
-        xyz[which] = spoilt[k];
-        if (made_before < 2) CHECK_REFUSED(RIIS_INVALID_MESH, "node", riis_mesh_prepare(mesh, threads));
-        const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
-        if (made_before < 2 || status) CHECK_REFUSED(RIIS_INVALID_MESH, "node", status);
-        assert_true(same_results(result, kept));
-        CHECK_REFUSED(RIIS_INVALID_MESH, "node", riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-        CHECK_REFUSED(RIIS_INVALID_MESH, "node", riis_mark_nodes(surface, mesh, &options, result));
-        assert_true(same_results(result, kept));
-        xyz[which] = was;
-        CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        assert_int_equal(stats_of(result).search, RIIS_SEARCH_CLUSTERS);
-        assert_true(same_results(result, kept));
-        riis_mesh_destroy(&mesh);
-      }
-  riis_mark_result_destroy(&result);
-  riis_mark_result_destroy(&kept);
-  riis_surface_destroy(&surface);
-}
-
-static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int32_t asked_for) {
-  riis_mark_result *result = new_result();
-  riis_mark_options options = mark_options();
-  options.search = asked_for;
-  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  const int32_t search = stats_of(result).search;
-  riis_mark_result_destroy(&result);
-  return search;
-}
-
-/* Exhaustive for the first marking of a mesh, clusters for all others, and for the first, too, if the mesh is prepared. */
-static void what_auto_is(void **state) {
-  (void)state;
-  enum { n = 200 };
-  riis_surface *surface = aortic_surface(NULL);
-  for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
-  riis_mesh *mesh = mesh_of(n, xyz);
-  const int32_t any = RIIS_SEARCH_AUTO;
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_EXHAUSTIVE);
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n - 1, xyz, xyz + 1, xyz + 2, 3)); /* other nodes */
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_EXHAUSTIVE);
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
-  mesh = mesh_of(n, xyz);
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is -1", riis_mesh_prepare(mesh, -1));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025", riis_mesh_prepare(mesh, 1025));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is NULL", riis_mesh_prepare(NULL, 1));
-  CHECK_OK(riis_mesh_prepare(mesh, 0));
-  CHECK_OK(riis_mesh_prepare(mesh, 2));
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* moved after the first marking, or before it */
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
-  mesh = mesh_of(n, xyz);
-  CHECK_OK(riis_mesh_prepare(mesh, 1));
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
-  mesh = mesh_of(n, xyz); /* a marking is one, whatever its search */
-  assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
-  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-}
-
-/* --- Threads --------------------------------------------------------------------------------------------------------- */
-
-/* 1 if a marking of a mesh that may be new to all is not the expected one. */
-static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_mark_result *expected, int n_threads,
-                       int prepares) {
-  riis_mark_options options = {0};
-  riis_mark_result *result = NULL;
-  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
-  options.search = RIIS_SEARCH_CLUSTERS;
-  options.n_threads = n_threads;
-  if (prepares) wrong = wrong || riis_mesh_prepare(mesh, n_threads);
-  for (int step = 0; step < 2; ++step)
-    wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
-  riis_mark_result_destroy(&result);
-  return wrong;
-}
-
-/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards looks
- * like a race. */
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define RIIS_TEST_MOST_NESTED 1
-#endif
-#endif
-#ifndef RIIS_TEST_MOST_NESTED
-#define RIIS_TEST_MOST_NESTED 2
-#endif
-
-static void several_callers_of_one_mesh(void **state) {
-  (void)state;
-  riis_surface *surface = aortic_surface(NULL);
-  test_mesh nodes = lattice_around(surface, 0.1, 0.2);
-  riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
-  riis_mark_result *expected = new_result();
-  riis_mark_options options = mark_options();
-  options.search = RIIS_SEARCH_EXHAUSTIVE;
-  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
-  const int levels = omp_get_max_active_levels();
-  for (int n_threads = 1; n_threads <= 3; ++n_threads)
-    for (int nested = 1; nested <= RIIS_TEST_MOST_NESTED; ++nested)
-      for (int moved = 0; moved < 2; ++moved) {
-        int n_wrong = 0;
-        riis_mesh_destroy(&mesh);
-        mesh = mesh_of(nodes.n, nodes.xyz);
-        if (moved) { /* only to be placed */
-          CHECK_OK(riis_mesh_prepare(mesh, 1));
-          CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
-        }
-        omp_set_max_active_levels(nested);
-#pragma omp parallel num_threads(4) reduction(+ : n_wrong)
-        n_wrong += marks_wrong(surface, mesh, expected, n_threads, omp_get_thread_num() % 2);
-        assert_int_equal(n_wrong, 0);
-      }
-  omp_set_max_active_levels(levels);
-  riis_mark_result_destroy(&expected);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
-}
-
-/* So many nodes that threads share the sorting of them. */
-static void a_mesh_that_threads_sort_together(void **state) {
-  (void)state;
-  const int64_t n = 300000;
-  riis_surface *surface = aortic_surface(NULL);
-  double *many = malloc((size_t)n * 3 * sizeof *many);
-  for (int64_t i = 0; i < n; ++i)
-    if (i % 8 == 0)
-      point_near(surface, 0.2, many + 3 * i);
-    else
-      for (int c = 0; c < 3; ++c) many[3 * i + c] = i % 8 == 1 ? 1.25 : random_between(&rng, -8, 8);
-  riis_mark_result *one = new_result(), *result = new_result();
-  riis_mark_options options = mark_options();
-  options.search = RIIS_SEARCH_EXHAUSTIVE;
-  for (int threads = 1; threads <= 3; ++threads) {
-    riis_mesh *mesh = mesh_of(n, many);
-    options.n_threads = threads;
-    if (threads == 1) CHECK_OK(riis_mark_nodes(surface, mesh, &options, one));
-    options.search = RIIS_SEARCH_CLUSTERS;
-    CHECK_OK(riis_mesh_prepare(mesh, threads));
-    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    assert_true(same_results(result, one));
-    assert_true(marked_in(result).n > n / 50);
-    riis_mesh_destroy(&mesh);
-  }
-  riis_mark_result_destroy(&one);
-  riis_mark_result_destroy(&result);
-  free(many);
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {
@@ -703,11 +400,6 @@ int main(void) {
       cmocka_unit_test(valves_far_from_the_origin),
       cmocka_unit_test(where_it_cannot_be_used_the_exhaustive_search_runs),
       cmocka_unit_test(what_options_say),
-      cmocka_unit_test(nodes_and_valve_move),
-      cmocka_unit_test(non_finite_coordinates),
-      cmocka_unit_test(what_auto_is),
-      cmocka_unit_test(several_callers_of_one_mesh),
-      cmocka_unit_test(a_mesh_that_threads_sort_together),
   };
   rng = random_start("test_cluster_search");
   return cmocka_run_group_tests(tests, NULL, NULL);

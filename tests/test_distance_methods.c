@@ -41,7 +41,7 @@ static riis_valve *patches_between(int32_t n_patches, int32_t degree, const doub
   patches.leaflet_id = leaflet_ids;
   riis_valve *valve = NULL;
   CHECK_OK(riis_valve_create_from_patches(&patches, &valve));
-  return valve;
+  return own(valve);
 }
 
 /* [0,2] x [0,1] in z = 0. */
@@ -91,19 +91,13 @@ static double distance_to_cylinder(const double *p) {
   return hypot(nearest, fmax(fmax(-p[1], p[1] - 1), 0));
 }
 
-static riis_valve *valve_of(const char *kind) {
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create(kind, &valve));
-  return valve;
-}
+static riis_valve *valve_of(const char *kind) { return new_valve(kind); }
 
 static riis_surface *measured(const riis_valve *valve, int32_t distance, double tolerance) {
   riis_surface_options options = surface_options();
   options.distance = distance;
   options.distance_tolerance = tolerance;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
-  return surface;
+  return new_surface(valve, &options);
 }
 
 /* A hairpin that leans as v grows: in the middle of v the arm at x = 1 is nearest to the point, at v = 1 the other. */
@@ -158,17 +152,8 @@ static int make_references(void **state) {
   references[1] = (reference){"cylinder", cylinder(), distance_to_cylinder, NULL, 1e-9};
   references[2] = (reference){"aortic", valve_of("aortic"), NULL, NULL, 1e-3 * half_thickness};
   references[3] = (reference){"mitral", valve_of("mitral"), NULL, NULL, 1e-3 * half_thickness};
-  for (int i = 0; i < n_references; ++i)
-    CHECK_OK(riis_surface_create(references[i].valve, &options, &references[i].fine));
-  return 0;
-}
-
-static int destroy_references(void **state) {
-  (void)state;
-  for (int i = 0; i < n_references; ++i) {
-    riis_valve_destroy(&references[i].valve);
-    riis_surface_destroy(&references[i].fine);
-  }
+  for (int i = 0; i < n_references; ++i) references[i].fine = new_surface(references[i].valve, &options);
+  keep_owned_for_group();
   return 0;
 }
 
@@ -182,6 +167,7 @@ static void sampling_is_within_its_bound(void **state) {
   const double tolerances[] = {0.5, 0.1, 0.03};
   for (int i = 0; i < n_references; ++i)
     for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances; ++k) {
+      const int owned_before = n_owned();
       const reference *of = &references[i];
       const double bound = tolerances[k] * half_thickness;
       riis_surface *surface = measured(of->valve, RIIS_DISTANCE_SAMPLING, tolerances[k]);
@@ -203,7 +189,7 @@ static void sampling_is_within_its_bound(void **state) {
       }
       printf("%s, tolerance %.2f: at most %.2f of the bound, at the surface %.2f\n", of->name, tolerances[k], largest,
              largest_at_surface);
-      riis_surface_destroy(&surface);
+      free_owned_after(owned_before);
     }
 }
 
@@ -230,8 +216,6 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   CHECK_NEAR(distance_between(answer.point, at), 0.25, 1e-14);
   CHECK_NEAR(answer.normal[2], 1, 1e-14);
   assert_int_equal(answer.leaflet_id, 7);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* The tree of boxes leaves out nothing: the nearest of all samples, the first of equally near ones. */
@@ -239,6 +223,7 @@ static void nearest_samples_are_found(void **state) {
   (void)state;
   random_source rng = random_start("nearest_samples_are_found");
   for (int of = 0; of < n_references; ++of) {
+    const int owned_before = n_owned();
     riis_surface *surface = measured(references[of].valve, RIIS_DISTANCE_SAMPLING, of == 0 ? 0.4425 : 0.5);
     const double *xyz;
     const int64_t n_samples = samples_of(surface, &xyz);
@@ -260,7 +245,7 @@ static void nearest_samples_are_found(void **state) {
       CHECK_SAME(answer.distance, sqrt(least));
       for (int c = 0; c < 3; ++c) CHECK_SAME(answer.point[c], xyz[3 * nearest + c]);
     }
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -277,7 +262,6 @@ static void sampling_is_lipschitz(void **state) {
     const double d = closest_to(surface, p[0], p[1], p[2]).distance, e = closest_to(surface, q[0], q[1], q[2]).distance;
     CHECK_AT_MOST(fabs(d - e), distance_between(p, q) + 1e-14);
   }
-  riis_surface_destroy(&surface);
 }
 
 static double narrow_valley(double u, double v) {
@@ -318,6 +302,7 @@ static void minimisation_is_never_below(void **state) {
   const double tolerances[] = {0.01, 0.001}; /* the paper's */
   for (int i = 0; i < n_references; ++i)
     for (int k = 0; k < 2; ++k) {
+      const int owned_before = n_owned();
       const reference *of = &references[i];
       riis_surface *surface = measured(of->valve, RIIS_DISTANCE_MINIMIZATION, tolerances[k]);
       const int n_points = 1000;
@@ -341,7 +326,7 @@ static void minimisation_is_never_below(void **state) {
       printf("%s, tolerance %.3f: %d of %d more than 0.02 half thicknesses off, at most %.3f\n", of->name,
              tolerances[k], n_off, n_points, largest);
       CHECK_AT_MOST(n_off, 0.1 * n_points);
-      riis_surface_destroy(&surface);
+      free_owned_after(owned_before);
     }
 }
 
@@ -355,18 +340,15 @@ static void minimisation_ends_in_local_minima(void **state) {
   int64_t n_marked[3];
   double distance[3];
   for (int32_t method = 0; method < 3; ++method) {
+    const int owned_before = n_owned();
     options.distance = method;
-    riis_surface *surface = NULL;
-    riis_mesh *mesh = NULL;
     riis_mark_result *result = new_result();
-    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    riis_surface *surface = new_surface(valve, &options);
     distance[method] = closest_to(surface, between_arms[0], between_arms[1], between_arms[2]).distance;
-    CHECK_OK(riis_mesh_create(1, between_arms, between_arms + 1, between_arms + 2, 3, &mesh));
+    riis_mesh *mesh = mesh_of(1, between_arms);
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
     n_marked[method] = marked_in(result).n;
-    riis_mark_result_destroy(&result);
-    riis_mesh_destroy(&mesh);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
   CHECK_NEAR(distance[RIIS_DISTANCE_TRIANGLES], 0.25, 0.005);
   CHECK_NEAR(distance[RIIS_DISTANCE_SAMPLING], 0.25, 0.005);
@@ -374,7 +356,6 @@ static void minimisation_ends_in_local_minima(void **state) {
   assert_int_equal(n_marked[RIIS_DISTANCE_TRIANGLES], 1);
   assert_int_equal(n_marked[RIIS_DISTANCE_SAMPLING], 1);
   assert_int_equal(n_marked[RIIS_DISTANCE_MINIMIZATION], 0);
-  riis_valve_destroy(&valve);
 }
 
 /* The patch whose box is nearest, here around the point, need not have the nearest point. */
@@ -389,8 +370,6 @@ static void all_near_patches_are_asked(void **state) {
   assert_int_equal(below.leaflet_id, 8);
   CHECK_NEAR(above.distance, 0.2 / sqrt(2), 1e-4);
   assert_int_equal(above.leaflet_id, 7);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* Placed, turned over, mirrored: the normals are the triangles', and distances go with the scale. */
@@ -400,6 +379,7 @@ static void placement_and_normals(void **state) {
   riis_valve *valve = valve_of("aortic");
   for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method)
     for (int32_t flip = 0; flip < 2; ++flip) {
+      const int owned_before = n_owned();
       riis_surface_options options = surface_options();
       options.scale = 10;
       options.rotation_axis[0] = 1;
@@ -407,10 +387,9 @@ static void placement_and_normals(void **state) {
       options.translation[1] = -7;
       options.flip_normals = flip;
       options.tolerance = options.distance_tolerance = 0.02;
-      riis_surface *triangles = NULL, *other = NULL;
-      CHECK_OK(riis_surface_create(valve, &options, &triangles));
+      riis_surface *triangles = new_surface(valve, &options);
       options.distance = method;
-      CHECK_OK(riis_surface_create(valve, &options, &other));
+      riis_surface *other = new_surface(valve, &options);
       int n_same = 0;
       const int n_points = 300;
       for (int n = 0; n < n_points; ++n) {
@@ -421,10 +400,8 @@ static void placement_and_normals(void **state) {
         n_same += a.leaflet_id == b.leaflet_id && cosine > 0.9 && b.distance <= 0.04 * 1.0;
       }
       CHECK_AT_MOST(0.95 * n_points, n_same); /* but for some beside the bending curves */
-      riis_surface_destroy(&triangles);
-      riis_surface_destroy(&other);
+      free_owned_after(owned_before);
     }
-  riis_valve_destroy(&valve);
 }
 
 static void mark(const riis_surface *surface, const riis_mesh *mesh, int32_t search, int32_t n_threads, double limit,
@@ -445,13 +422,15 @@ static void searches_agree(void **state) {
   const riis_valve *valves[3] = {references[2].valve, references[3].valve, hairpin_valve};
   for (int of = 0; of < 3; ++of)
     for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method) {
+      const int owned_before = n_owned();
       riis_surface *surface = measured(valves[of], method, method == RIIS_DISTANCE_SAMPLING ? 0.2 : 0.01);
       test_mesh nodes = lattice_around(surface, 0.11, 0.2);
       riis_mesh *mesh = mesh_from(&nodes);
-      uint8_t *mask = malloc((size_t)nodes.n);
+      uint8_t *mask = own(malloc((size_t)nodes.n));
       for (int64_t i = 0; i < nodes.n; ++i) mask[i] = random_bits(&rng) % 4 != 0;
       const double limits[] = {RIIS_AUTO, 0.17};
       for (int k = 0; k < 4; ++k) {
+        const int n_outside = n_owned();
         const double limit = limits[k / 2];
         const uint8_t *which = k % 2 ? mask : NULL;
         riis_mark_result *expected = new_result(), *result = new_result();
@@ -484,7 +463,7 @@ static void searches_agree(void **state) {
           mark(surface, mesh, RIIS_SEARCH_AUTO, n_threads, limit, which, result);
           assert_int_equal(stats_of(result).search, RIIS_SEARCH_EXHAUSTIVE);
           assert_true(same_results(expected, result));
-          riis_mark_result_destroy(&result);
+          free_one_owned(result);
           result = new_result();
         }
         mark(surface, mesh, RIIS_SEARCH_PAPER, 2, limit, which, result);
@@ -495,15 +474,10 @@ static void searches_agree(void **state) {
           assert_true(j < all.n && all.node_id[j] == of_paper.node_id[i]);
           CHECK_SAME(all.distance[j], of_paper.distance[i]);
         }
-        riis_mark_result_destroy(&expected);
-        riis_mark_result_destroy(&result);
+        free_owned_after(n_outside);
       }
-      free(mask);
-      riis_mesh_destroy(&mesh);
-      free_test_mesh(&nodes);
-      riis_surface_destroy(&surface);
+      free_owned_after(owned_before);
     }
-  riis_valve_destroy(&hairpin_valve);
 }
 
 /* Two nodes in a ball from whose middle minimisation goes to the wrong arm, twice as far as the ball reaches: that must not
@@ -515,21 +489,16 @@ static void local_minima_dismiss_no_group(void **state) {
   riis_valve *valve = hairpin();
   riis_surface *surface = measured(valve, RIIS_DISTANCE_MINIMIZATION, 0.01);
   assert_true(closest_to(surface, 0.25, 1, 0.9).distance > 0.7 && closest_to(surface, -0.1, 1, 0.9).distance < 0.1);
-  riis_mesh *mesh = NULL;
   riis_mark_result *result = new_result();
   riis_csr csr;
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = 2;
   csr.offsets = offsets;
-  CHECK_OK(riis_mesh_create(2, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  riis_mesh *mesh = mesh_of(2, xyz);
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, RIIS_AUTO, NULL, result);
   const found_nodes marked = marked_in(result);
   assert_true(marked.n == 1 && marked.node_id[0] == 0);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* Batches answer as single points do, for any number of threads, and know what is far. */
@@ -541,6 +510,7 @@ static void batches_agree(void **state) {
   static int64_t triangle_id[n_points];
   static int32_t leaflet_id[n_points];
   for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method) {
+    const int owned_before = n_owned();
     riis_surface *surface = measured(references[2].valve, method, 0.1);
     for (int i = 0; i < n_points; ++i) random_point(&rng, surface, 0.5, xyz + 3 * i);
     riis_closest_arrays arrays;
@@ -567,7 +537,7 @@ static void batches_agree(void **state) {
       }
       assert_true(options.n_threads < 3 ? n_far == 0 : n_far > 0 && n_far < n_points);
     }
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -604,7 +574,7 @@ static void what_has_no_meaning_is_refused(void **state) {
   options.tolerance = 1;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "with a tenth of distance_tolerance",
                 riis_surface_update(surface, curved, &options));
-  riis_valve_destroy(&curved);
+  free_one_owned(curved);
   options.half_thickness = 1e-4;
   options.translation[0] = 1e4;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
@@ -620,17 +590,12 @@ static void what_has_no_meaning_is_refused(void **state) {
   arrays.barycentric = barycentric;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.barycentric is given|by sampling",
                 riis_closest_points(surface, 1, xyz, xyz + 1, xyz + 2, 3, NULL, &arrays));
-  riis_mesh *mesh = NULL;
   riis_mark_result *result = new_result();
   riis_mark_options marking = mark_options();
   marking.search = RIIS_SEARCH_CLUSTERS;
-  CHECK_OK(riis_mesh_create(3, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  riis_mesh *mesh = mesh_of(3, xyz);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 4|by sampling",
                 riis_mark_nodes(surface, mesh, &marking, result));
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* A surface keeps its method when its valve moves; a caller who knows nothing of methods has triangles. */
@@ -666,9 +631,6 @@ static void options_stay_and_default(void **state) {
     random_point(&rng, surface, 0.2, p);
     CHECK_SAME(closest_to(surface, p[0], p[1], p[2]).distance, closest_to(twin, p[0], p[1], p[2]).distance);
   }
-  riis_surface_destroy(&twin);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 int main(void) {
@@ -688,5 +650,5 @@ int main(void) {
       cmocka_unit_test(what_has_no_meaning_is_refused),
       cmocka_unit_test(options_stay_and_default),
   };
-  return cmocka_run_group_tests(tests, make_references, destroy_references);
+  return cmocka_run_group_tests(tests, make_references, free_owned_of_group);
 }

@@ -15,15 +15,15 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "searches.h"
 
 enum { n = 20000 };
 static double nodes[3 * n];
 
 /* Everything a step does, as one number that depends on every bit. */
 static uint64_t digest_of_a_step(int threads) {
+  const int owned_before = n_owned();
   riis_surface *surface = aortic_surface(NULL);
-  riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
   riis_mark_options options = mark_options();
   int64_t n_listed;
   const int64_t *node_id, *triangle_id;
@@ -31,8 +31,8 @@ static uint64_t digest_of_a_step(int threads) {
   uint64_t digest = 14695981039346656037u;
   options.n_threads = threads;
   options.distance_limit = 0.3;
-  CHECK_OK(riis_mesh_create(n, nodes, nodes + 1, nodes + 2, 3, &mesh));
-  CHECK_OK(riis_mark_result_create(&result));
+  riis_mesh *mesh = mesh_of(n, nodes);
+  riis_mark_result *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   CHECK_OK(riis_mark_result_within_limit(result, &n_listed, &node_id, &distance, &triangle_id, NULL));
   for (int64_t i = 0; i < n_listed; ++i) {
@@ -41,9 +41,7 @@ static uint64_t digest_of_a_step(int threads) {
     digest = (digest ^ bits) * 1099511628211u;
     digest = (digest ^ (uint64_t)node_id[i] ^ ((uint64_t)triangle_id[i] << 32)) * 1099511628211u;
   }
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
+  free_owned_after(owned_before);
   return digest;
 }
 
@@ -107,8 +105,7 @@ static void works_inside_a_parallel_region(void **state) {
   assert_int_equal(n_wrong, 0);
 
   riis_surface *surface = aortic_surface(NULL);
-  riis_mesh *mesh = NULL;
-  CHECK_OK(riis_mesh_create(n, nodes, nodes + 1, nodes + 2, 3, &mesh));
+  riis_mesh *mesh = mesh_of(n, nodes);
   int64_t counts[8];
 #pragma omp parallel for num_threads(4)
   for (int i = 0; i < 8; ++i) {
@@ -123,8 +120,6 @@ static void works_inside_a_parallel_region(void **state) {
   }
   for (int i = 1; i < 8; ++i) assert_int_equal(counts[i], counts[0]);
   assert_true(counts[0] > 0);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 static void errors_belong_to_their_thread(void **state) {
@@ -145,8 +140,8 @@ static void errors_belong_to_their_thread(void **state) {
   /* Success leaves the text alone. */
   riis_valve *valve = NULL;
   assert_true(riis_valve_create("none", &valve) != RIIS_OK);
-  CHECK_OK(riis_valve_create("aortic", &valve));
-  riis_valve_destroy(&valve);
+  valve = new_valve("aortic");
+  free_one_owned(valve);
   assert_non_null(strstr(riis_last_error(), "'none'"));
 }
 
@@ -164,9 +159,9 @@ static void log_goes_to_the_callers_function_only(void **state) {
   assert_null(strchr(line, '\n'));
   riis_set_log(NULL, NULL);
   line[0] = 0;
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   surface = aortic_surface(NULL);
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   assert_string_equal(line, "");
 }
 

@@ -5,6 +5,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "searches.h"
 
 static const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
 static const int32_t ids[3] = {0, 1, 2};
@@ -165,7 +166,7 @@ static void parameters_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic", riis_valve_create("tricuspid", &valve));
   assert_null(valve);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "''", riis_valve_create("", &valve));
-  CHECK_OK(riis_valve_create("aortic", &valve));
+  valve = new_valve("aortic");
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radios'|aortic|riis_valve_parameter",
                 riis_valve_set_scalar(valve, "root_radios", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'.leaflet_angle'", riis_valve_set_scalar(valve, ".leaflet_angle", 1));
@@ -201,15 +202,13 @@ static void parameters_are_refused_by_name(void **state) {
   memset(long_name, 'x', sizeof long_name - 1);
   long_name[sizeof long_name - 1] = 0;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "xxx|aortic", riis_valve_set_scalar(valve, long_name, 1));
-  riis_valve_destroy(&valve);
 }
 
 static void surface_options_are_refused_by_name(void **state) {
   (void)state;
-  riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_surface_options options;
-  CHECK_OK(riis_valve_create("aortic", &valve));
+  riis_valve *valve = new_valve("aortic");
 #define OPTION_IS_REFUSED(field, value, text)                                                   \
   do {                                                                                          \
     options = surface_options();                                                                \
@@ -247,7 +246,6 @@ static void surface_options_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
   options.half_thickness = 1e-50; /* absurd together, each in range */
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
-  riis_valve_destroy(&valve);
 }
 
 static void surface_arrays_are_refused_by_name(void **state) {
@@ -350,16 +348,13 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   options.far_distance = 5;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 5",
                 riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
-  riis_surface_destroy(&surface);
 }
 
 static void marking_options_are_refused_by_name(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
-  riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
-  CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_OK(riis_mark_result_create(&result));
+  riis_mesh *mesh = mesh_of(4, xyz);
+  riis_mark_result *result = new_result();
 #define MARK_OPTION_IS_REFUSED(field, value, text)                                                \
   do {                                                                                            \
     riis_mark_options options = mark_options();                                                   \
@@ -374,9 +369,6 @@ static void marking_options_are_refused_by_name(void **state) {
   MARK_OPTION_IS_REFUSED(search, -1, "search is -1");
   MARK_OPTION_IS_REFUSED(n_threads, -1, "n_threads is -1");
   MARK_OPTION_IS_REFUSED(n_threads, 4096, "n_threads is 4096");
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 /* A caller of an older header gets and gives less; one of a newer header is told. */
@@ -389,9 +381,8 @@ static void struct_sizes_are_checked(void **state) {
   snprintf(parts, sizeof parts, "options is 120|riis %s ", riis_version_string());
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 120));
   assert_int_equal(options.zero_area, 0x5a5a5a5a); /* untouched */
-  riis_valve *valve = NULL;
   riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("aortic", &valve));
+  riis_valve *valve = new_valve("aortic");
   options.struct_size = 0; /* never filled */
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 0|init function", riis_surface_create(valve, &options, &surface));
   options.struct_size = -8;
@@ -406,8 +397,6 @@ static void struct_sizes_are_checked(void **state) {
   riis_surface_arrays arrays = triangle_arrays(4, xyz, 1, ids);
   arrays.struct_size = 80;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "arrays is 80", riis_surface_update_from_arrays(surface, &arrays, NULL));
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 int main(void) {

@@ -7,48 +7,12 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "searches.h"
 
 static random_source rng;
 
-typedef struct {
-  int64_t n;
-  const int64_t *node_id, *triangle_id;
-  const double *distance;
-  const int32_t *leaflet_id;
-} list;
-
-static list marked_of(const riis_mark_result *result) {
-  list l;
-  CHECK_OK(riis_mark_result_marked(result, &l.n, &l.node_id, &l.distance, &l.triangle_id, &l.leaflet_id));
-  return l;
-}
-
-static list within_of(const riis_mark_result *result) {
-  list l;
-  CHECK_OK(riis_mark_result_within_limit(result, &l.n, &l.node_id, &l.distance, &l.triangle_id, &l.leaflet_id));
-  return l;
-}
-
-static riis_mark_stats stats_of(const riis_mark_result *result) {
-  riis_mark_stats stats;
-  CHECK_OK(riis_mark_result_stats(result, &stats, sizeof stats));
-  return stats;
-}
-
-static riis_mark_result *new_result(void) {
-  riis_mark_result *result = NULL;
-  CHECK_OK(riis_mark_result_create(&result));
-  return result;
-}
-
-static riis_mesh *mesh_of(int64_t n, const double *xyz) {
-  riis_mesh *mesh = NULL;
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  return mesh;
-}
-
 static double *random_nodes(int64_t n, double r, double z0, double z1) {
-  double *xyz = malloc((size_t)n * 3 * sizeof *xyz);
+  double *xyz = own(malloc((size_t)n * 3 * sizeof *xyz));
   for (int64_t i = 0; i < n; ++i) {
     xyz[3 * i] = random_between(&rng, -r, r);
     xyz[3 * i + 1] = random_between(&rng, -r, r);
@@ -71,7 +35,7 @@ static void aortic_marks_equal_the_oracle(void **state) {
   CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
   CHECK_OK(riis_surface_triangles(surface, &n_triangles, &vertex_id, NULL, &leaflet_id, NULL));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  const list marked = marked_of(result);
+  const found_nodes marked = marked_in(result);
   int64_t at = 0;
   for (int64_t i = 0; i < n; ++i) {
     int64_t triangle;
@@ -99,10 +63,6 @@ static void aortic_marks_equal_the_oracle(void **state) {
   assert_int_equal(stats.complete, 1);
   assert_true(stats.n_queries >= marked.n && stats.n_queries <= n);
   assert_true(stats.seconds > 0);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 /* A rectangle [0,4] x [0,2] in z = 0 on a lattice: the count of nodes within 1/2 is arithmetic, nodes exactly at 1/2
@@ -117,7 +77,7 @@ static void lattice_around_a_rectangle_is_counted(void **state) {
   options.half_thickness = 0.5;
   riis_surface *surface = surface_from(&arrays, &options);
   enum { m = 25, n = m * m * m };
-  double *xyz = malloc(3 * n * sizeof *xyz);
+  double *xyz = own(malloc(3 * n * sizeof *xyz));
   int64_t expected = 0;
   for (int i = 0; i < n; ++i) { /* spacing 1/4 from -1: all exact */
     double *p = xyz + 3 * i;
@@ -128,12 +88,8 @@ static void lattice_around_a_rectangle_is_counted(void **state) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_result *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_int_equal(marked_of(result).n, expected);
+  assert_int_equal(marked_in(result).n, expected);
   assert_true(expected > 500);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 static void wider_limit_lists_more_and_marks_the_same(void **state) {
@@ -147,7 +103,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   options.distance_limit = 0.25;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, narrow));
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, wide));
-  const list a = marked_of(narrow), b = marked_of(wide), c = within_of(wide), d = within_of(narrow);
+  const found_nodes a = marked_in(narrow), b = marked_in(wide), c = within_in(wide), d = within_in(narrow);
   assert_int_equal(a.n, b.n);
   assert_int_equal(a.n, d.n);
   assert_true(c.n > b.n);
@@ -181,17 +137,12 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   }
   /* Any of the arrays alone; any far value that cannot be mistaken. */
   CHECK_OK(riis_mark_result_dense(wide, n, NAN, NULL, distance, NULL, NULL));
-  assert_true(isnan(distance[0]) || within_of(wide).node_id[0] == 0);
+  assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
   CHECK_OK(riis_mark_result_dense(wide, n, -1, mark, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 0.25|limit 0.25",
                 riis_mark_result_dense(wide, n, 0.25, mark, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000",
                 riis_mark_result_dense(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
-  riis_mark_result_destroy(&narrow);
-  riis_mark_result_destroy(&wide);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 static void mask_leaves_nodes_out(void **state) {
@@ -207,7 +158,7 @@ static void mask_leaves_nodes_out(void **state) {
   options.node_mask = mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, all));
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
-  const list a = marked_of(all), b = marked_of(some);
+  const found_nodes a = marked_in(all), b = marked_in(some);
   int64_t at = 0;
   for (int64_t i = 0; i < a.n; ++i) {
     if (!mask[a.node_id[i]]) continue;
@@ -224,11 +175,6 @@ static void mask_leaves_nodes_out(void **state) {
   CHECK_OK(riis_mark_result_marked(some, &n_marked, &node_id, NULL, NULL, NULL));
   assert_int_equal(n_marked, 0);
   assert_null(node_id);
-  riis_mark_result_destroy(&all);
-  riis_mark_result_destroy(&some);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 static void any_number_of_threads_gives_the_same_bits(void **state) {
@@ -243,23 +189,18 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
   options.n_threads = 1;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, one));
   assert_int_equal(stats_of(one).n_threads, 1);
-  const list a = within_of(one);
+  const found_nodes a = within_in(one);
   for (int threads = 2; threads <= 5; ++threads)
     for (int repeat = 0; repeat < 3; ++repeat) {
       options.n_threads = threads;
       CHECK_OK(riis_mark_nodes(surface, mesh, &options, many));
       assert_int_equal(stats_of(many).n_threads, threads); /* they really ran */
-      const list b = within_of(many);
+      const found_nodes b = within_in(many);
       assert_int_equal(a.n, b.n);
       assert_memory_equal(a.node_id, b.node_id, (size_t)a.n * sizeof *a.node_id);
       assert_memory_equal(a.distance, b.distance, (size_t)a.n * sizeof *a.distance);
       assert_memory_equal(a.triangle_id, b.triangle_id, (size_t)a.n * sizeof *a.triangle_id);
     }
-  riis_mark_result_destroy(&one);
-  riis_mark_result_destroy(&many);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 static void coordinates_may_move_and_results_are_reused(void **state) {
@@ -269,21 +210,21 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_result *result = new_result();
-  assert_int_equal(marked_of(result).n, 0); /* never marked with */
+  assert_int_equal(marked_in(result).n, 0); /* never marked with */
   assert_int_equal(stats_of(result).n_nodes, 0);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  const int64_t n_before = marked_of(result).n;
+  const int64_t n_before = marked_in(result).n;
   for (int i = 0; i < n; ++i) xyz[3 * i + 2] += 10; /* away from the valve */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_int_equal(marked_of(result).n, 0);
+  assert_int_equal(marked_in(result).n, 0);
   assert_int_equal(stats_of(result).n_queries, 0);
   for (int i = 0; i < n; ++i) xyz[3 * i + 2] -= 10;
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_true(llabs(marked_of(result).n - n_before) <= 2); /* z + 10 - 10 rounds */
+  assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds */
   /* Spoilt behind the handle's back: refused by name if it is asked, and the result keeps what it had. Clusters have what they were told. */
-  const list kept = marked_of(result);
+  const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];
   snprintf(text, sizeof text, "y of node %lld is nan", (long long)spoilt);
@@ -295,13 +236,9 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
       CHECK_REFUSED(RIIS_INVALID_MESH, text, riis_mark_nodes(surface, mesh, &options, result));
     else
       CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    assert_int_equal(marked_of(result).n, kept.n);
+    assert_int_equal(marked_in(result).n, kept.n);
   }
   CHECK_REFUSED(RIIS_INVALID_MESH, text, riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 static void separate_coordinate_arrays_are_the_same_mesh(void **state) {
@@ -313,18 +250,13 @@ static void separate_coordinate_arrays_are_the_same_mesh(void **state) {
   for (int i = 0; i < n; ++i) x[i] = xyz[3 * i], y[i] = xyz[3 * i + 1], z[i] = xyz[3 * i + 2];
   riis_mesh *a = mesh_of(n, xyz), *b = NULL;
   CHECK_OK(riis_mesh_create(n, x, y, z, 1, &b));
+  own(b);
   riis_mark_result *of_a = new_result(), *of_b = new_result();
   CHECK_OK(riis_mark_nodes(surface, a, NULL, of_a));
   CHECK_OK(riis_mark_nodes(surface, b, NULL, of_b));
-  const list l = marked_of(of_a), m = marked_of(of_b);
+  const found_nodes l = marked_in(of_a), m = marked_in(of_b);
   assert_int_equal(l.n, m.n);
   assert_memory_equal(l.node_id, m.node_id, (size_t)l.n * sizeof *l.node_id);
-  riis_mark_result_destroy(&of_a);
-  riis_mark_result_destroy(&of_b);
-  riis_mesh_destroy(&a);
-  riis_mesh_destroy(&b);
-  riis_surface_destroy(&surface);
-  free(xyz);
 }
 
 int main(void) {

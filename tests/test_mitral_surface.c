@@ -33,8 +33,7 @@ enum { n_scalars = sizeof table / sizeof *table };
 /* Before the translation, as the numbers are given. */
 static riis_valve *mitral_valve(double opening) {
   const double no_shift[3] = {0, 0, 0};
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
+  riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_set(valve, "translation", 3, no_shift));
   CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
   return valve;
@@ -44,9 +43,8 @@ static riis_surface *mitral_surface(double opening, double tolerance) {
   riis_surface_options options = surface_options();
   options.tolerance = tolerance;
   riis_valve *valve = mitral_valve(opening);
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
-  riis_valve_destroy(&valve);
+  riis_surface *surface = new_surface(valve, &options);
+  free_one_owned(valve);
   return surface;
 }
 
@@ -54,10 +52,9 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 
 static void parameters_are_the_papers(void **state) {
   (void)state;
-  riis_valve *valve = NULL;
   int64_t n;
   double values[3];
-  CHECK_OK(riis_valve_create("mitral", &valve));
+  riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_n_parameters(valve, &n));
   assert_int_equal(n, n_scalars + 1); /* 18, as the paper says: its table, its t, the translation */
   for (int i = 0; i < n_scalars; ++i) {
@@ -70,30 +67,27 @@ static void parameters_are_the_papers(void **state) {
   }
   CHECK_OK(riis_valve_get(valve, "translation", 3, values));
   assert_true(values[0] == 0 && values[1] == 0 && values[2] == 1);
-  riis_valve_destroy(&valve);
 }
 
 /* Each parameter changes the surface closed, open or half open; put back, it is the same again. */
 static void every_parameter_matters(void **state) {
   (void)state;
   for (int i = 0; i <= n_scalars; ++i) {
+    const int owned_before = n_owned();
     const char *name = i < n_scalars ? table[i].name : "translation";
     riis_valve *valve = mitral_valve(0.5);
-    riis_surface *before = NULL, *after = NULL;
+    riis_surface *before = new_surface(valve, NULL);
     double values[3];
-    CHECK_OK(riis_surface_create(valve, NULL, &before));
     CHECK_OK(riis_valve_get(valve, name, i < n_scalars ? 1 : 3, values));
     const double moved[3] = {0.95 * values[0] + (i < n_scalars ? 0 : 0.1), values[1], values[2]};
     CHECK_OK(riis_valve_set(valve, name, i < n_scalars ? 1 : 3, moved));
-    CHECK_OK(riis_surface_create(valve, NULL, &after));
+    riis_surface *after = new_surface(valve, NULL);
     const riis_surface_info a = info_of(before), b = info_of(after);
     if (a.area == b.area && a.upper[0] == b.upper[0]) fail_msg("%s does not matter", name);
     CHECK_OK(riis_valve_set(valve, name, i < n_scalars ? 1 : 3, values));
     CHECK_OK(riis_surface_update(after, valve, NULL));
     CHECK_SAME(info_of(after).area, a.area);
-    riis_surface_destroy(&before);
-    riis_surface_destroy(&after);
-    riis_valve_destroy(&valve);
+    free_owned_after(owned_before);
   }
 }
 
@@ -115,6 +109,7 @@ static void numbers_of_the_model(void **state) {
     double opening, area, area_to_6_digits, annulus, z_low, z_high;
   } expected[2] = {{0, 12.188, 12.188000, 12.62, -0.09, 0.80}, {1, 15.980, 15.980787, 12.21, -2.05, 0.00}};
   for (int i = 0; i < 2; ++i) {
+    const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(expected[i].opening, 5e-4);
     const riis_surface_info info = info_of(surface);
     const surface_content c = surface_content_of(surface);
@@ -123,7 +118,7 @@ static void numbers_of_the_model(void **state) {
     CHECK_NEAR(annulus_length(&c), expected[i].annulus, 5e-3);
     CHECK_NEAR(info.lower[2], expected[i].z_low, 5e-3);
     CHECK_NEAR(info.upper[2], expected[i].z_high, 5e-3);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
   /* The tip of the open anterior leaflet: control points do not depend on the tolerance. */
   riis_surface *surface = mitral_surface(1, 0.5);
@@ -131,7 +126,6 @@ static void numbers_of_the_model(void **state) {
   CHECK_NEAR(tip.point[1], 0.951, 5e-4);
   CHECK_NEAR(tip.point[2], -2.048, 5e-4);
   assert_int_equal(tip.leaflet_id, RIIS_LEAFLET_ANTERIOR);
-  riis_surface_destroy(&surface);
 }
 
 static void area_is_the_oracles(void **state) {
@@ -142,7 +136,7 @@ static void area_is_the_oracles(void **state) {
     mitral_oracle *oracle = mitral_oracle_create(&parameters, &parameters);
     riis_surface *surface = mitral_surface(parameters.opening, 2e-3);
     CHECK_NEAR(info_of(surface).area, mitral_oracle_area(oracle, 100, 100), 2e-3);
-    riis_surface_destroy(&surface);
+    free_one_owned(surface);
     mitral_oracle_destroy(oracle);
   }
 }
@@ -150,11 +144,12 @@ static void area_is_the_oracles(void **state) {
 static void is_symmetric(void **state) {
   (void)state;
   for (int i = 0; i <= 2; ++i) {
+    const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(0.5 * i, 0.02);
     const surface_content c = surface_content_of(surface);
     for (int64_t k = 0; k < c.n_vertices; ++k)
       CHECK_AT_MOST(closest_to(surface, -c.xyz[3 * k], c.xyz[3 * k + 1], c.xyz[3 * k + 2]).distance, 1e-12);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -162,6 +157,7 @@ static void leaflets_and_patches(void **state) {
   (void)state;
   static const int32_t mirrored[10] = {5, 4, 3, 2, 1, 0, 9, 8, 7, 6};
   for (int i = 0; i <= 2; ++i) {
+    const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(0.5 * i, 0.05);
     const surface_content c = surface_content_of(surface);
     int64_t n_of_patch[10] = {0};
@@ -191,7 +187,7 @@ static void leaflets_and_patches(void **state) {
       assert_int_equal(n_of_patch[patch], n_of_patch[mirrored[patch]]);
     }
     assert_true(info_of(surface).n_zero_area > 0); /* where the triangles end in the commissures */
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -200,6 +196,7 @@ static void leaflets_and_patches(void **state) {
 static void has_no_cracks(void **state) {
   (void)state;
   for (int i = 0; i <= 2; ++i) {
+    const int owned_before = n_owned();
     const double opening = 0.5 * i;
     riis_surface *surface = mitral_surface(opening, 0.1);
     const surface_content c = surface_content_of(surface);
@@ -239,7 +236,7 @@ static void has_no_cracks(void **state) {
       }
     printf("opening %.1f: %d edges on the annulus, %d inside other edges\n", opening, n_rim, n_inside);
     assert_true(n_rim > 40);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -264,12 +261,11 @@ static void closed_leaflets_share_their_edge(void **state) {
   /* The others are where a line of one leaflet ends inside a chord. */
   printf("closed edge: %d of %d corners are the other leaflet's, too\n", n_shared, n_of_edge);
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
-  riis_surface_destroy(&surface);
 }
 
 /* The least distance of two neighbouring lines of a patch, as a share of the longer of the sides that they join. */
 static double least_step(const surface_content *c, int32_t patch, double *longer) {
-  double length_of[2] = {0, 0}, *u = malloc((size_t)c->n_triangles * 2 * sizeof *u);
+  double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
   for (int64_t t = 0; t < c->n_triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -285,7 +281,7 @@ static double least_step(const surface_content *c, int32_t patch, double *longer
   for (size_t i = 0; i < n; ++i)
     for (size_t j = 0; j < n; ++j)
       if (u[j] > u[i]) least = fmin(least, u[j] - u[i]);
-  free(u);
+  free_one_owned(u);
   *longer = fmax(length_of[0], length_of[1]);
   return least;
 }
@@ -299,13 +295,13 @@ static void has_no_slivers(void **state) {
   random_source rng = random_start("test_mitral_surface");
   double least = 1e30;
   for (int trial = 0; trial < 60; ++trial) {
+    const int owned_before = n_owned();
     riis_valve *valve = mitral_valve(trial % 3 == 0 ? 0 : random_between(&rng, 0, 1));
     for (int i = 0; i < 16; ++i)
       CHECK_OK(riis_valve_set_scalar(valve, table[i].name, table[i].value * random_between(&rng, 0.85, 1.15)));
     riis_surface_options options = surface_options();
     options.tolerance = pow(10, random_between(&rng, -2, -0.5));
-    riis_surface *surface = NULL;
-    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    riis_surface *surface = new_surface(valve, &options);
     const surface_content c = surface_content_of(surface);
     const double max_error = options.tolerance * info_of(surface).half_thickness;
     for (int32_t patch = 0; patch < 10; ++patch) {
@@ -314,8 +310,7 @@ static void has_no_slivers(void **state) {
       assert_true(longer > 0 && step < 1);
       least = fmin(least, step * longer / max_error);
     }
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve);
+    free_owned_after(owned_before);
   }
   printf("nearest lines: %.2f of the tolerance apart\n", least);
   CHECK_AT_MOST(0.1, least);
@@ -332,8 +327,6 @@ static void normals_point_downstream(void **state) {
   assert_int_equal(closest_to(open, 0, 2.2, -1).side, 1);
   assert_int_equal(closest_to(open, 0, -2, -0.7).side, 1);
   assert_int_equal(closest_to(open, 2.4, 0, -0.5).side, 1);
-  riis_surface_destroy(&closed);
-  riis_surface_destroy(&open);
 }
 
 /* No point of the valve moves faster than about 2.6 an opening (the oracle's figure): the surface at 1e-9 from either end is,
@@ -342,6 +335,7 @@ static void opens_continuously(void **state) {
   (void)state;
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
   for (int i = 0; i < 2; ++i) {
+    const int owned_before = n_owned();
     riis_surface *at_end = mitral_surface(ends[i], 0.05), *beside = mitral_surface(near[i], 0.05);
     const surface_content a = surface_content_of(at_end), b = surface_content_of(beside);
     assert_int_equal(a.n_vertices, b.n_vertices);
@@ -349,8 +343,7 @@ static void opens_continuously(void **state) {
     for (int64_t k = 0; k < a.n_vertices; ++k) largest = fmax(largest, distance(a.xyz + 3 * k, b.xyz + 3 * k));
     CHECK_AT_MOST(largest, 2.7e-9);
     CHECK_AT_MOST(1e-9, largest);
-    riis_surface_destroy(&at_end);
-    riis_surface_destroy(&beside);
+    free_owned_after(owned_before);
   }
 }
 
@@ -358,9 +351,9 @@ static void opens_continuously(void **state) {
 static void an_update_moves_the_valve(void **state) {
   (void)state;
   riis_valve *valve = mitral_valve(0);
-  riis_surface *moving = NULL;
-  CHECK_OK(riis_surface_create(valve, NULL, &moving));
+  riis_surface *moving = new_surface(valve, NULL);
   for (int i = 0; i <= 10; ++i) {
+    const int owned_before = n_owned();
     CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 10.0));
     CHECK_OK(riis_surface_update(moving, valve, NULL));
     riis_surface *fresh = mitral_surface(i / 10.0, 0.05);
@@ -368,17 +361,14 @@ static void an_update_moves_the_valve(void **state) {
     assert_int_equal(a.n_vertices, b.n_vertices);
     assert_int_equal(a.n_triangles, b.n_triangles);
     assert_memory_equal(a.xyz, b.xyz, (size_t)a.n_vertices * 3 * sizeof *a.xyz);
-    riis_surface_destroy(&fresh);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&moving);
-  riis_valve_destroy(&valve);
 }
 
 static double area_of(const riis_valve *valve) {
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  riis_surface *surface = new_surface(valve, NULL);
   const double area = info_of(surface).area;
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   return area;
 }
 
@@ -388,10 +378,8 @@ static void opens_from_one_state_to_another(void **state) {
   const char *kinds[2] = {"aortic", "mitral"}, *names[2] = {"leaflet_radius_in", "AP_diameter"};
   const double values[2] = {0.9, 3.3};
   for (int i = 0; i < 2; ++i) {
-    riis_valve *valve = NULL, *first = NULL, *second = NULL;
-    CHECK_OK(riis_valve_create(kinds[i], &valve));
-    CHECK_OK(riis_valve_create(kinds[i], &first));
-    CHECK_OK(riis_valve_create(kinds[i], &second));
+    const int owned_before = n_owned();
+    riis_valve *valve = new_valve(kinds[i]), *first = new_valve(kinds[i]), *second = new_valve(kinds[i]);
     CHECK_OK(riis_valve_set_scalar(second, names[i], values[i]));
     const double shift[3] = {0.25, 0, 1}; /* blended, too */
     CHECK_OK(riis_valve_set(second, "translation", 3, shift));
@@ -401,38 +389,30 @@ static void opens_from_one_state_to_another(void **state) {
     CHECK_SAME(area_of(valve), area_of(first));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
     const double half_open = area_of(valve);
-    riis_surface *surface = NULL;
-    CHECK_OK(riis_surface_create(valve, NULL, &surface));
+    riis_surface *surface = new_surface(valve, NULL);
     if (i == 1) CHECK_NEAR(info_of(surface).lower[0] + info_of(surface).upper[0], 0.25, 1e-12);
-    riis_surface_destroy(&surface);
+    free_one_owned(surface);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
     if (i == 1) CHECK_OK(riis_valve_set_scalar(second, "opening", 1));
     CHECK_SAME(area_of(valve), area_of(second));
     assert_true(half_open != area_of(valve) && half_open != area_of(first));
     /* The second state was copied. */
     const double open = area_of(valve);
-    riis_valve_destroy(&second);
+    free_one_owned(second);
     CHECK_SAME(area_of(valve), open);
-    riis_valve_destroy(&valve);
-    riis_valve_destroy(&first);
+    free_owned_after(owned_before);
   }
 }
 
 /* Half way between two aortic states the middle of each free edge is half way. */
 static void control_points_are_blended(void **state) {
   (void)state;
-  riis_valve *valve = NULL, *open = NULL;
-  CHECK_OK(riis_valve_create("aortic", &valve));
-  CHECK_OK(riis_valve_create("aortic", &open));
+  riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "right.leaflet_radius_in", 1.04));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.25));
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_AT_MOST(closest_to(surface, 0.75 * 0.24 + 0.25 * 1.04, 0, 0.02).distance, 1e-15);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&open);
-  riis_valve_destroy(&valve);
 }
 
 static void refusals(void **state) {
@@ -456,14 +436,14 @@ static void refusals(void **state) {
   riis_valve *flat = mitral_valve(0);
   CHECK_OK(riis_valve_set_scalar(flat, "anterior_horn_height", 0));
   CHECK_OK(riis_valve_set_scalar(flat, "posterior_horn_height", 0));
-  CHECK_OK(riis_surface_create(flat, NULL, &surface));
-  riis_surface_destroy(&surface);
+  surface = new_surface(flat, NULL);
+  free_one_owned(surface);
   CHECK_OK(riis_valve_set_scalar(flat, "IT_distance", 4));
   CHECK_OK(riis_valve_set_scalar(flat, "posteromedial_commissure_height", 2));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "runs along the annulus|surface_angle|near (",
                 riis_surface_create(flat, NULL, &surface));
-  riis_valve_destroy(&flat);
-  CHECK_OK(riis_valve_create("aortic", &aortic));
+  free_one_owned(flat);
+  aortic = new_valve("aortic");
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the kind aortic, the valve of the kind mitral",
                 riis_valve_set_open_state(valve, aortic));
   CHECK_OK(riis_valve_set_scalar(aortic, "opening", 0.5));
@@ -479,12 +459,9 @@ static void refusals(void **state) {
                 riis_surface_create(valve, NULL, &surface));
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 2));
   CHECK_OK(riis_valve_set_open_state(valve, open));
-  riis_valve_destroy(&open);
+  free_one_owned(open);
   /* Refused states do not stick. */
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&aortic);
-  riis_valve_destroy(&valve);
+  surface = new_surface(valve, NULL);
 }
 
 int main(void) {

@@ -190,15 +190,13 @@ static int set_up(void **state) {
   coarse.tolerance = 1;
   set_nodes(18);
   fewer_nodes = lattice_of(9);
+  keep_owned_for_group();
   strip = malloc(4 * n_cells * sizeof *strip);
   for (int32_t i = 0; i < 4 * n_cells; ++i) strip[i] = i / 4 + i % 4;
   return 0;
 }
 
 static int tear_down(void **state) {
-  (void)state;
-  free_test_mesh(&nodes);
-  free_test_mesh(&fewer_nodes);
   free(mask), free(marks), free(side);
   free(strip);
   printf(
@@ -206,7 +204,7 @@ static int tear_down(void **state) {
       "Embree's; calls that failed of it: %lld, %lld, %lld, all with RIIS_OUT_OF_MEMORY\n",
       n_scenarios, (long long)n_injected[0], (long long)n_injected[1], (long long)n_injected[2],
       (long long)n_calls_failed[0], (long long)n_calls_failed[1], (long long)n_calls_failed[2]);
-  return 0;
+  return free_owned_of_group(state);
 }
 
 int main(void) {

@@ -6,6 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "searches.h"
 
 static random_source rng;
 
@@ -15,16 +16,14 @@ static double nodes[3 * n];
 /* Distances of all nodes to the surface, up to a limit; far nodes get 1e30. */
 static void distances(const riis_surface *surface, const double *xyz, double limit, double *distance,
                       int32_t *leaflet_id) {
-  riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  const int owned_before = n_owned();
   riis_mark_options options = mark_options();
   options.distance_limit = limit;
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_OK(riis_mark_result_create(&result));
+  riis_mesh *mesh = mesh_of(n, xyz);
+  riis_mark_result *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   CHECK_OK(riis_mark_result_dense(result, n, 1e30, NULL, distance, NULL, leaflet_id));
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
+  free_owned_after(owned_before);
 }
 
 /* The same distances times the scale; near the limit either side is right. */
@@ -56,7 +55,7 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
   static int32_t leaflet[n], moved_leaflet[n];
   riis_surface *surface = aortic_surface(NULL);
   distances(surface, nodes, 0.3, plain, leaflet);
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   for (int trial = 0; trial < 12; ++trial) {
     riis_surface_options options = surface_options();
     options.scale = trial % 3 == 0 ? 1 : pow(10, random_between(&rng, -6, 6));
@@ -81,7 +80,7 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
     surface = aortic_surface(&options);
     distances(surface, moved_nodes, 0.3 * options.scale, moved, moved_leaflet);
     CHECK_NEAR(info_of(surface).area / (options.scale * options.scale), 6.98, 0.01);
-    riis_surface_destroy(&surface);
+    free_one_owned(surface);
     /* Coordinates of 300 leave 300 times the rounding. */
     check_scaled(plain, moved, options.scale, 0.3, 1e-12 * options.scale);
     int n_other_leaflet = 0; /* only where two leaflets are equally near */
@@ -104,7 +103,6 @@ static void order_of_nodes_does_not_matter(void **state) {
   for (int i = 0; i < n; ++i) memcpy(shuffled_nodes + 3 * i, nodes + 3 * order[i], 3 * sizeof *nodes);
   distances(surface, shuffled_nodes, 0.3, shuffled, NULL);
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[order[i]]);
-  riis_surface_destroy(&surface);
 }
 
 static void order_of_triangles_does_not_matter(void **state) {
@@ -127,9 +125,6 @@ static void order_of_triangles_does_not_matter(void **state) {
   CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
   distances(surface, nodes, 0.3, shuffled, NULL);
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[i]);
-  riis_surface_destroy(&surface);
-  free(xyz);
-  free(ids);
 }
 
 /* Each cusp of the valve is a mirror image of itself: so are the distances. */
@@ -157,7 +152,6 @@ static void cusps_are_symmetric(void **state) {
       }
     assert_true(n_compared > 500);
   }
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {

@@ -8,6 +8,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "searches.h"
 
 enum { n_side = 11, n_nodes = n_side * n_side * n_side };
 
@@ -36,35 +37,32 @@ static int start_listening(void **state) {
 }
 
 static int stop_listening(void **state) {
-  (void)state;
   riis_set_log(NULL, NULL);
-  return 0;
+  return free_owned(state);
 }
 
 static double box[3 * n_nodes];
 
 /* A cube of nodes round a point. */
 static riis_mesh *cube(double centre, double side) {
-  riis_mesh *mesh = NULL;
   for (int i = 0; i < n_nodes; ++i) {
     const int place[3] = {i % n_side, i / n_side % n_side, i / n_side / n_side};
     for (int k = 0; k < 3; ++k) box[3 * i + k] = centre + side * (place[k] / (double)(n_side - 1) - 0.5);
   }
-  CHECK_OK(riis_mesh_create(n_nodes, box, box + 1, box + 2, 3, &mesh));
-  return mesh;
+  return mesh_of(n_nodes, box);
 }
 
 static void mark(const riis_surface *surface, const riis_mesh *mesh) {
   riis_mark_options options = mark_options();
-  riis_mark_result *result = NULL;
   options.n_threads = 1;
-  CHECK_OK(riis_mark_result_create(&result));
+  riis_mark_result *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  riis_mark_result_destroy(&result);
+  free_one_owned(result);
 }
 
 /* The number of warnings of one marking of the aortic valve in a new mesh. */
 static int n_warnings(double scale, double half_thickness, double centre, double side) {
+  const int owned_before = n_owned();
   riis_surface_options options = surface_options();
   options.scale = scale;
   options.half_thickness = half_thickness;
@@ -72,8 +70,7 @@ static int n_warnings(double scale, double half_thickness, double centre, double
   riis_mesh *mesh = cube(centre, side);
   const int before = warnings.n;
   mark(surface, mesh);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
+  free_owned_after(owned_before);
   return warnings.n - before;
 }
 
@@ -115,28 +112,24 @@ static void sizes_that_do_not_fit_are_told(void **state) {
 static void one_warning_a_mesh_and_surface(void **state) {
   (void)state;
   riis_surface *first = aortic_surface(NULL), *second = aortic_surface(NULL);
-  riis_mesh *mesh = cube(0, 0.01), *other = NULL;
+  riis_mesh *mesh = cube(0, 0.01);
   for (int step = 0; step < 5; ++step) {
     mark(first, mesh);
     mark(second, mesh);
     CHECK_OK(riis_mesh_update(mesh, n_nodes, box, box + 1, box + 2, 3));
   }
   assert_int_equal(warnings.n, 2);
-  CHECK_OK(riis_mesh_create(n_nodes, box, box + 1, box + 2, 3, &other));
+  riis_mesh *other = mesh_of(n_nodes, box);
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
   /* Surfaces that come and go: each is another one, though it may lie where the last one did; and an end to it. */
   for (int i = 0; i < 20; ++i) {
-    riis_surface_destroy(&second);
+    free_one_owned(second);
     second = aortic_surface(NULL);
     mark(second, other);
     assert_int_equal(warnings.n, 3 + (i < 7 ? i + 1 : 7));
   }
-  riis_mesh_destroy(&other);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&first);
-  riis_surface_destroy(&second);
 }
 
 /* Nobody has been told as long as nobody listens. */
@@ -151,8 +144,6 @@ static void a_late_listener_is_told(void **state) {
   mark(surface, mesh);
   mark(surface, mesh);
   assert_int_equal(warnings.n, 1);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 typedef struct pair {
@@ -188,8 +179,6 @@ static void threads_share_the_one_warning(void **state) {
   for (int i = 0; i < n_threads; ++i) pthread_join(threads[i], NULL);
   for (int i = 0; i < n_threads; ++i) assert_int_equal(shared[i].status, RIIS_OK);
   assert_int_equal(warnings.n, 1);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 /* Nodes with a stride, x first or last. */
@@ -221,18 +210,19 @@ static void the_box_holds_every_node(void **state) {
       for (int node = n - 12; node < n; ++node)
         for (int axis = 0; axis < 3; ++axis)
           for (double far = -4; far <= 4; far += 4) {
+            const int owned_before = n_owned();
             riis_mesh *mesh = NULL;
             for (int i = 0; i < n_doubles; ++i) coordinates[i] = 1e-6 * i;
             *coordinate(&layouts[l], node, axis) += far;
             CHECK_OK(create(&layouts[l], n, &mesh));
+            own(mesh);
             const int before = warnings.n;
             mark(surface, mesh);
             if (warnings.n - before != (far == 0))
               fail_msg("layout %d, node %d of %d, axis %d at %g: %d warnings", l, node, n, axis, far,
                        warnings.n - before);
-            riis_mesh_destroy(&mesh);
+            free_owned_after(owned_before);
           }
-  riis_surface_destroy(&surface);
 }
 
 /* The first is named, wherever it and a second one are. */
@@ -257,7 +247,7 @@ static void the_first_bad_coordinate_is_named(void **state) {
   for (int i = 0; i < n_doubles; ++i) coordinates[i] = i % 2 ? 1e60 : -1e60;
   riis_mesh *mesh = NULL;
   CHECK_OK(create(&layouts[0], most_nodes, &mesh));
-  riis_mesh_destroy(&mesh);
+  own(mesh);
 }
 
 #define TEST(f) cmocka_unit_test_setup_teardown(f, start_listening, stop_listening)

@@ -11,12 +11,7 @@
 #include "handles.h"
 #include "searches.h"
 
-static random_source rng;
-
-static int64_t random_integer(int64_t low, int64_t high) {
-  return low + (int64_t)(random_bits(&rng) % (uint64_t)(high - low + 1));
-}
-static int one_in(int n) { return random_integer(1, n) == 1; }
+#include "random_meshes.h"
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
@@ -43,9 +38,9 @@ static brute_force brute_force_of(const riis_surface *surface) {
   const double *vertices;
   CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
   CHECK_OK(riis_surface_triangles(surface, &b.n, &vertex_id, NULL, NULL, NULL));
-  b.corners = malloc((size_t)b.n * 9 * sizeof(double));
-  b.boxes = malloc((size_t)b.n * 6 * sizeof(double));
-  b.blocks = malloc((size_t)(b.n / per_block + 1) * 6 * sizeof(double));
+  b.corners = own(malloc((size_t)b.n * 9 * sizeof(double)));
+  b.boxes = own(malloc((size_t)b.n * 6 * sizeof(double)));
+  b.blocks = own(malloc((size_t)(b.n / per_block + 1) * 6 * sizeof(double)));
   for (int64_t t = 0; t < b.n; ++t) {
     double *box = b.boxes + 6 * t, *block = b.blocks + t / per_block * 6;
     for (int k = 0; k < 3; ++k) {
@@ -60,8 +55,6 @@ static brute_force brute_force_of(const riis_surface *surface) {
   }
   return b;
 }
-
-static void free_brute_force(brute_force *b) { free(b->corners), free(b->boxes), free(b->blocks); }
 
 /* The square of the distance to a box. */
 static double to_box_sq(const double *p, const double *box) {
@@ -89,191 +82,6 @@ static long double brute_force_distance(const brute_force *b, const double *p, d
     }
   }
   return least;
-}
-
-/* --- Meshes ----------------------------------------------------------------------------------------------------------- */
-
-enum { structured, tetrahedra, graded, jittered, with_holes, scattered, wrongly_joined, n_kinds };
-static const char *const kind_names[n_kinds] = {
-    "structured", "tetrahedra", "graded", "jittered", "with holes, in pieces", "scattered", "wrongly joined"};
-
-static int64_t *pairs_of_rows(const test_mesh *mesh, int64_t *n_pairs) {
-  int64_t *pairs = malloc((size_t)(mesh->offsets[mesh->n] + 1) * sizeof *pairs);
-  *n_pairs = 0;
-  for (int64_t i = 0; i < mesh->n; ++i)
-    for (int64_t k = mesh->offsets[i]; k < mesh->offsets[i + 1]; ++k)
-      if (mesh->columns[k] > i) pairs[2 * *n_pairs] = i, pairs[2 * (*n_pairs)++ + 1] = mesh->columns[k];
-  return pairs;
-}
-
-/* Keeps the nodes that are wanted, and the pairs of these. */
-static void keep(test_mesh *mesh, const uint8_t *wanted) {
-  int64_t n_pairs, m = 0, n = 0, *number = malloc((size_t)mesh->n * sizeof *number),
-                   *pairs = pairs_of_rows(mesh, &n_pairs);
-  for (int64_t i = 0; i < mesh->n; ++i) {
-    number[i] = wanted[i] ? n : -1;
-    if (wanted[i]) memmove(mesh->xyz + 3 * n++, mesh->xyz + 3 * i, 3 * sizeof *mesh->xyz);
-  }
-  for (int64_t k = 0; k < n_pairs; ++k) {
-    const int64_t a = number[pairs[2 * k]], b = number[pairs[2 * k + 1]];
-    if (a >= 0 && b >= 0) pairs[2 * m] = a, pairs[2 * m++ + 1] = b;
-  }
-  mesh->n = n;
-  set_rows(mesh, m, pairs);
-  free(pairs);
-  free(number);
-}
-
-/* Another order of the nodes. */
-static void shuffle(test_mesh *mesh) {
-  int64_t n_pairs, *pairs = pairs_of_rows(mesh, &n_pairs), *number = malloc((size_t)mesh->n * sizeof *number);
-  double *xyz = malloc((size_t)mesh->n * 3 * sizeof *xyz);
-  for (int64_t i = 0; i < mesh->n; ++i) number[i] = i;
-  for (int64_t i = mesh->n - 1; i > 0; --i) {
-    const int64_t j = random_integer(0, i), swap = number[i];
-    number[i] = number[j], number[j] = swap;
-  }
-  for (int64_t i = 0; i < mesh->n; ++i) memcpy(xyz + 3 * number[i], mesh->xyz + 3 * i, 3 * sizeof *xyz);
-  for (int64_t k = 0; k < 2 * n_pairs; ++k) pairs[k] = number[pairs[k]];
-  set_rows(mesh, n_pairs, pairs);
-  free(mesh->xyz);
-  mesh->xyz = xyz;
-  free(pairs);
-  free(number);
-}
-
-/* Joins each node to the k nearest of those in the cells around its own, as neighbours in a Delaunay mesh mostly are. */
-static void join_near_nodes(test_mesh *mesh, const double *lower, const double *upper, int k) {
-  int64_t counts[3], n_cells = 1;
-  double size = 1;
-  for (int c = 0; c < 3; ++c) size *= upper[c] - lower[c];
-  size = cbrt(size / (double)mesh->n * 4);
-  for (int c = 0; c < 3; ++c) n_cells *= counts[c] = 1 + (int64_t)((upper[c] - lower[c]) / size);
-  int64_t *first = malloc((size_t)n_cells * sizeof *first), *next = malloc((size_t)mesh->n * sizeof *next);
-  int64_t *pairs = malloc((size_t)mesh->n * (size_t)k * 2 * sizeof *pairs), n_pairs = 0;
-  for (int64_t i = 0; i < n_cells; ++i) first[i] = -1;
-#define CELL(p, c) ((int64_t)fmin((double)(counts[c] - 1), fmax(0, ((p)[c] - lower[c]) / size)))
-  for (int64_t i = 0; i < mesh->n; ++i) {
-    const double *p = mesh->xyz + 3 * i;
-    const int64_t cell = CELL(p, 0) + counts[0] * (CELL(p, 1) + counts[1] * CELL(p, 2));
-    next[i] = first[cell], first[cell] = i;
-  }
-  for (int64_t i = 0; i < mesh->n; ++i) {
-    const double *p = mesh->xyz + 3 * i;
-    double best[32];
-    int64_t near[32];
-    int n_near = 0;
-    for (int64_t z = CELL(p, 2) - 1; z <= CELL(p, 2) + 1; ++z)
-      for (int64_t y = CELL(p, 1) - 1; y <= CELL(p, 1) + 1; ++y)
-        for (int64_t x = CELL(p, 0) - 1; x <= CELL(p, 0) + 1; ++x) {
-          if (x < 0 || y < 0 || z < 0 || x >= counts[0] || y >= counts[1] || z >= counts[2]) continue;
-          for (int64_t j = first[x + counts[0] * (y + counts[1] * z)]; j >= 0; j = next[j]) {
-            if (j == i) continue;
-            const double *q = mesh->xyz + 3 * j;
-            const double sq =
-                (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]);
-            if (n_near == k && sq >= best[k - 1]) continue;
-            int at = n_near < k ? n_near++ : k - 1;
-            for (; at > 0 && best[at - 1] > sq; --at) best[at] = best[at - 1], near[at] = near[at - 1];
-            best[at] = sq, near[at] = j;
-          }
-        }
-    for (int m = 0; m < n_near; ++m) pairs[2 * n_pairs] = i, pairs[2 * n_pairs++ + 1] = near[m];
-  }
-#undef CELL
-  set_rows(mesh, n_pairs, pairs);
-  free(first), free(next), free(pairs);
-}
-
-/* Six tetrahedra a cube, their edges by the library's builder. */
-static void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
-  static const int corners[6][4][3] = {
-      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}},
-      {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}}, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}},
-      {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}}, {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 1, 1}}};
-  int32_t *ids = malloc((size_t)mesh->n * 24 * sizeof *ids);
-  int64_t n_ids = 0;
-  for (int64_t k = 0; k + 1 < counts[2]; ++k)
-    for (int64_t j = 0; j + 1 < counts[1]; ++j)
-      for (int64_t i = 0; i + 1 < counts[0]; ++i)
-        for (int t = 0; t < 24; ++t) {
-          const int *c = corners[t / 4][t % 4];
-          ids[n_ids++] = (int32_t)(i + c[0] + counts[0] * (j + c[1] + counts[1] * (k + c[2])));
-        }
-  riis_cells cells;
-  riis_csr csr;
-  riis_adjacency *adjacency = NULL;
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
-  cells.n_nodes = mesh->n;
-  cells.n_cells = n_ids / 4;
-  cells.node_ids = ids;
-  cells.n_threads = (int32_t)random_integer(1, 3);
-  CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
-  const int64_t *offsets = csr.offsets;
-  const int32_t *columns = csr.columns;
-  mesh->columns = realloc(mesh->columns, (size_t)(offsets[mesh->n] + 1) * sizeof *mesh->columns);
-  memcpy(mesh->offsets, offsets, (size_t)(mesh->n + 1) * sizeof *offsets);
-  for (int64_t k = 0; k < offsets[mesh->n]; ++k) mesh->columns[k] = columns[k];
-  riis_adjacency_destroy(&adjacency);
-  free(ids);
-}
-
-/* About n_wanted nodes in the box; *spacing becomes the length of most edges. */
-static test_mesh random_mesh(int kind, int64_t n_wanted, const double *lower, const double *upper, double *spacing) {
-  int64_t counts[3];
-  double volume = 1;
-  for (int c = 0; c < 3; ++c) volume *= upper[c] - lower[c];
-  *spacing = cbrt(volume / (double)n_wanted);
-  for (int c = 0; c < 3; ++c) counts[c] = 2 + (int64_t)((upper[c] - lower[c]) / *spacing);
-  test_mesh mesh = lattice(counts, lower, upper);
-  if (kind == tetrahedra || (kind == jittered && one_in(2))) join_by_tetrahedra(&mesh, counts);
-  if (kind == graded) { /* finer towards one place, up to a hundredfold */
-    double centre[3];
-    for (int c = 0; c < 3; ++c) centre[c] = random_between(&rng, 0, 1);
-    const double power = random_between(&rng, 1.2, 4);
-    for (int64_t i = 0; i < 3 * mesh.n; ++i) {
-      const int c = (int)(i % 3);
-      const double at = (mesh.xyz[i] - lower[c]) / (upper[c] - lower[c]) - centre[c];
-      const double end = at < 0 ? centre[c] : 1 - centre[c];
-      mesh.xyz[i] = lower[c] + (upper[c] - lower[c]) * (centre[c] + copysign(end * pow(fabs(at) / end, power), at));
-    }
-  }
-  if (kind == jittered || kind == with_holes) {
-    const double by = *spacing * random_between(&rng, 0, 0.6);
-    for (int64_t i = 0; i < 3 * mesh.n; ++i) mesh.xyz[i] += random_between(&rng, -by, by);
-  }
-  if (kind == with_holes) {
-    uint8_t *wanted = malloc((size_t)mesh.n);
-    memset(wanted, 1, (size_t)mesh.n);
-    for (int64_t hole = random_integer(1, 8); hole > 0; --hole) {
-      const int is_slab = one_in(3), axis = (int)random_integer(0, 2);
-      const double *p = mesh.xyz + 3 * random_integer(0, mesh.n - 1), centre[3] = {p[0], p[1], p[2]};
-      const double radius = *spacing * (is_slab ? 1 : random_between(&rng, 0.5, 5));
-      for (int64_t i = 0; i < mesh.n; ++i) {
-        double sum = 0;
-        for (int c = 0; c < 3; ++c)
-          if (!is_slab || c == axis) sum += (mesh.xyz[3 * i + c] - centre[c]) * (mesh.xyz[3 * i + c] - centre[c]);
-        if (sum < radius * radius) wanted[i] = 0;
-      }
-    }
-    wanted[random_integer(0, mesh.n - 1)] = 1;
-    keep(&mesh, wanted);
-    free(wanted);
-  }
-  if (kind == scattered) {
-    for (int64_t i = 0; i < 3 * mesh.n; ++i) mesh.xyz[i] = random_between(&rng, lower[i % 3], upper[i % 3]);
-    join_near_nodes(&mesh, lower, upper, (int)random_integer(2, 14));
-  }
-  if (kind == wrongly_joined) {
-    const int64_t n_pairs = random_integer(0, 3 * mesh.n);
-    int64_t *pairs = malloc((size_t)(2 * n_pairs + 1) * sizeof *pairs);
-    for (int64_t k = 0; k < 2 * n_pairs; ++k) pairs[k] = random_integer(0, mesh.n - 1);
-    set_rows(&mesh, n_pairs, pairs);
-    free(pairs);
-  }
-  if (one_in(2)) shuffle(&mesh);
-  return mesh;
 }
 
 /* --- Surfaces --------------------------------------------------------------------------------------------------------- */
@@ -323,15 +131,10 @@ static shape random_shape(void) {
     return s;
   }
   s.is_mitral = kind == 1;
-  CHECK_OK(riis_valve_create(s.is_mitral ? "mitral" : "aortic", &s.valve));
+  s.valve = new_valve(s.is_mitral ? "mitral" : "aortic");
   s.opening = random_between(&rng, 0, 1);
   s.step = random_between(&rng, -0.2, 0.2);
   return s;
-}
-
-static void free_shape(shape *s) {
-  riis_valve_destroy(&s->valve);
-  free(s->xyz), free(s->ids);
 }
 
 /* Makes the surface, or makes it again a step later. */
@@ -343,14 +146,14 @@ static void update_surface(riis_surface **surface, shape *s, const riis_surface_
     if (*surface)
       CHECK_OK(riis_surface_update(*surface, s->valve, options));
     else
-      CHECK_OK(riis_surface_create(s->valve, options, surface));
+      *surface = new_surface(s->valve, options);
   } else {
     for (int64_t i = 0; i < 9 * s->n_triangles; ++i) s->xyz[i] += random_between(&rng, -0.01, 0.01);
     const riis_surface_arrays arrays = triangle_arrays(3 * s->n_triangles, s->xyz, s->n_triangles, s->ids);
     if (*surface)
       CHECK_OK(riis_surface_update_from_arrays(*surface, &arrays, options));
     else
-      CHECK_OK(riis_surface_create_from_arrays(&arrays, options, surface));
+      *surface = surface_from(&arrays, options);
   }
 }
 
@@ -367,12 +170,13 @@ static struct totals {
 /* A share of the nodes against brute force. */
 static void compare_with_brute_force(const riis_surface *surface, const test_mesh *nodes, const uint8_t *mask,
                                      const riis_mark_result *result, double limit, int64_t n_wanted) {
+  const int owned_before = n_owned();
   const double half_thickness = info_of(surface).half_thickness;
   brute_force b = brute_force_of(surface);
   double size = 1;
   for (int64_t k = 0; k < 9 * b.n; ++k) size = fmax(size, fabs(b.corners[k]));
-  uint8_t *mark = malloc((size_t)nodes->n);
-  double *distance = malloc((size_t)nodes->n * sizeof *distance);
+  uint8_t *mark = own(malloc((size_t)nodes->n));
+  double *distance = own(malloc((size_t)nodes->n * sizeof *distance));
   CHECK_OK(riis_mark_result_dense(result, nodes->n, 1e30, mark, distance, NULL, NULL));
   const int64_t stride = n_wanted < nodes->n ? nodes->n / n_wanted : 1, first = random_integer(0, stride - 1);
   int64_t pairs = 0, within = 0, undecided = 0, bad_distances = 0, bad_marks = 0;
@@ -406,9 +210,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   totals.pairs += pairs, totals.pairs_within += within, totals.undecided += undecided;
   totals.different_distances += bad_distances, totals.different_marks += bad_marks;
   totals.largest = fmax(totals.largest, largest);
-  free(mark);
-  free(distance);
-  free_brute_force(&b);
+  free_owned_after(owned_before);
 }
 
 /* The clusters by every instruction set that there is: the exhaustive search's result, bit by bit. */
@@ -435,6 +237,7 @@ static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh,
 }
 
 static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
+  const int owned_before = n_owned();
   shape s = random_shape();
   riis_surface *surface = NULL;
   update_surface(&surface, &s, NULL);
@@ -464,11 +267,10 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
       for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += random_between(&rng, -0.1, 0.1) * spacing;
       CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
     }
-    free(mask);
     mask = NULL;
     if (one_in(3)) {
       const uint64_t share = (uint64_t)random_integer(0, 8);
-      mask = malloc((size_t)nodes.n);
+      mask = own(malloc((size_t)nodes.n));
       for (int64_t i = 0; i < nodes.n; ++i) mask[i] = random_bits(&rng) % 8 < share;
     }
     riis_mark_options marking = mark_options();
@@ -500,14 +302,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
     compare_with_brute_force(surface, &nodes, mask, one_in(2) ? neighbor : clustered, limit, n_compared);
   }
   ++totals.meshes[kind];
-  free(mask);
-  riis_mark_result_destroy(&neighbor);
-  riis_mark_result_destroy(&exhaustive);
-  riis_mark_result_destroy(&clustered);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
-  free_shape(&s);
-  free_test_mesh(&nodes);
+  free_owned_after(owned_before);
 }
 
 static void random_cases_equal_brute_force(void **state) {
@@ -552,6 +347,7 @@ static void random_cases_equal_brute_force(void **state) {
 static void boxes_leave_nothing_out(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
     shape s = random_shape();
     riis_surface *surface = NULL;
     update_surface(&surface, &s, NULL);
@@ -572,9 +368,7 @@ static void boxes_leave_nothing_out(void **state) {
       const long double got = brute_force_distance(&b, p, reach);
       assert_true(expected <= reach ? got == expected : got > reach);
     }
-    free_brute_force(&b);
-    free_shape(&s);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 

@@ -27,7 +27,7 @@ static void new_soup(int64_t n, double where) {
   for (int64_t i = 0; i < 9 * n; ++i) soup[i] = where + xyz[i];
   memcpy(soup_ids, ids, 3 * (size_t)n * sizeof *ids);
   n_soup = n;
-  free(xyz), free(ids);
+  free_one_owned(xyz), free_one_owned(ids);
 }
 
 static void change_soup(void) {
@@ -51,12 +51,19 @@ typedef struct content {
   riis_surface_options options;
 } content;
 
-static riis_status make(const content *c, riis_surface **surface) {
+static riis_status make_any(const content *c, riis_surface **surface) {
   if (!c->valve)
     return *surface ? riis_surface_update_from_arrays(*surface, &c->arrays, &c->options)
                     : riis_surface_create_from_arrays(&c->arrays, &c->options, surface);
   return *surface ? riis_surface_update(*surface, c->valve, &c->options)
                   : riis_surface_create(c->valve, &c->options, surface);
+}
+
+static riis_status make(const content *c, riis_surface **surface) {
+  const int is_new = !*surface;
+  const riis_status status = make_any(c, surface);
+  if (is_new) own(*surface);
+  return status;
 }
 
 static content random_content(riis_valve *const *valves) {
@@ -97,16 +104,16 @@ static void check_closest(const riis_surface *updated, const riis_surface *fresh
 }
 
 static void check_marks(const riis_surface *updated, const riis_surface *fresh, riis_mark_result *result) {
+  const int owned_before = n_owned();
   enum { n = 600 };
   static double xyz[3 * n];
   const surface_content all = surface_content_of(fresh);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < 3; ++c)
       xyz[3 * i + c] = all.xyz[3 * all.vertex_id[3 * (i % all.n_triangles)] + c] + 0.3 * random_between(&rng, -1, 1);
-  riis_mesh *mesh = NULL;
   riis_mark_result *expected = new_result();
   riis_mark_options options = mark_options();
-  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  riis_mesh *mesh = mesh_of(n, xyz);
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   options.distance_limit = 0.15;
   CHECK_OK(riis_mark_nodes(fresh, mesh, &options, expected));
@@ -115,8 +122,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   options.search = RIIS_SEARCH_CLUSTERS;
   if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) /* refused for samples */
     assert_true(same_results(result, expected));
-  riis_mark_result_destroy(&expected);
-  riis_mesh_destroy(&mesh);
+  free_owned_after(owned_before);
 }
 
 static int is_same_content(const riis_surface *a, const riis_surface *b) {
@@ -137,14 +143,11 @@ static int is_same_content(const riis_surface *a, const riis_surface *b) {
 
 static void an_updated_surface_is_a_fresh_one(void **state) {
   (void)state;
-  riis_valve *valves[2] = {NULL, NULL}, *open = NULL;
+  riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
   riis_surface *updated = NULL, *last = NULL; /* a fresh one of what it should be */
   riis_mark_result *result = new_result();
-  CHECK_OK(riis_valve_create("aortic", &valves[0]));
-  CHECK_OK(riis_valve_create("aortic", &open));
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
   CHECK_OK(riis_valve_set_open_state(valves[0], open));
-  CHECK_OK(riis_valve_create("mitral", &valves[1]));
   int n_updates = 0, n_refused = 0;
   for (int step = 0; step < 160; ++step) {
     static const int32_t threads[] = {0, 1, 2, 3, 7};
@@ -162,7 +165,7 @@ static void an_updated_surface_is_a_fresh_one(void **state) {
       if (!last) continue;
     } else {
       ++n_updates;
-      riis_surface_destroy(&last);
+      free_one_owned(last);
       last = fresh;
     }
     assert_true(is_same_content(updated, last));
@@ -171,11 +174,6 @@ static void an_updated_surface_is_a_fresh_one(void **state) {
   }
   printf("%d updates, %d refused\n", n_updates, n_refused);
   assert_true(n_updates > 80 && n_refused > 5);
-  riis_mark_result_destroy(&result);
-  riis_surface_destroy(&last);
-  riis_surface_destroy(&updated);
-  for (int i = 0; i < 2; ++i) riis_valve_destroy(&valves[i]);
-  riis_valve_destroy(&open);
 }
 
 int main(void) {

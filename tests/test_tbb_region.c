@@ -52,7 +52,7 @@ static void expect_same_as_outside(int region) {
   for (int count = 0; count < 4; ++count)
     for (int repeat = 0; repeat < 3; ++repeat) {
       /* Every time a mesh that none has searched: one of the tasks makes the groups. */
-      riis_mesh_destroy(&mesh);
+      free_one_owned(mesh);
       mesh = mesh_from(&nodes);
       work w = {.surface = surface, .mesh = mesh, .expected = expected};
       w.n_threads = count < 3 ? thread_counts[count] : 0;
@@ -66,10 +66,6 @@ static void expect_same_as_outside(int region) {
   printf("at most %d tasks at once\n", most_at_once);
   if (region == TBB_ARENA_OF_FOUR) assert_true(most_at_once >= 2);
   if (region == TBB_ARENA_OF_ONE || region == TBB_LIMIT_OF_ONE) assert_int_equal(most_at_once, 1);
-  riis_mark_result_destroy(&expected);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
 }
 
 static void in_the_callers_loop(void **state) {

@@ -131,8 +131,7 @@ typedef struct {
 static deviation measure(const smooth_valve *smooth, const riis_valve *valve, double tolerance, random_source *rng) {
   riis_surface_options options = surface_options();
   options.tolerance = tolerance;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
+  riis_surface *surface = new_surface(valve, &options);
   deviation d = {0, 0, info_of(surface).n_triangles};
   const double bound = tolerance * 0.1;
   /* Every smooth point is near a triangle ... */
@@ -163,7 +162,7 @@ static deviation measure(const smooth_valve *smooth, const riis_valve *valve, do
         d.to_smooth = fmax(d.to_smooth, distance_to_smooth(smooth, patch_id[t], at, p, bound) / bound);
     }
   }
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   return d;
 }
 
@@ -182,22 +181,19 @@ static void check_at_four_tolerances(const smooth_valve *smooth, const riis_valv
 static void aortic_deviation_stays_within_the_bound(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create("aortic", &valve));
+  riis_valve *valve = new_valve("aortic");
   CHECK_OK(aortic_patches(NULL, 0, &set));
   tabulate();
   check_at_four_tolerances(&smooth_aortic, valve, "", &rng);
   free(tables);
   patch_set_free(&set);
-  riis_valve_destroy(&valve);
 }
 
 static void mitral_deviation_stays_within_the_bound(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
   mitral_parameters parameters = mitral_defaults();
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
+  riis_valve *valve = new_valve("mitral");
   for (int i = 0; i <= 2; ++i) {
     char opening[32];
     parameters.opening = 0.5 * i;
@@ -207,7 +203,6 @@ static void mitral_deviation_stays_within_the_bound(void **state) {
     check_at_four_tolerances(&smooth_mitral, valve, opening, &rng);
     mitral_oracle_destroy(mitral);
   }
-  riis_valve_destroy(&valve);
 }
 
 /* Each quad against the smooth patch at equal (u, v), all over the quad: within its own bound, and at some quad near it. */
@@ -245,8 +240,7 @@ static void every_quad_stays_within_its_own_bound(void **state) {
   random_source rng = random_start("test_tolerance");
   const char *names[17];
   double of_mitral = 1, of_aortic;
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
+  riis_valve *valve = new_valve("mitral");
   for (int i = 0; i < 17; ++i) {
     riis_parameter parameter;
     CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
@@ -263,7 +257,7 @@ static void every_quad_stays_within_its_own_bound(void **state) {
     of_mitral = fmin(of_mitral, share);
     mitral_oracle_destroy(mitral);
   }
-  riis_valve_destroy(&valve);
+  free_one_owned(valve);
   CHECK_OK(aortic_patches(NULL, 0, &set));
   tabulate();
   of_aortic = largest_share_of_bound(&smooth_aortic, 0, NULL, NULL, 0.005);
@@ -280,10 +274,10 @@ static void so_it_does_for_other_aortic_valves(void **state) {
   double worst = 0;
   int n_tried = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    riis_valve *valve = NULL;
+    const int owned_before = n_owned();
     riis_parameter parameter;
     int64_t n_parameters;
-    CHECK_OK(riis_valve_create("aortic", &valve));
+    riis_valve *valve = new_valve("aortic");
     CHECK_OK(riis_valve_n_parameters(valve, &n_parameters));
     CHECK_OK(riis_valve_parameter(valve, (int64_t)(random_bits(&rng) % (uint64_t)n_parameters), &parameter,
                                   sizeof parameter));
@@ -301,7 +295,7 @@ static void so_it_does_for_other_aortic_valves(void **state) {
       worst = fmax(worst, fmax(d.to_triangles, d.to_smooth));
       ++n_tried;
     }
-    riis_valve_destroy(&valve);
+    free_owned_after(owned_before);
   }
   printf("%d aortic valves: at most %.2f of the bound\n", n_tried, worst);
   assert_true(n_tried > 20);
@@ -314,11 +308,12 @@ static void so_it_does_for_other_mitral_valves(void **state) {
   double worst = 0;
   int n_tried = 0;
   for (int trial = 0; trial < 60; ++trial) {
+    const int owned_before = n_owned();
     mitral_parameters parameters[2];
-    riis_valve *valves[2] = {NULL, NULL};
+    riis_valve *valves[2];
     for (int k = 0; k < 2; ++k) {
       parameters[k] = mitral_defaults();
-      CHECK_OK(riis_valve_create("mitral", &valves[k]));
+      valves[k] = new_valve("mitral");
       double *values = &parameters[k].anterior_ratio; /* doubles all, in the table's order */
       for (int i = 0; i < 16; ++i) {
         riis_parameter parameter;
@@ -347,8 +342,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
     } else {
       assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not go together */
     }
-    riis_valve_destroy(&valves[0]);
-    riis_valve_destroy(&valves[1]);
+    free_owned_after(owned_before);
   }
   printf("%d mitral valves: at most %.2f of the bound\n", n_tried, worst);
   assert_true(n_tried > 40);

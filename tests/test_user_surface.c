@@ -18,6 +18,7 @@ static void every_layout_gives_the_same_surface(void **state) {
   int64_t ids64[9];
   for (int i = 0; i < 7; ++i) x[i] = xyz[3 * i], y[i] = xyz[3 * i + 1], z[i] = xyz[3 * i + 2];
   for (int layout = 0; layout < 8; ++layout) {
+    const int owned_before = n_owned();
     const int one_based = layout & 1, wide = layout & 2, separate = layout & 4;
     riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
     for (int i = 0; i < 9; ++i) ids32[i] = ids[i] + one_based, ids64[i] = ids[i] + one_based;
@@ -41,7 +42,7 @@ static void every_layout_gives_the_same_surface(void **state) {
     assert_int_equal(c.triangle_id, 2);
     assert_int_equal(c.leaflet_id, 9);
     CHECK_NEAR(c.distance, 2, 1e-15);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -58,7 +59,6 @@ static void quads_are_cut_along_the_first_diagonal(void **state) {
   const double *uv;
   CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
   assert_null(uv);
-  riis_surface_destroy(&surface);
 }
 
 typedef struct {
@@ -97,7 +97,7 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   assert_int_equal(triangle_id[1], 4);
   assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id,
                    4); /* the caller's number, not the place in the queue */
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
 
   arrays.n_faces = 3;
   arrays.vertex_ids = with_bad + 3; /* only bad ones */
@@ -108,6 +108,7 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
 static void tiny_and_huge_surfaces_have_area(void **state) {
   (void)state;
   for (int power = -50; power <= 50; power += 10) {
+    const int owned_before = n_owned();
     const double s = pow(10, power), points[9] = {0, 0, 0, s, 0, 0, 0, s, 0};
     const int32_t one[3] = {0, 1, 2};
     riis_surface_arrays arrays = triangle_arrays(3, points, 1, one);
@@ -116,7 +117,7 @@ static void tiny_and_huge_surfaces_have_area(void **state) {
     CHECK_NEAR(closest.distance / s, 2, 1e-14);
     CHECK_NEAR(closest.normal[2], 1, 1e-15);
     assert_int_equal(closest.side, -1);
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
@@ -130,8 +131,6 @@ static void winding_is_the_callers_unless_flipped(void **state) {
   CHECK_NEAR(closest_to(flipped, 0.9, 0.1, 1).normal[2], -1, 0);
   assert_int_equal(closest_to(kept, 0.9, 0.1, 1).side, 1);
   assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
-  riis_surface_destroy(&kept);
-  riis_surface_destroy(&flipped);
 }
 
 /* Two triangles back to back: their normals cancel at the common edges up to rounding, and each side is the reported triangle's. */
@@ -150,7 +149,6 @@ static void side_of_folded_faces_is_the_triangles_own(void **state) {
       for (int c = 0; c < 3; ++c) height += difference[c] * closest.normal[c];
       assert_int_equal(closest.side, height > 0 ? 1 : -1);
     }
-  riis_surface_destroy(&surface);
 }
 
 static void update_replaces_the_content(void **state) {
@@ -170,7 +168,6 @@ static void update_replaces_the_content(void **state) {
   CHECK_REFUSED(RIIS_INVALID_SURFACE, "y of vertex 1 is nan", riis_surface_update_from_arrays(surface, &arrays, NULL));
   assert_int_equal(info_of(surface).n_triangles, 2);
   CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
-  riis_surface_destroy(&surface);
 }
 
 /* A closed box of sharp edges: inside is inside, also where the closest point is an edge or a corner; the plain normal
@@ -203,7 +200,6 @@ static void side_at_edges_and_corners_of_a_wedge(void **state) {
     n_edge += closest.barycentric[0] == 0 || closest.barycentric[1] == 0 || closest.barycentric[2] == 0;
   }
   assert_true(n_inside > 100 && n_edge > 10000);
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {

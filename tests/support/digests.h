@@ -35,9 +35,10 @@ static inline uint64_t add_valve(uint64_t digest, riis_valve *valve) {
     riis_surface *surface = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5 * half));
     const riis_status status = riis_surface_create(valve, &coarse, &surface);
+    own(surface);
     digest = add_bytes(digest, &status, sizeof status); /* it may have no open state */
     if (!status) digest = add_surface(digest, surface);
-    riis_surface_destroy(&surface);
+    free_one_owned(surface);
   }
   CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
   return add_bytes(digest, &opening, sizeof opening);
@@ -65,6 +66,7 @@ static inline uint64_t add_result(uint64_t digest, const riis_mark_result *resul
 }
 
 static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
+  const int owned_before = n_owned();
   riis_surface *surface = aortic_surface(&coarse);
   riis_mark_options options = mark_options();
   options.n_threads = 1;
@@ -74,9 +76,8 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
     const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
     digest = add_bytes(digest, &status, sizeof status); /* it may have no adjacency */
     if (!status) digest = add_result(digest, result);
-    riis_mark_result_destroy(&result);
   }
-  riis_surface_destroy(&surface);
+  free_owned_after(owned_before);
   return digest;
 }
 

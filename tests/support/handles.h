@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces that many tests start from. Include after riis.h and test_support.h. */
+ * Surfaces that many tests start from. The test owns the objects that functions here return: see owned.h. Include after
+ * riis.h and test_support.h. */
 #ifndef RIIS_TEST_HANDLES_H
 #define RIIS_TEST_HANDLES_H
+
+#include "owned.h"
 
 static inline riis_surface_options surface_options(void) {
   riis_surface_options options;
@@ -15,14 +18,30 @@ static inline riis_mark_options mark_options(void) {
   return options;
 }
 
+static inline riis_valve *new_valve(const char *kind) {
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create(kind, &valve));
+  return own(valve);
+}
+
+/* options may be NULL. */
+static inline riis_surface *new_surface(const riis_valve *valve, const riis_surface_options *options) {
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_create(valve, options, &surface));
+  return own(surface);
+}
+
+/* The default valve of a kind; options may be NULL. */
+static inline riis_surface *surface_of_kind(const char *kind, const riis_surface_options *options) {
+  riis_valve *valve = new_valve(kind);
+  riis_surface *surface = new_surface(valve, options);
+  free_one_owned(valve);
+  return surface;
+}
+
 /* The default aortic valve; options may be NULL. */
 static inline riis_surface *aortic_surface(const riis_surface_options *options) {
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("aortic", &valve));
-  CHECK_OK(riis_surface_create(valve, options, &surface));
-  riis_valve_destroy(&valve);
-  return surface;
+  return surface_of_kind("aortic", options);
 }
 
 /* Triangles from arrays: xyz(3, n_vertices), ids(3, n_triangles). */
@@ -43,7 +62,14 @@ static inline riis_surface_arrays triangle_arrays(int64_t n_vertices, const doub
 static inline riis_surface *surface_from(const riis_surface_arrays *arrays, const riis_surface_options *options) {
   riis_surface *surface = NULL;
   CHECK_OK(riis_surface_create_from_arrays(arrays, options, &surface));
-  return surface;
+  return own(surface);
+}
+
+/* Borrows the coordinates, (3, n). */
+static inline riis_mesh *mesh_of(int64_t n, const double *xyz) {
+  riis_mesh *mesh = NULL;
+  CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  return own(mesh);
 }
 
 static inline riis_surface_info info_of(const riis_surface *surface) {
@@ -75,10 +101,10 @@ static inline riis_closest closest_to(const riis_surface *surface, double x, dou
   return closest;
 }
 
-/* n random triangles in [-1,1]^3, none without area. *xyz (9 n) and *ids (3 n) are to be freed. */
+/* n random triangles in [-1,1]^3, none without area: xyz (9 n), ids (3 n). */
 static inline void random_soup(random_source *random, int64_t n, double size, double **xyz, int32_t **ids) {
-  *xyz = malloc((size_t)n * 9 * sizeof **xyz);
-  *ids = malloc((size_t)n * 3 * sizeof **ids);
+  *xyz = own(malloc((size_t)n * 9 * sizeof **xyz));
+  *ids = own(malloc((size_t)n * 3 * sizeof **ids));
   for (int64_t i = 0; i < n; ++i) {
     double centre[3];
     for (int c = 0; c < 3; ++c) centre[c] = random_between(random, -1, 1);

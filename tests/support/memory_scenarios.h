@@ -43,8 +43,8 @@ static test_mesh lattice_of(int64_t n) {
 }
 
 static void set_nodes(int64_t n) {
-  free_test_mesh(&nodes);
   nodes = lattice_of(n);
+  keep_owned_for_group();
   mask = realloc(mask, (size_t)nodes.n);
   marks = realloc(marks, (size_t)nodes.n);
   side = realloc(side, (size_t)nodes.n * sizeof *side);

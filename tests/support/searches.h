@@ -32,7 +32,7 @@ static inline riis_mark_stats stats_of(const riis_mark_result *result) {
 static inline riis_mark_result *new_result(void) {
   riis_mark_result *result = NULL;
   CHECK_OK(riis_mark_result_create(&result));
-  return result;
+  return own(result);
 }
 
 static inline int same_nodes(found_nodes a, found_nodes b) {
@@ -59,25 +59,20 @@ static inline int same_results(const riis_mark_result *a, const riis_mark_result
   return same_nodes(m[0], m[1]) && same_nodes(w[0], w[1]);
 }
 
-/* Nodes and which are neighbours: n + 1 offsets and their columns, from 0. All on the heap. */
+/* Nodes and which are neighbours: n + 1 offsets and their columns, from 0. The test owns the arrays. */
 typedef struct test_mesh {
   int64_t n;
   double *xyz;
   int64_t *offsets, *columns;
 } test_mesh;
 
-static inline void free_test_mesh(test_mesh *mesh) {
-  free(mesh->xyz), free(mesh->offsets), free(mesh->columns);
-  memset(mesh, 0, sizeof *mesh);
-}
-
-/* Rows from pairs, (2, n_pairs): each joins both ways. */
+/* Rows from pairs, (2, n_pairs): each joins both ways. Rows that the mesh has are freed. */
 static inline void set_rows(test_mesh *mesh, int64_t n_pairs, const int64_t *pairs) {
   const size_t n = (size_t)mesh->n;
   int64_t *next = calloc(n + 1, sizeof *next);
-  free(mesh->offsets), free(mesh->columns);
-  mesh->offsets = calloc(n + 1, sizeof *mesh->offsets);
-  mesh->columns = malloc((size_t)(2 * n_pairs + 1) * sizeof *mesh->columns);
+  free_one_owned(mesh->offsets), free_one_owned(mesh->columns);
+  mesh->offsets = own(calloc(n + 1, sizeof *mesh->offsets));
+  mesh->columns = own(malloc((size_t)(2 * n_pairs + 1) * sizeof *mesh->columns));
   for (int64_t k = 0; k < 2 * n_pairs; ++k) ++mesh->offsets[pairs[k] + 1];
   for (int64_t i = 0; i < mesh->n; ++i) mesh->offsets[i + 1] += mesh->offsets[i];
   memcpy(next, mesh->offsets, n * sizeof *next);
@@ -93,7 +88,7 @@ static inline void set_rows(test_mesh *mesh, int64_t n_pairs, const int64_t *pai
 static inline test_mesh lattice(const int64_t *counts, const double *lower, const double *upper) {
   const int64_t step[3] = {1, counts[0], counts[0] * counts[1]};
   test_mesh mesh = {.n = step[2] * counts[2]};
-  mesh.xyz = malloc((size_t)mesh.n * 3 * sizeof *mesh.xyz);
+  mesh.xyz = own(malloc((size_t)mesh.n * 3 * sizeof *mesh.xyz));
   int64_t *pairs = malloc((size_t)mesh.n * 6 * sizeof *pairs), n_pairs = 0;
   for (int64_t i = 0; i < mesh.n; ++i)
     for (int c = 0; c < 3; ++c) {
@@ -133,9 +128,8 @@ static inline riis_csr csr_of(const test_mesh *mesh) {
 
 /* Borrows all of it. */
 static inline riis_mesh *mesh_from(const test_mesh *from) {
-  riis_mesh *mesh = NULL;
+  riis_mesh *mesh = mesh_of(from->n, from->xyz);
   const riis_csr csr = csr_of(from);
-  CHECK_OK(riis_mesh_create(from->n, from->xyz, from->xyz + 1, from->xyz + 2, 3, &mesh));
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   return mesh;
 }

@@ -14,26 +14,24 @@
 static random_source rng;
 
 static riis_surface *surface_of(const char *kind, double opening, double half_thickness) {
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
   riis_surface_options options = surface_options();
   if (half_thickness > 0) options.half_thickness = half_thickness;
-  CHECK_OK(riis_valve_create(kind, &valve));
+  riis_valve *valve = new_valve(kind);
   if (strcmp(kind, "aortic") == 0) { /* has no second state of its own */
-    riis_valve *open = NULL;
-    CHECK_OK(riis_valve_create(kind, &open));
+    riis_valve *open = new_valve(kind);
     CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 50));
     CHECK_OK(riis_valve_set_open_state(valve, open));
-    riis_valve_destroy(&open);
+    free_one_owned(open);
   }
   CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
-  riis_valve_destroy(&valve);
+  riis_surface *surface = new_surface(valve, &options);
+  free_one_owned(valve);
   return surface;
 }
 
 /* Marks by both searches, cold and warm, with several limits and numbers of threads. Returns how many were marked first. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_mark_result *warm) {
+  const int owned_before = n_owned();
   riis_mark_result *expected = new_result(), *cold = new_result();
   const double wide = 0.3;
   int64_t n_marked = 0;
@@ -55,69 +53,73 @@ static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, r
       assert_int_equal(stats.search, RIIS_SEARCH_NEIGHBOR);
       assert_int_equal(stats.complete, 1);
     }
-    riis_mark_result_destroy(&cold);
+    free_one_owned(cold);
     cold = new_result();
   }
-  riis_mark_result_destroy(&expected);
-  riis_mark_result_destroy(&cold);
+  free_owned_after(owned_before);
   return n_marked;
+}
+
+static void destroy_file(void *object) {
+  riis_vtk_mesh *file = object;
+  riis_vtk_mesh_destroy(&file);
 }
 
 /* That valve in the mesh of the file at every opening, thin and at its default thickness. */
 static void expect_same_in_file(const char *path, const char *kind, int64_t least_nodes) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
-  riis_mesh *mesh = NULL;
   riis_csr csr;
   int64_t n_nodes, n_cells;
   const double *xyz;
   CHECK_OK(riis_vtk_mesh_read(path, &file));
+  own_object(file, destroy_file);
   CHECK_OK(riis_vtk_mesh_nodes(file, &n_nodes, &n_cells, &xyz));
   CHECK_OK(riis_vtk_mesh_adjacency(file, 2, &adjacency));
+  own(adjacency);
   CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
   assert_in_range(n_nodes, least_nodes, 50000);
   assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* of tetrahedra: about 14 neighbours */
-  CHECK_OK(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  riis_mesh *mesh = mesh_of(n_nodes, xyz);
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   const double half_thickness[2] = {0.03, -1};
   for (int k = 0; k < 2; ++k) {
+    const int owned_before = n_owned();
     riis_mark_result *warm = new_result();
     for (int step = 0; step <= 2; ++step) {
+      const int n_outside = n_owned();
       riis_surface *surface = surface_of(kind, 0.5 * step, half_thickness[k]);
       const int64_t n_marked = expect_same(surface, mesh, warm);
       printf("%s: %s, opening %g, half thickness %g: %lld of %lld nodes marked\n", path, kind, 0.5 * step,
              info_of(surface).half_thickness, (long long)n_marked, (long long)n_nodes);
       assert_true(n_marked > (k ? 50 : 5));
-      riis_surface_destroy(&surface);
+      free_owned_after(n_outside);
     }
-    riis_mark_result_destroy(&warm);
+    free_owned_after(owned_before);
   }
-  riis_mesh_destroy(&mesh);
-  riis_adjacency_destroy(&adjacency);
-  riis_vtk_mesh_destroy(&file);
 }
 
 /* The corners of a box around the valve at every opening. */
 static void box_around(const char *kind, double margin, double *lower, double *upper) {
   for (int step = 0; step <= 2; ++step) {
+    const int owned_before = n_owned();
     riis_surface *surface = surface_of(kind, 0.5 * step, -1);
     const riis_surface_info info = info_of(surface);
     for (int c = 0; c < 3; ++c) {
       lower[c] = step ? fmin(lower[c], info.lower[c] - margin) : info.lower[c] - margin;
       upper[c] = step ? fmax(upper[c], info.upper[c] + margin) : info.upper[c] + margin;
     }
-    riis_surface_destroy(&surface);
+    free_owned_after(owned_before);
   }
 }
 
 static void delaunay(const char *kind) {
   enum { n = 6000 };
-  double *xyz = malloc((size_t)n * 3 * sizeof *xyz), lower[3], upper[3];
+  double *xyz = own(malloc((size_t)n * 3 * sizeof *xyz)), lower[3], upper[3];
   box_around(kind, 0.3, lower, upper);
   for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, lower[i % 3], upper[i % 3]);
   assert_int_equal(shim_write_delaunay(scratch_path("delaunay.vtu"), n, xyz), 1);
   expect_same_in_file(scratch_path("delaunay.vtu"), kind, n);
-  free(xyz);
 }
 
 static void aortic_in_a_delaunay_mesh(void **state) {
@@ -141,7 +143,7 @@ static void graded_by_gmsh(const char *kind) {
   const double *vertices;
   CHECK_OK(riis_surface_vertices(surface, &n_vertices, &vertices));
   memcpy(fine, vertices + 3 * (random_bits(&rng) % (uint64_t)n_vertices), sizeof fine);
-  riis_surface_destroy(&surface);
+  free_one_owned(surface);
   const double x = 0.5 * (lower[0] + upper[0]), y = 0.5 * (lower[1] + upper[1]);
   const double radius = 0.5 * hypot(upper[0] - lower[0], upper[1] - lower[1]);
   snprintf(text, sizeof text,

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Markings by the neighbour search, compared with the exhaustive search. Include after searches.h. */
+#ifndef RIIS_TEST_NEIGHBOR_CHECKS_H
+#define RIIS_TEST_NEIGHBOR_CHECKS_H
+
+/* Marks by both searches, the neighbour search into the result (a new one if NULL), and compares. */
+static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surface, const riis_mesh *mesh,
+                                                       riis_mark_options options, riis_mark_result *result) {
+  const int owned_before = n_owned();
+  riis_mark_result *mine = result ? result : new_result(), *expected = new_result();
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, mine));
+  const riis_mark_stats stats = stats_of(mine);
+  if (!same_results(mine, expected))
+    fail_msg("%lld nodes within the limit instead of %lld, %lld marked instead of %lld; or not the same bits",
+             (long long)stats.n_within_limit, (long long)stats_of(expected).n_within_limit, (long long)stats.n_marked,
+             (long long)stats_of(expected).n_marked);
+  assert_int_equal(stats.search, RIIS_SEARCH_NEIGHBOR);
+  assert_int_equal(stats.complete, 1);
+  assert_int_equal(stats.n_nodes, stats_of(expected).n_nodes);
+  assert_int_equal(stats.n_within_limit, within_in(mine).n);
+  assert_int_equal(stats.n_marked, marked_in(mine).n);
+  assert_true(stats.n_unreached >= 0 && stats.n_unreached <= stats.n_within_limit);
+  assert_true(stats.n_threads >= 1 && (options.n_threads == 0 || stats.n_threads <= options.n_threads));
+  free_owned_after(owned_before);
+  return stats;
+}
+
+static inline riis_mark_result *marked_by(const riis_surface *surface, const riis_mesh *mesh, int32_t search,
+                                          int32_t n_threads, const uint8_t *mask) {
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.search = search;
+  options.n_threads = n_threads;
+  options.node_mask = mask;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  return result;
+}
+
+/* A band of that half thickness around the default aortic valve. */
+static inline riis_surface *aortic_band(double half_thickness) {
+  riis_surface_options options = surface_options();
+  options.half_thickness = half_thickness;
+  options.tolerance = 0.2;
+  return aortic_surface(&options);
+}
+
+#endif

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The objects of a test. Its teardown frees them, also after a failed assertion. Each thread has its own list: a thread
+ * that the test starts frees its objects by free_owned_after. Include after riis.h and test_support.h; handles.h
+ * includes it. */
+#ifndef RIIS_TEST_OWNED_H
+#define RIIS_TEST_OWNED_H
+
+typedef struct owned_object {
+  void *object;
+  void (*destroy)(void *object);
+} owned_object;
+
+enum { most_owned = 1000 };
+static _Thread_local struct owned_objects {
+  owned_object at[most_owned];
+  int n, n_of_group;
+} owned;
+
+static inline void own_object(void *object, void (*destroy)(void *)) {
+  for (int i = 0; i < owned.n; ++i)
+    if (owned.at[i].object == object) fail_msg("a test owns an object twice");
+  if (owned.n == most_owned) {
+    destroy(object);
+    fail_msg("a test owns more than %d objects", most_owned);
+  }
+  owned.at[owned.n++] = (owned_object){object, destroy};
+}
+
+static inline int n_owned(void) { return owned.n; }
+
+/* Frees what came after the first n, the last one first. */
+static inline void free_owned_after(int n) {
+  while (owned.n > n) {
+    const owned_object last = owned.at[--owned.n];
+    last.destroy(last.object);
+  }
+}
+
+/* Frees one object before its test ends; NULL is allowed. */
+static inline void free_one_owned(void *object) {
+  if (!object) return;
+  int i = owned.n - 1;
+  while (i >= 0 && owned.at[i].object != object) --i;
+  if (i < 0) fail_msg("the object is not owned");
+  const owned_object found = owned.at[i];
+  --owned.n;
+  memmove(owned.at + i, owned.at + i + 1, (size_t)(owned.n - i) * sizeof *owned.at);
+  found.destroy(found.object);
+}
+
+/* The teardown of a test. */
+static inline int free_owned(void **state) {
+  (void)state;
+  free_owned_after(owned.n_of_group);
+  return 0;
+}
+
+/* For the end of a group's setup: the objects made so far last until free_owned_of_group, the group's teardown. */
+static inline void keep_owned_for_group(void) { owned.n_of_group = owned.n; }
+
+static inline int free_owned_of_group(void **state) {
+  owned.n_of_group = 0;
+  return free_owned(state);
+}
+
+static inline void *own_memory(void *memory) {
+  if (memory) own_object(memory, free);
+  return memory;
+}
+
+#define DEFINE_OWN(type)                                  \
+  static inline void destroy_owned_##type(void *object) { \
+    riis_##type *handle = object;                         \
+    riis_##type##_destroy(&handle);                       \
+  }                                                       \
+  static inline riis_##type *own_##type(riis_##type *h) { \
+    if (h) own_object(h, destroy_owned_##type);           \
+    return h;                                             \
+  }
+DEFINE_OWN(valve)
+DEFINE_OWN(surface)
+DEFINE_OWN(mesh)
+DEFINE_OWN(adjacency)
+DEFINE_OWN(mark_result)
+#undef DEFINE_OWN
+
+/* Returns its argument: a handle, or memory from malloc. */
+#define own(object)                        \
+  _Generic((object),                       \
+      riis_valve *: own_valve,             \
+      riis_surface *: own_surface,         \
+      riis_mesh *: own_mesh,               \
+      riis_adjacency *: own_adjacency,     \
+      riis_mark_result *: own_mark_result, \
+      void *: own_memory)(object)
+
+/* Every test of a file that includes this one has the teardown. */
+#undef cmocka_unit_test
+#define cmocka_unit_test(function) cmocka_unit_test_teardown(function, free_owned)
+
+#endif

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Patches that tests change before they make valves and surfaces of them. Include after handles.h. */
+#ifndef RIIS_TEST_SHAPES_H
+#define RIIS_TEST_SHAPES_H
+
+enum { max_curves = 12, max_patches = 3 };
+
+/* Patches with room to change anything. */
+typedef struct {
+  int64_t n_curves, n_patches;
+  int32_t degree[max_curves], curve_id[4 * max_patches], reversed[4 * max_patches], leaflet_id[max_patches];
+  double control[max_curves][4][3];
+} shape;
+
+/* The arrays of a shape as the library takes them: control points close together. */
+typedef struct {
+  riis_patches patches;
+  double control[max_curves * 4 * 3];
+} arrays_of_shape;
+
+static inline void arrays_from(const shape *from, arrays_of_shape *to) {
+  double *next = to->control;
+  CHECK_OK(riis_patches_init(&to->patches, sizeof to->patches));
+  for (int64_t i = 0; i < from->n_curves; ++i)
+    for (int k = 0; k <= from->degree[i]; ++k, next += 3) memcpy(next, from->control[i][k], 3 * sizeof *next);
+  to->patches.n_curves = from->n_curves;
+  to->patches.degree = from->degree;
+  to->patches.control = to->control;
+  to->patches.n_patches = from->n_patches;
+  to->patches.curve_id = from->curve_id;
+  to->patches.reversed = from->reversed;
+  to->patches.leaflet_id = from->leaflet_id;
+}
+
+static inline riis_valve *valve_from(const shape *from) {
+  arrays_of_shape arrays;
+  riis_valve *valve = NULL;
+  arrays_from(from, &arrays);
+  CHECK_OK(riis_valve_create_from_patches(&arrays.patches, &valve));
+  own(valve);
+  memset(&arrays, -1, sizeof arrays); /* nothing stays borrowed */
+  return valve;
+}
+
+static inline riis_surface *surface_of(const shape *from, const riis_surface_options *options) {
+  riis_valve *valve = valve_from(from);
+  riis_surface *surface = new_surface(valve, options);
+  free_one_owned(valve);
+  return surface;
+}
+
+static inline void add_curve(shape *to, int32_t degree, const double (*control)[3]) {
+  const int64_t i = to->n_curves++;
+  to->degree[i] = degree;
+  memcpy(to->control[i], control, (size_t)(degree + 1) * sizeof *control);
+}
+
+static inline void add_line(shape *to, double x0, double y0, double z0, double x1, double y1, double z1) {
+  const double control[2][3] = {{x0, y0, z0}, {x1, y1, z1}};
+  add_curve(to, 1, control);
+}
+
+static inline void add_patch(shape *to, int32_t v0, int32_t v1, int32_t u0, int32_t u1) {
+  int32_t *sides = to->curve_id + 4 * to->n_patches++;
+  sides[0] = v0, sides[1] = v1, sides[2] = u0, sides[3] = u1;
+}
+
+/* 0 <= x <= 1, 0 <= y <= 1 in z = 0. */
+static inline shape unit_square(void) {
+  shape square = {0};
+  add_line(&square, 0, 0, 0, 1, 0, 0);
+  add_line(&square, 0, 1, 0, 1, 1, 0);
+  add_line(&square, 0, 0, 0, 0, 1, 0);
+  add_line(&square, 1, 0, 0, 1, 1, 0);
+  add_patch(&square, 0, 1, 2, 3);
+  return square;
+}
+
+static inline int is_same(const riis_surface *a, const riis_surface *b) {
+  const surface_content s = surface_content_of(a), t = surface_content_of(b);
+  return s.n_vertices == t.n_vertices && s.n_triangles == t.n_triangles &&
+         memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 &&
+         memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0 &&
+         memcmp(s.vertex_id, t.vertex_id, (size_t)s.n_triangles * 3 * sizeof *s.vertex_id) == 0 &&
+         memcmp(s.leaflet_id, t.leaflet_id, (size_t)s.n_triangles * sizeof *s.leaflet_id) == 0 &&
+         memcmp(s.patch_id, t.patch_id, (size_t)s.n_triangles * sizeof *s.patch_id) == 0;
+}
+
+/* Both surfaces are destroyed. */
+static inline void check_same_surfaces(riis_surface *a, riis_surface *b) {
+  const int same = is_same(a, b);
+  free_one_owned(a);
+  free_one_owned(b);
+  assert_true(same);
+}
+
+#endif

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The search over clusters from step to step, as the automatic choice, and from several threads at once. */
+#include <omp.h>
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+#include "cluster_checks.h"
+
+enum { max_nodes = 9000 };
+static double xyz[3 * max_nodes];
+
+/* --- From step to step ----------------------------------------------------------------------------------------------- */
+
+static void nodes_and_valve_move(void **state) {
+  (void)state;
+  enum { n = 9000 };
+  riis_valve *valve = new_valve("mitral");
+  riis_surface *surface = new_surface(valve, NULL);
+  for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -2, 2);
+  static double other[3 * n];
+  memcpy(other, xyz, sizeof other);
+  riis_mesh *mesh = mesh_of(n, xyz);
+  riis_mark_options options = mark_options();
+  for (int step = 0; step < 8; ++step) {
+    check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
+    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* slowly, then far apart, then all mixed */
+    double *to = step % 2 ? xyz : other;
+    for (int i = 0; i < n; ++i) {
+      const double *p = (step % 2 ? other : xyz) + 3 * i, x = p[0], y = p[1];
+      to[3 * i] = grow * (x * cos(turn) - y * sin(turn)), to[3 * i + 1] = grow * (x * sin(turn) + y * cos(turn)),
+             to[3 * i + 2] = p[2];
+    }
+    for (int i = 0; i < 3 * n && step == 6; ++i) to[i] = random_between(&rng, -2, 2);
+    const int64_t n_now = step == 3 ? 77 : step == 4 ? n - 5 : n;
+    CHECK_OK(riis_mesh_update(mesh, n_now, to, to + 1, to + 2, 3));
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+    CHECK_OK(riis_surface_update(surface, valve, NULL));
+  }
+}
+
+static void non_finite_coordinates(void **state) {
+  (void)state;
+  enum { n = 3000 };
+  riis_surface *surface = aortic_surface(NULL);
+  for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
+  riis_mark_result *result = new_result(), *kept = new_result();
+  riis_mark_options options = mark_options();
+  options.search = RIIS_SEARCH_CLUSTERS;
+  const double spoilt[] = {NAN, INFINITY, -INFINITY, 1e61};
+  for (int k = 0; k < 4; ++k)
+    for (int threads = 1; threads <= 3; threads += 2)
+      for (int made_before = 0; made_before < 3; ++made_before) {
+        const int owned_before = n_owned();
+        const int which = 1 + 3 * (int)(random_bits(&rng) % n);
+        const double was = xyz[which];
+        riis_mesh *mesh = mesh_of(n, xyz);
+        options.n_threads = threads;
+        CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
+        CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+        if (made_before < 2) { /* else they are as they were when they are next asked for */
+          free_one_owned(mesh);
+          mesh = mesh_of(n, xyz);
+        }
+        /* Clusters that are to be made, or to be placed. */
+        if (made_before == 1) {
+          CHECK_OK(riis_mesh_prepare(mesh, threads));
+          CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
+        }
+        xyz[which] = spoilt[k];
+        if (made_before < 2) CHECK_REFUSED(RIIS_INVALID_MESH, "node", riis_mesh_prepare(mesh, threads));
+        const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
+        if (made_before < 2 || status) CHECK_REFUSED(RIIS_INVALID_MESH, "node", status);
+        assert_true(same_results(result, kept));
+        CHECK_REFUSED(RIIS_INVALID_MESH, "node", riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
+        CHECK_REFUSED(RIIS_INVALID_MESH, "node", riis_mark_nodes(surface, mesh, &options, result));
+        assert_true(same_results(result, kept));
+        xyz[which] = was;
+        CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+        assert_int_equal(stats_of(result).search, RIIS_SEARCH_CLUSTERS);
+        assert_true(same_results(result, kept));
+        free_owned_after(owned_before);
+      }
+}
+
+static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int32_t asked_for) {
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.search = asked_for;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  const int32_t search = stats_of(result).search;
+  free_one_owned(result);
+  return search;
+}
+
+/* Exhaustive for the first marking of a mesh, clusters for all others, and for the first, too, if the mesh is prepared. */
+static void what_auto_is(void **state) {
+  (void)state;
+  enum { n = 200 };
+  riis_surface *surface = aortic_surface(NULL);
+  for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
+  riis_mesh *mesh = mesh_of(n, xyz);
+  const int32_t any = RIIS_SEARCH_AUTO;
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_EXHAUSTIVE);
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+  CHECK_OK(riis_mesh_update(mesh, n - 1, xyz, xyz + 1, xyz + 2, 3)); /* other nodes */
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_EXHAUSTIVE);
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+  free_one_owned(mesh);
+  mesh = mesh_of(n, xyz);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is -1", riis_mesh_prepare(mesh, -1));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025", riis_mesh_prepare(mesh, 1025));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is NULL", riis_mesh_prepare(NULL, 1));
+  CHECK_OK(riis_mesh_prepare(mesh, 0));
+  CHECK_OK(riis_mesh_prepare(mesh, 2));
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* moved after the first marking, or before it */
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+  free_one_owned(mesh);
+  mesh = mesh_of(n, xyz);
+  CHECK_OK(riis_mesh_prepare(mesh, 1));
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+  free_one_owned(mesh);
+  mesh = mesh_of(n, xyz); /* a marking is one, whatever its search */
+  assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
+  assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
+}
+
+/* --- Threads --------------------------------------------------------------------------------------------------------- */
+
+/* 1 if a marking of a mesh that may be new to all is not the expected one. */
+static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_mark_result *expected, int n_threads,
+                       int prepares) {
+  riis_mark_options options = {0};
+  riis_mark_result *result = NULL;
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  options.search = RIIS_SEARCH_CLUSTERS;
+  options.n_threads = n_threads;
+  if (prepares) wrong = wrong || riis_mesh_prepare(mesh, n_threads);
+  for (int step = 0; step < 2; ++step)
+    wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
+  riis_mark_result_destroy(&result);
+  return wrong;
+}
+
+/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards looks
+ * like a race. */
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define RIIS_TEST_MOST_NESTED 1
+#endif
+#endif
+#ifndef RIIS_TEST_MOST_NESTED
+#define RIIS_TEST_MOST_NESTED 2
+#endif
+
+static void several_callers_of_one_mesh(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.1, 0.2);
+  riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
+  riis_mark_result *expected = new_result();
+  riis_mark_options options = mark_options();
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
+  const int levels = omp_get_max_active_levels();
+  for (int n_threads = 1; n_threads <= 3; ++n_threads)
+    for (int nested = 1; nested <= RIIS_TEST_MOST_NESTED; ++nested)
+      for (int moved = 0; moved < 2; ++moved) {
+        int n_wrong = 0;
+        free_one_owned(mesh);
+        mesh = mesh_of(nodes.n, nodes.xyz);
+        if (moved) { /* only to be placed */
+          CHECK_OK(riis_mesh_prepare(mesh, 1));
+          CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
+        }
+        omp_set_max_active_levels(nested);
+#pragma omp parallel num_threads(4) reduction(+ : n_wrong)
+        n_wrong += marks_wrong(surface, mesh, expected, n_threads, omp_get_thread_num() % 2);
+        assert_int_equal(n_wrong, 0);
+      }
+  omp_set_max_active_levels(levels);
+}
+
+/* So many nodes that threads share the sorting of them. */
+static void a_mesh_that_threads_sort_together(void **state) {
+  (void)state;
+  const int64_t n = 300000;
+  riis_surface *surface = aortic_surface(NULL);
+  double *many = own(malloc((size_t)n * 3 * sizeof *many));
+  for (int64_t i = 0; i < n; ++i)
+    if (i % 8 == 0)
+      point_near(surface, 0.2, many + 3 * i);
+    else
+      for (int c = 0; c < 3; ++c) many[3 * i + c] = i % 8 == 1 ? 1.25 : random_between(&rng, -8, 8);
+  riis_mark_result *one = new_result(), *result = new_result();
+  riis_mark_options options = mark_options();
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  for (int threads = 1; threads <= 3; ++threads) {
+    const int owned_before = n_owned();
+    riis_mesh *mesh = mesh_of(n, many);
+    options.n_threads = threads;
+    if (threads == 1) CHECK_OK(riis_mark_nodes(surface, mesh, &options, one));
+    options.search = RIIS_SEARCH_CLUSTERS;
+    CHECK_OK(riis_mesh_prepare(mesh, threads));
+    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+    assert_true(same_results(result, one));
+    assert_true(marked_in(result).n > n / 50);
+    free_owned_after(owned_before);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nodes_and_valve_move),
+      cmocka_unit_test(non_finite_coordinates),
+      cmocka_unit_test(what_auto_is),
+      cmocka_unit_test(several_callers_of_one_mesh),
+      cmocka_unit_test(a_mesh_that_threads_sort_together),
+  };
+  rng = random_start("test_cluster_steps");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

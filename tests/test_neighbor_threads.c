@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The neighbour search by several threads: the library's, and the caller's own. */
+#include <omp.h>
+#include <pthread.h>
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+#include "neighbor_checks.h"
+
+/* --- Threads --------------------------------------------------------------------------------------------------------- */
+
+static void any_number_of_threads_gives_the_same_bits(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.05, 0.3);
+  riis_mesh *mesh = mesh_from(&nodes);
+  assert_true(nodes.n > 50000);
+  static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_PAPER};
+  for (int k = 0; k < 2; ++k) {
+    const int owned_before = n_owned();
+    riis_mark_result *one = marked_by(surface, mesh, searches[k], 1, NULL);
+    assert_int_equal(stats_of(one).n_threads, 1);
+    assert_true(stats_of(one).n_marked > 5000);
+    int32_t most[5] = {0};
+    for (int repeat = 0; repeat < 3; ++repeat)
+      for (int threads = 1; threads <= 4; ++threads) {
+        const int n_outside = n_owned();
+        riis_mark_result *many = marked_by(surface, mesh, searches[k], threads, NULL);
+        const riis_mark_stats stats = stats_of(many);
+        assert_true(same_results(one, many));
+        assert_int_equal(stats.n_queries, stats_of(one).n_queries);
+        assert_int_equal(stats.n_unreached, stats_of(one).n_unreached);
+        assert_true(stats.n_threads >= 1 && stats.n_threads <= threads);
+        if (stats.n_threads > most[threads]) most[threads] = stats.n_threads;
+        free_owned_after(n_outside);
+      }
+    /* They really ran. The paper's is nothing but the walk, which a second thread joins when the system lets it. */
+    for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
+      const int n_outside = n_owned();
+      riis_mark_result *two = marked_by(surface, mesh, searches[k], 2, NULL);
+      most[2] = stats_of(two).n_threads;
+      assert_true(same_results(one, two));
+      free_owned_after(n_outside);
+    }
+    assert_int_equal(most[2], 2);
+    free_owned_after(owned_before);
+  }
+  /* The groups, too: a mesh's first search by any number of threads. */
+  riis_mark_result *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
+  for (int threads = 1; threads <= 4; ++threads) {
+    const int owned_before = n_owned();
+    riis_mesh *fresh = mesh_from(&nodes);
+    riis_mark_result *many = marked_by(surface, fresh, RIIS_SEARCH_NEIGHBOR, threads, NULL);
+    assert_true(same_results(one, many));
+    assert_int_equal(stats_of(many).n_queries, stats_of(one).n_queries);
+    free_owned_after(owned_before);
+  }
+}
+
+typedef struct caller {
+  const riis_surface *surface;
+  const riis_mesh *mesh;
+  const riis_mark_result *expected;
+  pthread_barrier_t *barrier;
+  int n_threads, n_wrong;
+} caller;
+
+static void *mark_with_own_result(void *of) {
+  caller *c = of;
+  riis_mark_options options = {0};
+  riis_mark_result *result = NULL;
+  c->n_wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  options.n_threads = c->n_threads;
+  pthread_barrier_wait(c->barrier);
+  for (int step = 0; step < 3 && !c->n_wrong; ++step)
+    c->n_wrong += riis_mark_nodes(c->surface, c->mesh, &options, result) || !same_results(result, c->expected);
+  riis_mark_result_destroy(&result);
+  return NULL;
+}
+
+/* The same surface and mesh, new to all of them: the first makes the mesh's groups. */
+static void several_caller_threads_at_once(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.1, 0.2);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+  free_one_owned(mesh);
+  for (int n_callers = 2; n_callers <= 4; n_callers += 2)
+    for (int n_threads = 1; n_threads <= 3; ++n_threads)
+      for (int repeat = 0; repeat < 3; ++repeat) {
+        const int owned_before = n_owned();
+        pthread_barrier_t barrier;
+        pthread_t threads[4];
+        caller callers[4];
+        mesh = mesh_from(&nodes);
+        assert_int_equal(pthread_barrier_init(&barrier, NULL, (unsigned)n_callers), 0);
+        for (int i = 0; i < n_callers; ++i) {
+          callers[i] = (caller){surface, mesh, expected, &barrier, n_threads, 0};
+          assert_int_equal(pthread_create(&threads[i], NULL, mark_with_own_result, &callers[i]), 0);
+        }
+        for (int i = 0; i < n_callers; ++i) assert_int_equal(pthread_join(threads[i], NULL), 0);
+        for (int i = 0; i < n_callers; ++i) assert_int_equal(callers[i].n_wrong, 0);
+        pthread_barrier_destroy(&barrier);
+        free_owned_after(owned_before);
+      }
+}
+
+/* 1 if the marking is not the expected one. */
+static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *expected,
+                       int n_threads) {
+  riis_mark_options options = {0};
+  riis_mark_result *result = NULL;
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  options.n_threads = n_threads;
+  for (int step = 0; step < 2; ++step)
+    wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
+  riis_mark_result_destroy(&result);
+  return wrong;
+}
+
+static void inside_the_callers_openmp(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.1, 0.2);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+  for (int n_threads = 0; n_threads <= 3; ++n_threads)
+    for (int nested = 1; nested <= 2; ++nested) { /* regions within regions, too */
+      const int levels = omp_get_max_active_levels();
+      int n_wrong = 0;
+      omp_set_max_active_levels(nested);
+      /* Every time a mesh that none has searched. */
+      free_one_owned(mesh);
+      mesh = mesh_from(&nodes);
+#pragma omp parallel num_threads(3) reduction(+ : n_wrong)
+      n_wrong += marks_wrong(surface, mesh, expected, n_threads);
+      assert_int_equal(n_wrong, 0);
+      free_one_owned(mesh);
+      mesh = mesh_from(&nodes);
+#pragma omp parallel num_threads(3) shared(n_wrong)
+#pragma omp single
+      n_wrong += marks_wrong(surface, mesh, expected, n_threads);
+      assert_int_equal(n_wrong, 0);
+      free_one_owned(mesh);
+      mesh = mesh_from(&nodes);
+#pragma omp parallel num_threads(3) shared(n_wrong)
+#pragma omp single
+      for (int task = 0; task < 8; ++task) {
+#pragma omp task shared(n_wrong)
+        {
+          const int wrong = marks_wrong(surface, mesh, expected, n_threads);
+#pragma omp atomic
+          n_wrong += wrong;
+        }
+      }
+      assert_int_equal(n_wrong, 0);
+      omp_set_max_active_levels(levels);
+    }
+}
+
+static void the_callers_openmp_settings_stay(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = lattice_around(surface, 0.1, 0.2);
+  const int threads = omp_get_max_threads(), dynamic = omp_get_dynamic(), levels = omp_get_max_active_levels();
+  omp_set_num_threads(3);
+  omp_set_dynamic(1);
+  omp_set_max_active_levels(2);
+  omp_set_schedule(omp_sched_guided, 7);
+  for (int n_threads = 0; n_threads <= 4; ++n_threads) {
+    const int owned_before = n_owned();
+    riis_mesh *mesh = mesh_from(&nodes);
+    riis_mark_options options = mark_options();
+    options.n_threads = n_threads;
+    check_same_as_exhaustive(surface, mesh, options, NULL);
+    omp_sched_t kind;
+    int chunk;
+    omp_get_schedule(&kind, &chunk);
+    assert_int_equal(omp_get_max_threads(), 3);
+    assert_int_equal(omp_get_dynamic(), 1);
+    assert_int_equal(omp_get_max_active_levels(), 2);
+    assert_int_equal(kind, omp_sched_guided);
+    assert_int_equal(chunk, 7);
+    free_owned_after(owned_before);
+  }
+  omp_set_num_threads(threads);
+  omp_set_dynamic(dynamic);
+  omp_set_max_active_levels(levels);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
+      cmocka_unit_test(several_caller_threads_at_once),
+      cmocka_unit_test(inside_the_callers_openmp),
+      cmocka_unit_test(the_callers_openmp_settings_stay),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

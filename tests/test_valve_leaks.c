@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Edges that cross the surface between unmarked nodes: of valves, against a loop in extended precision, and of plates. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+#include "leak_lists.h"
+
+static random_source rng;
+
+/* --- Valves ------------------------------------------------------------------------------------------------------------ */
+
+/* How far the segment passes inside the triangle, as a share of its size: below 0 where it passes outside. */
+static long double depth_in(const double *a, const double *b, const double *const *corner) {
+  long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
+  for (int i = 0; i < 3; ++i) {
+    e1[i] = (long double)corner[1][i] - corner[0][i], e2[i] = (long double)corner[2][i] - corner[0][i];
+    along[i] = (long double)b[i] - a[i], from[i] = (long double)a[i] - corner[0][i];
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    p[i] = along[j] * e2[k] - along[k] * e2[j], q[i] = from[j] * e1[k] - from[k] * e1[j];
+  }
+  for (int i = 0; i < 3; ++i) det += e1[i] * p[i], t += e2[i] * q[i], u += from[i] * p[i], v += along[i] * q[i];
+  if (det == 0) return -1;
+  t /= det, u /= det, v /= det;
+  const long double depths[5] = {t, 1 - t, u, v, 1 - u - v};
+  long double least = 1;
+  for (int i = 0; i < 5; ++i) least = depths[i] < least ? depths[i] : least;
+  return least;
+}
+
+/* Every edge between two unmarked nodes, however short, against every triangle. */
+static int64_t check_against_valve(const test_mesh *nodes, const riis_surface *surface, const uint8_t *marks,
+                                   leak_list list) {
+  const surface_content all = surface_content_of(surface);
+  int64_t next = 0;
+  for (int64_t a = 0; a < nodes->n; ++a)
+    for (int64_t k = nodes->offsets[a]; k < nodes->offsets[a + 1]; ++k) {
+      const int64_t b = nodes->columns[k];
+      if (b <= a || marks[a] || marks[b]) continue;
+      long double deepest = -1;
+      for (int64_t t = 0; t < all.n_triangles; ++t) {
+        const int64_t *id = all.vertex_id + 3 * t;
+        const double *corner[3] = {all.xyz + 3 * id[0], all.xyz + 3 * id[1], all.xyz + 3 * id[2]};
+        const long double depth = depth_in(nodes->xyz + 3 * a, nodes->xyz + 3 * b, corner);
+        if (depth > deepest) deepest = depth;
+      }
+      const int is_listed = next < list.sum.n_edges && list.node_id[2 * next] == a && list.node_id[2 * next + 1] == b;
+      if (fabsl(deepest) > 1e-12L && is_listed != (deepest > 0))
+        fail_msg("edge %lld %lld, depth %Lg: %d", (long long)a, (long long)b, deepest, is_listed);
+      next += is_listed;
+    }
+  assert_int_equal(next, list.sum.n_edges);
+  return next;
+}
+
+static int ascending_columns(const void *a, const void *b) {
+  return (*(const int64_t *)a > *(const int64_t *)b) - (*(const int64_t *)a < *(const int64_t *)b);
+}
+
+/* A jittered lattice round a valve, its rows ascending. */
+static test_mesh mesh_round(const riis_surface *surface, double spacing) {
+  const riis_surface_info info = info_of(surface);
+  int64_t counts[3];
+  double lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) {
+    lower[i] = info.lower[i] - 0.3 + random_between(&rng, -0.1, 0);
+    counts[i] = 2 + (int64_t)((info.upper[i] - lower[i] + 0.3) / spacing);
+    upper[i] = lower[i] + spacing * (double)(counts[i] - 1);
+  }
+  test_mesh nodes = lattice(counts, lower, upper);
+  for (int64_t i = 0; i < nodes.n; ++i)
+    qsort(nodes.columns + nodes.offsets[i], (size_t)(nodes.offsets[i + 1] - nodes.offsets[i]), sizeof *nodes.columns,
+          ascending_columns);
+  return nodes;
+}
+
+static riis_surface *valve_surface(const char *kind, double opening, int32_t distance) {
+  riis_surface_options options = surface_options();
+  options.distance = distance;
+  options.tolerance = 0.5;
+  riis_valve *valve = new_valve(kind);
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  riis_surface *surface = new_surface(valve, &options);
+  free_one_owned(valve);
+  return surface;
+}
+
+/* By whichever distances it is marked. */
+static void valves_leak_where_the_loop_says(void **state) {
+  (void)state;
+  static const char *const kinds[2] = {"aortic", "mitral"};
+  int64_t n_leaking[3] = {0, 0, 0};
+  for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
+    riis_surface *surface = valve_surface(kinds[trial % 2], 0, (int32_t)(trial % 3));
+    test_mesh nodes = mesh_round(surface, trial < 6 ? 0.27 : 0.24);
+    riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+    riis_mark_result *result = new_result();
+    uint8_t *marks = own(malloc((size_t)nodes.n));
+    CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+    CHECK_OK(riis_mark_result_dense(result, nodes.n, 1e30, marks, NULL, NULL, NULL));
+    n_leaking[trial % 3] += check_against_valve(&nodes, surface, marks, leaks_of(surface, mesh, NULL, result));
+    free_owned_after(owned_before);
+  }
+  for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
+}
+
+/* Edges of at most two half thicknesses cannot leak: not even those of exactly that length, through a plane half way. */
+static void short_edges_do_not_leak(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 4; ++trial) {
+    const int owned_before = n_owned();
+    riis_surface *surface = valve_surface(trial % 2 ? "mitral" : "aortic", 0, RIIS_DISTANCE_TRIANGLES);
+    test_mesh nodes = mesh_round(surface, 0.2 * (1 - 1e-15));
+    riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+    riis_mark_result *result = new_result();
+    CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+    assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0);
+    free_owned_after(owned_before);
+  }
+}
+
+/* --- Plates ------------------------------------------------------------------------------------------------------------ */
+
+/* The squares [-1, 1]^2 at the heights 0 and 10, half thickness 0.25. */
+static riis_surface *two_plates(void) {
+  static const double xyz[24] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 10, 1, -1, 10, 1, 1, 10, -1, 1, 10};
+  static const int32_t ids[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+  riis_surface_arrays arrays = triangle_arrays(8, xyz, 4, ids);
+  riis_surface_options options = surface_options();
+  options.half_thickness = 0.25;
+  return surface_from(&arrays, &options);
+}
+
+/* A column of nodes along z, each joined to the next. */
+static test_mesh column_of_nodes(int64_t n, double from, double step) {
+  const int64_t counts[3] = {1, 1, n};
+  const double lower[3] = {0, 0, from}, upper[3] = {0, 0, from + step * (double)(n - 1)};
+  return lattice(counts, lower, upper);
+}
+
+/* Where the search may have missed nodes, short edges are looked at as well. */
+static void what_the_papers_search_misses_leaks(void **state) {
+  (void)state;
+  test_mesh nodes = column_of_nodes(121, -1, 0.1);
+  riis_surface *surface = two_plates();
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 0);
+  options.search = RIIS_SEARCH_PAPER;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  const leak_list list = leaks_of(surface, mesh, &options, result);
+  assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2); /* a node on the plate has two edges that touch it */
+  CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
+}
+
+/* The list is of what the mesh and its adjacency are now, and of the last marking. */
+static void changes_are_seen(void **state) {
+  (void)state;
+  test_mesh nodes = column_of_nodes(12, -0.5, 1);
+  riis_surface *surface = two_plates();
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0);
+  riis_mark_result *result = new_result();
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  leak_list list = leaks_of(surface, mesh, NULL, result);
+  assert_int_equal(list.sum.n_edges, 2);
+  assert_int_equal(list.node_id[0], 0);
+  assert_int_equal(list.node_id[3], 11);
+  CHECK_SAME(list.sum.half_thickness, 0.5);
+
+  uint8_t mask[12] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
+  riis_mark_options options = mark_options();
+  options.node_mask = mask;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  int64_t n = -1;
+  CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
+  assert_int_equal(n, 0); /* until they are sought again */
+  assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 1);
+
+  for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i + 2] += 0.3;
+  CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0); /* at 0.2 from the plates: marked */
+
+  static const int64_t offsets[13] = {0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, columns[1] = {11};
+  riis_csr csr;
+  CHECK_OK(riis_csr_init(&csr, sizeof csr));
+  csr.n_rows = 12, csr.offsets = offsets, csr.columns = columns, csr.offset_bits = csr.column_bits = 64;
+  CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
+  list = leaks_of(surface, mesh, NULL, result); /* from 0.8 to 10.8 */
+  assert_int_equal(list.sum.n_edges, 1);
+  CHECK_NEAR(list.sum.longest_length, 10, 1e-14);
+  CHECK_NEAR(list.sum.half_thickness, 0.8, 1e-14);
+}
+
+/* --- Refusals ---------------------------------------------------------------------------------------------------------- */
+
+static void what_makes_no_sense_is_refused(void **state) {
+  (void)state;
+  test_mesh nodes = column_of_nodes(12, -0.5, 1), fewer = column_of_nodes(5, 0, 1);
+  riis_surface *surface = two_plates();
+  riis_mesh *mesh = mesh_with_rows(&nodes, 0), *other = mesh_with_rows(&fewer, 0);
+  riis_mark_result *result = new_result();
+  riis_leaks leaks;
+  memset(&leaks, 0x5a, sizeof leaks);
+#define REFUSED(status, parts, a_mesh) \
+  CHECK_REFUSED(status, parts, riis_find_leaks(surface, a_mesh, NULL, result, &leaks, sizeof leaks))
+  REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with|riis_mark_nodes", mesh);
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  REFUSED(RIIS_INVALID_ARGUMENT, "result is of a mesh with 12 nodes|mesh has 5", other);
+  assert_int_equal(leaks.n_edges, 0x5a5a5a5a5a5a5a5a);
+  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 2);
+
+  CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
+  REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", mesh);
+  free_one_owned(mesh);
+  mesh = mesh_with_rows(&nodes, 0);
+  nodes.xyz[20] = NAN;
+  REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", mesh);
+  nodes.xyz[20] = 5.5;
+  int64_t n = 0;
+  CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
+  assert_int_equal(n, 2); /* as it was */
+
+  riis_mark_options options = mark_options();
+  options.n_threads = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
+                riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 64|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 64));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 80|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 80));
+
+  riis_valve *valve = new_valve("mitral");
+  CHECK_OK(riis_surface_update(surface, valve, NULL)); /* keeps its half thickness */
+  riis_surface_options thicker = surface_options();
+  thicker.half_thickness = 0.3;
+  CHECK_OK(riis_surface_update(surface, valve, &thicker));
+  REFUSED(RIIS_INVALID_ARGUMENT, "half thickness 0.25|surface has 0.3|mark the nodes again", mesh);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(valves_leak_where_the_loop_says),     cmocka_unit_test(short_edges_do_not_leak),
+      cmocka_unit_test(what_the_papers_search_misses_leaks), cmocka_unit_test(changes_are_seen),
+      cmocka_unit_test(what_makes_no_sense_is_refused),
+  };
+  rng = random_start("test_valve_leaks");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
