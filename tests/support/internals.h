@@ -97,6 +97,10 @@ const char *kernels_name(int set);
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
+/* The closest points of eight pairs of a point and a triangle: points (3, 8), corners (9, 8), barycentric (3, 8). */
+void kernels_locate(int set, const double *points, const double *corners, double *distance_sq, double *on,
+                    double *barycentric);
+
 /* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);

@@ -88,6 +88,24 @@ void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *tri
   of(set).decide(n, point, triangle, points, corners, distance_sq);
 }
 
+void kernels_locate(int set, const double *points, const double *corners, double *distance_sq, double *on,
+                    double *barycentric) {
+  PointsAndTriangles pairs;
+  PointsOnTriangles located;
+  for (int lane = 0; lane < pairs_at_once; ++lane) {
+    for (int c = 0; c < 3; ++c) pairs.point[c][lane] = points[3 * lane + c];
+    for (int c = 0; c < 9; ++c) pairs.corners[c][lane] = corners[9 * lane + c];
+  }
+  of(set).locate(pairs, located);
+  for (int lane = 0; lane < pairs_at_once; ++lane) {
+    distance_sq[lane] = located.distance_sq[lane];
+    for (int c = 0; c < 3; ++c) {
+      on[3 * lane + c] = located.point[c][lane];
+      barycentric[3 * lane + c] = located.barycentric[c][lane];
+    }
+  }
+}
+
 kernel_group *kernels_group(int set, int n, const double *corners) {
   auto *group = new kernel_group{};
   group->bounds.n = n;
