@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The kernels, compiled for several instruction sets: decisions have the bits of the scalar kernel, single precision is off by no more
- * than the library allows for (docs/theory.md, section 8), and no pair that matters is left out, however little room there is. */
+ * The kernels, compiled for several instruction sets: decisions and located points have the bits of the scalar kernel, single precision is
+ * off by no more than the library allows for (docs/theory.md, section 8), and no pair that matters is left out, however little room there is. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -159,6 +159,55 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
   printf("%lld decisions; %lld pairs inside, %lld at edges, %lld at corners\n", (long long)n_compared,
          (long long)n_inside, (long long)n_edge, (long long)n_corner);
   assert_true(n_compared > 100000 && n_inside > 5000 && n_edge > 5000 && n_corner > 5000);
+}
+
+/* Random ones, needles, coinciding corners and lattices by eights, which mix kinds; points also at corners and on edges, and
+ * units in which squares nearly leave the range. */
+static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
+  (void)state;
+  enum { n = 8 };
+  static const int32_t each[n] = {0, 1, 2, 3, 4, 5, 6, 7};
+  int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0, n_without_area = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    double corners[9 * n], points[3 * n], sq[n], on[3 * n], weight[3 * n];
+    double expected_sq[n], expected_on[3 * n], expected_weight[3 * n];
+    const double unit = trial % 3 ? 1 : power_of_ten(-50, 50), far = trial % 2 ? 0 : power_of_ten(0, 9);
+    double origin[3];
+    random_point(far, origin);
+    for (int i = 0; i < n; ++i) {
+      const int kind = trial % 7 == 0 ? 5 : (int)(random_bits(&rng) % n_kinds);
+      double *abc = corners + 9 * i, *p = points + 3 * i;
+      random_triangle(kind, abc);
+      if (random_bits(&rng) % 32 == 0) memcpy(abc + 3, abc, 3 * sizeof *abc), memcpy(abc + 6, abc, 3 * sizeof *abc);
+      random_point_near(abc, random_bits(&rng) % 20 ? 1 : 1e6, p);
+      const double *q = abc + 3 * (random_bits(&rng) % 3), *r = abc + 3 * (random_bits(&rng) % 3);
+      if (random_bits(&rng) % 4 == 0) /* at a corner, or half way along an edge */
+        for (int c = 0; c < 3; ++c) p[c] = 0.5 * (q[c] + r[c]);
+      for (int c = 0; c < 9; ++c) abc[c] = unit * (abc[c] + origin[c % 3]);
+      for (int c = 0; c < 3; ++c) p[c] = unit * (p[c] + origin[c]);
+      expected_sq[i] = kernel_point_triangle(p, abc, expected_on + 3 * i, expected_weight + 3 * i);
+      const double *w = expected_weight + 3 * i;
+      const int n_zero = (w[0] == 0) + (w[1] == 0) + (w[2] == 0);
+      n_inside += n_zero == 0, n_edge += n_zero == 1, n_corner += n_zero == 2;
+      n_without_area += kind == 4;
+    }
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      memset(sq, 0x77, sizeof sq), memset(on, 0x77, sizeof on), memset(weight, 0x77, sizeof weight);
+      kernels_locate(set, n, each, each, points, corners, sq, on, weight);
+      for (int i = 0; i < n; ++i)
+        if (memcmp(sq + i, expected_sq + i, sizeof *sq) != 0 ||
+            memcmp(on + 3 * i, expected_on + 3 * i, 3 * sizeof *on) != 0 ||
+            memcmp(weight + 3 * i, expected_weight + 3 * i, 3 * sizeof *weight) != 0)
+          fail_msg("%s, trial %d, lane %d: (%.17g %.17g %.17g), square %.17g instead of (%.17g %.17g %.17g), %.17g",
+                   kernels_name(set), trial, i, on[3 * i], on[3 * i + 1], on[3 * i + 2], sq[i], expected_on[3 * i],
+                   expected_on[3 * i + 1], expected_on[3 * i + 2], expected_sq[i]);
+      n_compared += n;
+    }
+  }
+  printf("%lld located; %lld pairs inside, %lld at edges, %lld at corners, %lld without area\n", (long long)n_compared,
+         (long long)n_inside, (long long)n_edge, (long long)n_corner, (long long)n_without_area);
+  assert_true(n_compared >= 160000 && n_inside > 5000 && n_edge > 5000 && n_corner > 5000 && n_without_area > 5000);
 }
 
 /* --- Single precision ------------------------------------------------------------------------------------------------ */
@@ -520,6 +569,7 @@ static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
+      cmocka_unit_test(located_points_have_the_bits_of_the_scalar_kernel),
       cmocka_unit_test(single_precision_is_right_to_its_error),
       cmocka_unit_test(first_bounds_and_boxes_lose_nothing),
       cmocka_unit_test(no_pair_that_matters_is_lost),

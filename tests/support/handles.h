@@ -94,6 +94,15 @@ static inline surface_content surface_content_of(const riis_surface *surface) {
   return all;
 }
 
+/* (3, n_vertices); NULL unless the last update gave velocities. */
+static inline const double *velocity_of(const riis_surface *surface) {
+  const double *velocity = NULL;
+  int64_t n = -1;
+  CHECK_OK(riis_surface_vertex_velocities(surface, &n, &velocity));
+  assert_int_equal(n, surface_content_of(surface).n_vertices);
+  return velocity;
+}
+
 static inline riis_closest closest_to(const riis_surface *surface, double x, double y, double z) {
   const double point[3] = {x, y, z};
   riis_closest closest;

@@ -1,0 +1,670 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The fields of closest points that a marking keeps: those of single queries to the last bit, for any search, threads and
+ * instructions; the rim, against the numbering of patches and a count of edges; and refusals. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "oracle.h"
+#include "searches.h"
+
+static random_source rng;
+
+static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
+static double between(double low, double high) { return random_between(&rng, low, high); }
+
+enum {
+  of_patches = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH,
+  of_arrays = of_patches | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE | RIIS_FIELD_RIM,
+  of_valves = of_arrays | RIIS_FIELD_UV,
+  of_moving = of_valves | RIIS_FIELD_VELOCITY
+};
+
+static riis_mark_fields marked_fields(const riis_mark_result *result) {
+  riis_mark_fields fields;
+  CHECK_OK(riis_mark_result_marked_fields(result, &fields, sizeof fields));
+  assert_int_equal(fields.n_nodes, marked_in(result).n);
+  return fields;
+}
+
+static riis_mark_fields within_fields(const riis_mark_result *result) {
+  riis_mark_fields fields;
+  CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+  assert_int_equal(fields.n_nodes, within_in(result).n);
+  return fields;
+}
+
+static int same_array(const void *a, const void *b, int64_t n, size_t size) {
+  return (!a && !b) || (a && b && memcmp(a, b, (size_t)n * size) == 0);
+}
+
+static int same_fields(riis_mark_fields a, riis_mark_fields b) {
+  const int64_t n = a.n_nodes;
+  return n == b.n_nodes && same_array(a.point, b.point, 3 * n, 8) && same_array(a.normal, b.normal, 3 * n, 8) &&
+         same_array(a.barycentric, b.barycentric, 3 * n, 8) && same_array(a.uv, b.uv, 2 * n, 8) &&
+         same_array(a.velocity, b.velocity, 3 * n, 8) && same_array(a.side, b.side, n, 4) &&
+         same_array(a.rim, b.rim, n, 4) && same_array(a.patch_id, b.patch_id, n, 4);
+}
+
+/* Which arrays there are, as a sum. */
+static int32_t arrays_in(riis_mark_fields f) {
+  return (f.point ? RIIS_FIELD_POINT : 0) | (f.normal ? RIIS_FIELD_NORMAL : 0) |
+         (f.barycentric ? RIIS_FIELD_BARYCENTRIC : 0) | (f.side ? RIIS_FIELD_SIDE : 0) | (f.rim ? RIIS_FIELD_RIM : 0) |
+         (f.uv ? RIIS_FIELD_UV : 0) | (f.velocity ? RIIS_FIELD_VELOCITY : 0) | (f.patch_id ? RIIS_FIELD_PATCH : 0);
+}
+
+static int is_bit(int32_t fields) { return fields && !(fields & (fields - 1)); }
+
+/* The same part of the fields as their result has of the nodes. */
+static void check_part(const riis_mark_result *result) {
+  const found_nodes all = within_in(result), some = marked_in(result);
+  const riis_mark_fields of_all = within_fields(result), of_some = marked_fields(result);
+  if (some.n == 0) return;
+  assert_int_equal(arrays_in(of_all), arrays_in(of_some));
+  for (int64_t from = 0, to = 0; to < some.n; ++to, ++from) {
+    while (all.node_id[from] != some.node_id[to]) ++from;
+    assert_true(!of_all.point || memcmp(of_all.point + 3 * from, of_some.point + 3 * to, 24) == 0);
+    assert_true(!of_all.normal || memcmp(of_all.normal + 3 * from, of_some.normal + 3 * to, 24) == 0);
+    assert_true(!of_all.barycentric || memcmp(of_all.barycentric + 3 * from, of_some.barycentric + 3 * to, 24) == 0);
+    assert_true(!of_all.velocity || memcmp(of_all.velocity + 3 * from, of_some.velocity + 3 * to, 24) == 0);
+    assert_true(!of_all.uv || memcmp(of_all.uv + 2 * from, of_some.uv + 2 * to, 16) == 0);
+    assert_true(!of_all.side || of_all.side[from] == of_some.side[to]);
+    assert_true(!of_all.rim || of_all.rim[from] == of_some.rim[to]);
+    assert_true(!of_all.patch_id || of_all.patch_id[from] == of_some.patch_id[to]);
+  }
+}
+
+/* --- The rim, by another count --------------------------------------------------------------------------------------- */
+
+/* A mark for each edge of each triangle, from corner k to the next, and for each corner: it is an end of such an edge. */
+typedef struct rims {
+  surface_content c;
+  const int64_t *triangle_id;
+  uint8_t *edge, *corner;
+} rims;
+
+static const double *corner_of(const surface_content *c, int64_t k) { return c->xyz + 3 * c->vertex_id[k]; }
+static int is_same_place(const double *a, const double *b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
+static int64_t next_of(int64_t k) { return k % 3 == 2 ? k - 2 : k + 1; }
+
+static rims new_rims(const riis_surface *surface) {
+  rims made = {surface_content_of(surface), NULL, NULL, NULL};
+  CHECK_OK(riis_surface_triangles(surface, NULL, NULL, &made.triangle_id, NULL, NULL));
+  made.edge = calloc((size_t)made.c.n_triangles, 3);
+  made.corner = calloc((size_t)made.c.n_triangles, 3);
+  return made;
+}
+
+static void mark_corners(rims *r) {
+  for (int64_t e = 0; e < 3 * r->c.n_triangles; ++e) {
+    if (!r->edge[e]) continue;
+    const double *a = corner_of(&r->c, e), *b = corner_of(&r->c, next_of(e));
+    for (int64_t k = 0; k < 3 * r->c.n_triangles; ++k)
+      r->corner[k] |= is_same_place(corner_of(&r->c, k), a) || is_same_place(corner_of(&r->c, k), b);
+  }
+}
+
+static void free_rims(rims *r) { free(r->edge), free(r->corner); }
+
+/* By the numbers of patches: the aortic sinus, u = 1, and free edge, v = 1 of the upper patches; the mitral annulus, v = 0,
+ * and the free edges, v = 1, unless the leaflets meet there. */
+static rims rims_of_valve(const riis_surface *surface, int is_mitral, double opening) {
+  rims r = new_rims(surface);
+  for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {
+    const double *a = r.c.uv + 2 * r.c.vertex_id[e], *b = r.c.uv + 2 * r.c.vertex_id[next_of(e)];
+    const int is_upper = r.c.patch_id[e / 3] % 2 == 1;
+    r.edge[e] = is_mitral ? (a[1] == 0 && b[1] == 0) || (opening != 0 && a[1] == 1 && b[1] == 1)
+                          : (a[0] == 1 && b[0] == 1) || (is_upper && a[1] == 1 && b[1] == 1);
+  }
+  mark_corners(&r);
+  return r;
+}
+
+static rims rims_of_arrays(const riis_surface *surface) {
+  rims r = new_rims(surface);
+  for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {
+    const double *a = corner_of(&r.c, e), *b = corner_of(&r.c, next_of(e));
+    int n = 0;
+    for (int64_t f = 0; f < 3 * r.c.n_triangles; ++f) {
+      const double *p = corner_of(&r.c, f), *q = corner_of(&r.c, next_of(f));
+      n += (is_same_place(a, p) && is_same_place(b, q)) || (is_same_place(a, q) && is_same_place(b, p));
+    }
+    r.edge[e] = n == 1;
+  }
+  mark_corners(&r);
+  return r;
+}
+
+static int64_t position_in(const rims *r, int64_t triangle_id) {
+  int64_t at = triangle_id < r->c.n_triangles ? triangle_id : r->c.n_triangles - 1;
+  while (r->triangle_id[at] > triangle_id) --at;
+  assert_int_equal(r->triangle_id[at], triangle_id);
+  return at;
+}
+
+static int is_rim(const rims *r, int64_t triangle, const double *w) {
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3, previous = (k + 2) % 3;
+    if (w[next] == 0 && w[previous] == 0) return r->corner[3 * triangle + k];
+    if (w[previous] == 0 && w[k] != 0 && w[next] != 0) return r->edge[3 * triangle + k];
+  }
+  return 0;
+}
+
+/* --- Against single queries ------------------------------------------------------------------------------------------ */
+
+/* Everything that the fields say of the nodes within the limit. */
+static void check_fields(const riis_surface *surface, const double *xyz, const rims *r,
+                         const riis_mark_result *result) {
+  const riis_mark_fields f = within_fields(result);
+  const found_nodes nodes = within_in(result);
+  const double *velocity = velocity_of(surface);
+  for (int64_t i = 0; i < nodes.n; ++i) {
+    const double *p = xyz + 3 * nodes.node_id[i];
+    const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
+    assert_int_equal(closest.triangle_id, nodes.triangle_id[i]);
+    if (f.point) assert_memory_equal(closest.point, f.point + 3 * i, 24);
+    if (f.normal) assert_memory_equal(closest.normal, f.normal + 3 * i, 24);
+    if (f.barycentric) assert_memory_equal(closest.barycentric, f.barycentric + 3 * i, 24);
+    if (f.side) assert_int_equal(closest.side, f.side[i]);
+    const int64_t t = position_in(r, closest.triangle_id), *corner = r->c.vertex_id + 3 * t;
+    if (f.patch_id) assert_int_equal(r->c.patch_id[t], f.patch_id[i]);
+    if (f.rim && f.rim[i] != is_rim(r, t, closest.barycentric))
+      fail_msg("rim is %d at (%.17g %.17g %.17g), weights %.17g %.17g %.17g of triangle %lld", f.rim[i],
+               closest.point[0], closest.point[1], closest.point[2], closest.barycentric[0], closest.barycentric[1],
+               closest.barycentric[2], (long long)t);
+    for (int k = 0; k < 3; ++k) {
+      const double *w = closest.barycentric;
+      double uv = 0, v = 0, largest = 0;
+      for (int j = 0; j < 3; ++j) {
+        if (f.uv && k < 2) uv += w[j] * r->c.uv[2 * corner[j] + k];
+        if (!f.velocity) continue;
+        v += w[j] * velocity[3 * corner[j] + k];
+        largest = fmax(largest, fabs(velocity[3 * corner[j] + k]));
+      }
+      if (f.uv && k < 2) CHECK_NEAR(f.uv[2 * i + k], uv, 1e-15);
+      if (f.velocity) CHECK_NEAR(f.velocity[3 * i + k], v, 1e-15 * largest);
+    }
+  }
+}
+
+/* Nodes near a surface: some on it, at its corners, beyond its edges. (3, n), to be freed. */
+static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach) {
+  const surface_content c = surface_content_of(surface);
+  test_mesh mesh = {.n = n};
+  mesh.xyz = malloc((size_t)n * 3 * sizeof *mesh.xyz);
+  for (int64_t i = 0; i < n; ++i) {
+    const int64_t t = any_of(c.n_triangles), k = any_of(3);
+    const double *a = corner_of(&c, 3 * t + k), *b = corner_of(&c, 3 * t + (k + 1) % 3);
+    const double *d = corner_of(&c, 3 * t + (k + 2) % 3);
+    const int64_t kind = any_of(5);
+    const double s = kind == 0 ? 0 : between(0, 1);
+    const double far = kind == 1 ? -between(0, 0.3) : kind == 2 ? between(0, 1 - s) : 0;
+    const double off = kind == 3 ? 0 : reach * pow(10, between(-4, 0));
+    for (int x = 0; x < 3; ++x)
+      mesh.xyz[3 * i + x] = a[x] + s * (b[x] - a[x]) + far * (d[x] - a[x]) + off * between(-1, 1);
+  }
+  int64_t *pairs = malloc((size_t)n * 2 * sizeof *pairs);
+  for (int64_t i = 0; i + 1 < n; ++i) pairs[2 * i] = i, pairs[2 * i + 1] = i + 1;
+  set_rows(&mesh, n - 1, pairs);
+  free(pairs);
+  return mesh;
+}
+
+/* All searches, some threads and instructions, which must give the fields of the first. */
+static void check_all_ways(const riis_surface *surface, const rims *r, int32_t fields) {
+  const double half_thickness = info_of(surface).half_thickness;
+  test_mesh nodes = nodes_near(surface, 300 + any_of(400), 2 * half_thickness);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *expected = new_result(), *result = new_result();
+  riis_mark_options options = mark_options();
+  options.fields = fields;
+  options.n_threads = 1;
+  options.search = RIIS_SEARCH_EXHAUSTIVE;
+  if (any_of(3)) options.distance_limit = half_thickness * between(1, 3);
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
+  assert_true(marked_in(expected).n > 0);
+  assert_int_equal(arrays_in(within_fields(expected)), fields);
+  check_fields(surface, nodes.xyz, r, expected);
+  check_part(expected);
+  for (int32_t search = RIIS_SEARCH_AUTO; search <= RIIS_SEARCH_CLUSTERS; ++search)
+    for (int32_t n_threads = 1; n_threads <= 4; ++n_threads) {
+      if (search == RIIS_SEARCH_PAPER) continue;
+      options.search = search;
+      options.n_threads = n_threads;
+      options.instructions = (int32_t)any_of(4);
+      const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
+      if (status == RIIS_UNAVAILABLE) continue;
+      CHECK_OK(status);
+      assert_true(same_results(result, expected));
+      assert_true(same_fields(within_fields(result), within_fields(expected)));
+      assert_true(same_fields(marked_fields(result), marked_fields(expected)));
+    }
+  options.search = RIIS_SEARCH_PAPER; /* finds fewer, with their fields */
+  options.instructions = RIIS_INSTRUCTIONS_AUTO;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  check_fields(surface, nodes.xyz, r, result);
+  check_part(result);
+  riis_mark_result_destroy(&expected), riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  free_test_mesh(&nodes);
+}
+
+static void fields_of_valves_are_those_of_single_queries(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 24; ++trial) {
+    const int is_mitral = trial % 2;
+    riis_valve *valve = NULL, *before = NULL, *open = NULL;
+    riis_surface *surface = NULL;
+    riis_surface_options options = surface_options();
+    CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
+    CHECK_OK(riis_valve_copy(valve, &open));
+    if (!is_mitral) CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 45));
+    CHECK_OK(riis_valve_set_open_state(valve, open));
+    CHECK_OK(riis_valve_copy(valve, &before));
+    const double opening = trial < 4 ? 0 : between(0, 1);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+    CHECK_OK(riis_valve_set_scalar(before, "opening", between(0, 1)));
+    options.tolerance = pow(10, between(-1, 0));
+    options.flip_normals = any_of(3) == 0;
+    if (any_of(2)) options.scale = 10, options.rotation_angle = 33, options.rotation_axis[0] = 1;
+    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.1, NULL, NULL));
+    rims r = rims_of_valve(surface, is_mitral, opening);
+    int32_t fields = of_moving;
+    for (int i = 0; i < 8; ++i)
+      if (trial % 3 == 0 && any_of(2)) fields &= ~(1 << i);
+    check_all_ways(surface, &r, trial >= 16 ? 1 << (trial - 16) : fields);
+    free_rims(&r);
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve), riis_valve_destroy(&before), riis_valve_destroy(&open);
+  }
+}
+
+/* A crumpled sheet whose triangles have corners of their own or share them, with holes, some without area. */
+static void fields_of_arrays_are_those_of_single_queries(void **state) {
+  (void)state;
+  enum { side = 9, max_vertices = 6 * side * side };
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_valve_create("mitral", &valve));
+  CHECK_OK(riis_surface_create(valve, NULL, &surface)); /* its rim is forgotten */
+  for (int trial = 0; trial < 24; ++trial) {
+    static double height[side + 1][side + 1], xyz[3 * max_vertices];
+    static int32_t ids[max_vertices];
+    int64_t n_vertices = 0, n_triangles = 0;
+    for (int i = 0; i <= side; ++i)
+      for (int j = 0; j <= side; ++j) height[i][j] = 0.1 * (double)any_of(4);
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j) {
+        static const int steps[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+        for (int half = 0; half < 2; ++half) {
+          if (any_of(6) == 0) continue;
+          for (int k = 0; k < 3; ++k) {
+            const int *step = steps[3 * half + k];
+            double *p = xyz + 3 * n_vertices;
+            p[0] = 0.1 * (i + step[0]), p[1] = 0.1 * (j + step[1]), p[2] = height[i + step[0]][j + step[1]];
+            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* the same place */
+            int64_t same = n_vertices;
+            for (int64_t v = 0; v < n_vertices && trial % 2; ++v)
+              if (is_same_place(xyz + 3 * v, p)) same = v;
+            if (same == n_vertices) ++n_vertices;
+            ids[3 * n_triangles + k] = (int32_t)same;
+          }
+          if (any_of(10) == 0) ids[3 * n_triangles] = ids[3 * n_triangles + 1]; /* no area */
+          ++n_triangles;
+        }
+      }
+    riis_surface_arrays arrays = triangle_arrays(n_vertices, xyz, n_triangles, ids);
+    riis_surface_options options = surface_options();
+    options.half_thickness = 0.05;
+    options.zero_area = RIIS_ZERO_AREA_SKIP;
+    options.flip_normals = trial % 3 == 0;
+    CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, &options));
+    assert_true(info_of(surface).n_zero_area > 0 || trial > 0);
+    rims r = rims_of_arrays(surface);
+    check_all_ways(surface, &r, of_arrays);
+    free_rims(&r);
+  }
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+/* --- The rim of valves ----------------------------------------------------------------------------------------------- */
+
+/* Three nodes beyond each edge of each triangle: in its plane, off it, and below. */
+static double *beyond_edges(const surface_content *c, double off) {
+  double *xyz = malloc((size_t)c->n_triangles * 27 * sizeof *xyz), *to = xyz;
+  for (int64_t e = 0; e < 3 * c->n_triangles; ++e) {
+    const double *a = corner_of(c, e), *b = corner_of(c, next_of(e)), *d = corner_of(c, next_of(next_of(e)));
+    double ab[3], out[3], n[3], along = 0, size_sq = 0, length = 0, n_length = 0;
+    for (int x = 0; x < 3; ++x) {
+      ab[x] = b[x] - a[x], out[x] = a[x] - d[x];
+      size_sq += ab[x] * ab[x], along += ab[x] * out[x];
+    }
+    for (int x = 0; x < 3; ++x) out[x] -= along / size_sq * ab[x], length += out[x] * out[x];
+    for (int x = 0; x < 3; ++x) n[x] = ab[(x + 1) % 3] * out[(x + 2) % 3] - ab[(x + 2) % 3] * out[(x + 1) % 3];
+    for (int x = 0; x < 3; ++x) n_length += n[x] * n[x];
+    for (int k = 0; k < 3; ++k)
+      for (int x = 0; x < 3; ++x) {
+        const double below = x == 2 ? -1 : 0, beyond = out[x] / sqrt(length) + 0.5 * k * n[x] / sqrt(n_length);
+        *to++ = 0.5 * (a[x] + b[x]) + off * (k == 2 ? below : beyond);
+      }
+  }
+  return xyz;
+}
+
+/* Neither valve has a rim inside: along the bending curve and the symmetry planes, or between patches; nor has the
+ * closed mitral valve along its free edges. */
+static void valves_have_a_rim_all_around_and_none_inside(void **state) {
+  (void)state;
+  for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
+    int64_t n_rim = 0, n_inside = 0, n_free = 0, n_free_closed = 0;
+    riis_valve *valve = NULL, *open = NULL;
+    riis_surface *surface = NULL;
+    riis_mark_result *result = new_result();
+    CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
+    CHECK_OK(riis_valve_copy(valve, &open));
+    if (!is_mitral) CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
+    CHECK_OK(riis_valve_set_open_state(valve, open));
+    riis_surface_options options = surface_options();
+    options.tolerance = 0.5;
+    for (int i = 0; i <= 100; ++i) {
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 100.0));
+      if (!surface) CHECK_OK(riis_surface_create(valve, &options, &surface));
+      CHECK_OK(riis_surface_update(surface, valve, NULL));
+      rims r = rims_of_valve(surface, is_mitral, i / 100.0);
+      double *xyz = beyond_edges(&r.c, 1e-3);
+      const int64_t n = 9 * r.c.n_triangles;
+      riis_mesh *mesh = NULL;
+      riis_mark_options mark = mark_options();
+      mark.fields = of_valves;
+      mark.n_threads = 1;
+      CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+      CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
+      const riis_mark_fields f = marked_fields(result);
+      const found_nodes nodes = marked_in(result);
+      assert_int_equal(nodes.n, n);
+      for (int64_t k = 0; k < n; ++k) {
+        const int64_t t = nodes.triangle_id[k];
+        const int expected = is_rim(&r, t, f.barycentric + 3 * k);
+        if (f.rim[k] != expected)
+          fail_msg("opening %g: rim is %d at u = %g, v = %g of patch %d", i / 100.0, f.rim[k], f.uv[2 * k],
+                   f.uv[2 * k + 1], f.patch_id[k]);
+        n_rim += expected;
+        const int64_t e = k / 3;
+        if (t == e / 3 && expected && r.edge[e]) ++n_free; /* it is the edge that it was put beyond */
+        if (!r.edge[e]) ++n_inside;
+        if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {
+          ++n_free_closed;
+          assert_int_equal(f.rim[k], 0);
+        }
+        /* Apart from the numbers of patches: no rim has both ends in the mirror's plane of the mitral valve. */
+        if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
+          assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
+      }
+      riis_mesh_destroy(&mesh);
+      free(xyz);
+      free_rims(&r);
+    }
+    printf("%s: %lld nodes on the rim, %lld beyond edges of the rim, %lld beyond others, %lld at closed edges\n",
+           is_mitral ? "mitral" : "aortic", (long long)n_rim, (long long)n_free, (long long)n_inside,
+           (long long)n_free_closed);
+    assert_true(n_rim > 2000 && n_free > 2000 && n_inside > 5000 && (n_free_closed > 10) == is_mitral);
+    riis_mark_result_destroy(&result);
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve), riis_valve_destroy(&open);
+  }
+}
+
+/* Where a rim edge of a valve at a random opening has its middle, no triangle of another patch is. */
+static void no_other_patch_touches_the_rim(void **state) {
+  (void)state;
+  for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
+    int64_t n = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+      riis_valve *valve = NULL;
+      riis_surface *surface = NULL;
+      riis_surface_options options = surface_options();
+      options.tolerance = 0.5;
+      const double opening = is_mitral ? between(0.05, 1) : 0;
+      CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+      CHECK_OK(riis_surface_create(valve, &options, &surface));
+      riis_mark_result *result = new_result();
+      riis_mark_options mark = mark_options();
+      const surface_content c = surface_content_of(surface);
+      double *xyz = beyond_edges(&c, 1e-3);
+      riis_mesh *mesh = NULL;
+      mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_POINT | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_PATCH;
+      CHECK_OK(riis_mesh_create(9 * c.n_triangles, xyz, xyz + 1, xyz + 2, 3, &mesh));
+      CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
+      const riis_mark_fields f = marked_fields(result);
+      for (int64_t k = 0; k < f.n_nodes; ++k) {
+        const double *w = f.barycentric + 3 * k, *p = f.point + 3 * k;
+        const double middle = fmax(w[0], fmax(w[1], w[2]));
+        if (!f.rim[k] || middle > 0.6) continue; /* ends of edges are shared */
+        ++n;
+        for (int64_t t = 0; t < c.n_triangles; ++t) {
+          /* Leaflets of their own may touch others'. */
+          if (c.patch_id[t] == f.patch_id[k]) continue;
+          if (c.leaflet_id[t] != (is_mitral ? f.patch_id[k] > 5 : f.patch_id[k] / 4)) continue;
+          /* Its distance to the box of the triangle's corners, which bounds that to the triangle from below. */
+          double gap = 0;
+          for (int x = 0; x < 3; ++x) {
+            double low = INFINITY, high = -INFINITY;
+            for (int j = 0; j < 3; ++j) {
+              const double q = corner_of(&c, 3 * t + j)[x];
+              low = fmin(low, q), high = fmax(high, q);
+            }
+            gap = fmax(gap, fmax(low - p[x], p[x] - high));
+          }
+          if (gap > 0) continue;
+          double abc[9];
+          for (int j = 0; j < 9; ++j) abc[j] = corner_of(&c, 3 * t + j / 3)[j % 3];
+          if (oracle_point_triangle(p, abc) < 1e-6)
+            fail_msg("opening %g: patch %d has a rim where patch %d is", opening, f.patch_id[k], c.patch_id[t]);
+        }
+      }
+      riis_mark_result_destroy(&result);
+      riis_mesh_destroy(&mesh);
+      free(xyz);
+      riis_surface_destroy(&surface);
+      riis_valve_destroy(&valve);
+    }
+    assert_true(n > 500);
+  }
+}
+
+/* --- Parameters ------------------------------------------------------------------------------------------------------ */
+
+static void parameters_turn_as_the_header_says(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 24; ++trial) {
+    const int is_mitral = trial % 2, is_flipped = trial / 2 % 2;
+    riis_valve *valve = NULL;
+    riis_surface *surface = NULL;
+    riis_surface_options options = surface_options();
+    options.flip_normals = is_flipped;
+    CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
+    if (is_mitral) CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 4 ? 0 : between(0, 1)));
+    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    const surface_content c = surface_content_of(surface);
+    for (int64_t t = 0; t < c.n_triangles; ++t) {
+      const double *a = c.uv + 2 * c.vertex_id[3 * t], *b = c.uv + 2 * c.vertex_id[3 * t + 1],
+                   *d = c.uv + 2 * c.vertex_id[3 * t + 2];
+      const int32_t patch = c.patch_id[t];
+      const int is_mirrored = is_mitral ? (patch >= 3 && patch <= 5) || patch >= 8 : patch % 4 >= 2;
+      const double turn = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
+      assert_true(is_mirrored != is_flipped ? turn < 0 : turn > 0);
+    }
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve);
+  }
+}
+
+/* --- Other distances ------------------------------------------------------------------------------------------------- */
+
+static void other_distances_have_fields_of_patches(void **state) {
+  (void)state;
+  for (int32_t distance = RIIS_DISTANCE_SAMPLING; distance <= RIIS_DISTANCE_MINIMIZATION; ++distance)
+    for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
+      riis_valve *valve = NULL;
+      riis_surface *surface = NULL;
+      riis_surface_options options = surface_options();
+      options.distance = distance;
+      options.distance_tolerance = 0.5;
+      options.flip_normals = is_mitral;
+      CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
+      CHECK_OK(riis_surface_create(valve, &options, &surface));
+      CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
+      test_mesh nodes = nodes_near(surface, 200, 0.2);
+      riis_mesh *mesh = mesh_from(&nodes);
+      riis_mark_result *result = new_result(), *other = new_result();
+      riis_mark_options mark = mark_options();
+      mark.fields = of_patches;
+      mark.distance_limit = 0.15;
+      mark.n_threads = 1;
+      CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
+      const riis_mark_fields f = within_fields(result);
+      const found_nodes found = within_in(result);
+      assert_true(found.n > 50);
+      assert_int_equal(arrays_in(f), of_patches);
+      check_part(result);
+      for (int64_t i = 0; i < found.n; ++i) {
+        const double *p = nodes.xyz + 3 * found.node_id[i];
+        const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
+        assert_memory_equal(closest.point, f.point + 3 * i, 24);
+        assert_memory_equal(closest.normal, f.normal + 3 * i, 24);
+        assert_int_equal(closest.leaflet_id, is_mitral ? f.patch_id[i] > 5 : f.patch_id[i] / 4);
+        assert_in_range(f.patch_id[i], 0, is_mitral ? 9 : 11);
+      }
+      mark.n_threads = 3;
+      CHECK_OK(riis_mark_nodes(surface, mesh, &mark, other));
+      assert_true(same_results(other, result) && same_fields(within_fields(other), f));
+      for (int32_t field = 1; field <= RIIS_FIELD_PATCH; field *= 2) {
+        char text[200];
+        mark.fields = field;
+        if (field & of_patches) {
+          CHECK_OK(riis_mark_nodes(surface, mesh, &mark, other));
+          assert_int_equal(arrays_in(within_fields(other)), field);
+          continue;
+        }
+        snprintf(text, sizeof text, "options.fields is %d,|distances are by %s|RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH",
+                 field, distance == RIIS_DISTANCE_SAMPLING ? "sampling" : "minimi");
+        CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &mark, other));
+      }
+      riis_mark_result_destroy(&result), riis_mark_result_destroy(&other);
+      riis_mesh_destroy(&mesh);
+      free_test_mesh(&nodes);
+      riis_surface_destroy(&surface);
+      riis_valve_destroy(&valve);
+    }
+}
+
+/* --- Refusals -------------------------------------------------------------------------------------------------------- */
+
+static void fields_are_refused_by_name(void **state) {
+  (void)state;
+  const double corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t ids[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
+  test_mesh nodes = nodes_near(surface, 300, 0.1);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *result = new_result(), *expected = new_result();
+  riis_mark_options options = mark_options();
+  options.fields = of_moving;
+  assert_int_equal(of_moving, 255);
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
+#define FIELDS_REFUSED(value, parts)                                                               \
+  do {                                                                                             \
+    options.fields = value;                                                                        \
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_mark_nodes(surface, mesh, &options, result)); \
+    assert_true(same_results(result, expected));                                                   \
+    assert_true(same_fields(marked_fields(result), marked_fields(expected)));                      \
+  } while (0)
+  FIELDS_REFUSED(256, "options.fields is 256;|a sum of RIIS_FIELD_*, at most 255");
+  FIELDS_REFUSED(1 | 1 << 20, "options.fields is 1048577;");
+  FIELDS_REFUSED(-1, "options.fields is -1;");
+  FIELDS_REFUSED(INT32_MIN, "options.fields is -2147483648;");
+  options.fields = of_moving;
+  options.reserved2 = 3;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.reserved2 is 3", riis_mark_nodes(surface, mesh, &options, result));
+  options.reserved2 = 0;
+  CHECK_OK(riis_surface_update(surface, valve, NULL));
+  FIELDS_REFUSED(RIIS_FIELD_VELOCITY, "options.fields is 64,|RIIS_FIELD_VELOCITY|riis_surface_update_moving");
+  FIELDS_REFUSED(of_moving, "options.fields is 255,|RIIS_FIELD_VELOCITY");
+  CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
+  FIELDS_REFUSED(RIIS_FIELD_UV, "options.fields is 32,|RIIS_FIELD_UV|from arrays");
+  FIELDS_REFUSED(RIIS_FIELD_VELOCITY, "options.fields is 64,|RIIS_FIELD_VELOCITY");
+
+  riis_mark_fields f;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_mark_result_marked_fields(NULL, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_mark_result_within_limit_fields(NULL, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_mark_result_marked_fields(result, NULL, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_mark_result_within_limit_fields(result, NULL, sizeof f));
+  static const int64_t sizes[] = {0, -8, sizeof f - 8, sizeof f + 8};
+  for (int i = 0; i < 4; ++i) {
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_mark_result_marked_fields(result, &f, sizes[i]));
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_mark_result_within_limit_fields(result, &f, sizes[i]));
+  }
+  riis_mark_result_destroy(&result), riis_mark_result_destroy(&expected);
+  riis_mesh_destroy(&mesh);
+  free_test_mesh(&nodes);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+/* What was not asked for is NULL, also after a marking that had it; and a result without nodes has no arrays. */
+static void what_is_not_asked_for_is_null(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  test_mesh nodes = nodes_near(surface, 300, 0.1);
+  riis_mesh *mesh = mesh_from(&nodes), *far = NULL;
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  assert_int_equal(marked_fields(result).n_nodes, 0);
+  assert_int_equal(arrays_in(marked_fields(result)) | arrays_in(within_fields(result)), 0);
+  assert_int_equal(options.fields, 0);
+  for (int wide = 0; wide < 2; ++wide)
+    for (int32_t fields = 0; fields <= of_moving; ++fields) {
+      if (fields & RIIS_FIELD_VELOCITY || (fields && !is_bit(fields) && any_of(4))) continue;
+      options.fields = fields;
+      options.distance_limit = wide ? 0.3 : RIIS_AUTO;
+      CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+      assert_int_equal(arrays_in(marked_fields(result)), fields);
+      assert_int_equal(arrays_in(within_fields(result)), fields);
+    }
+  const double xyz[3] = {1e3, 0, 0};
+  CHECK_OK(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &far));
+  options.fields = of_valves;
+  CHECK_OK(riis_mark_nodes(surface, far, &options, result));
+  assert_int_equal(marked_fields(result).n_nodes, 0);
+  assert_int_equal(arrays_in(marked_fields(result)) | arrays_in(within_fields(result)), 0);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh), riis_mesh_destroy(&far);
+  free_test_mesh(&nodes);
+  riis_surface_destroy(&surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fields_of_valves_are_those_of_single_queries),
+      cmocka_unit_test(fields_of_arrays_are_those_of_single_queries),
+      cmocka_unit_test(valves_have_a_rim_all_around_and_none_inside),
+      cmocka_unit_test(no_other_patch_touches_the_rim),
+      cmocka_unit_test(parameters_turn_as_the_header_says),
+      cmocka_unit_test(other_distances_have_fields_of_patches),
+      cmocka_unit_test(fields_are_refused_by_name),
+      cmocka_unit_test(what_is_not_asked_for_is_null),
+  };
+  rng = random_start("test_fields");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,642 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Surfaces with a velocity: the triangles of a plain update, the velocities of motions that are known, and refusals that
+ * leave the surface as it was. The mitral valve's own motion is in test_mitral_motion.c. */
+#include <riis/riis.h>
+#include <stddef.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+static random_source rng;
+
+static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
+static double between(double low, double high) { return random_between(&rng, low, high); }
+static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
+
+/* --- Valves ---------------------------------------------------------------------------------------------------------- */
+
+/* Three patches in a row: curves 0 to 2 below, 3 to 5 above, 6 to 9 from below to above, of which the last is a point. */
+enum { n_curves = 10, n_patches = 3, n_control = 32 };
+static const int32_t degrees[n_curves] = {3, 2, 1, 2, 3, 3, 1, 3, 2, 1};
+static const int32_t is_reversed[n_curves] = {0, 0, 0, 0, 1, 0, 0, 1, 0, 0};
+typedef struct strip {
+  double control[n_control][3];
+} strip;
+
+static strip random_strip(double roughness) {
+  strip made;
+  double corner[2][4][3];
+  for (int top = 0; top < 2; ++top)
+    for (int j = 0; j < 4; ++j) {
+      for (int c = 0; c < 3; ++c) corner[top][j][c] = roughness * between(-0.2, 0.2) + (c == 0 ? j : c == 1 ? top : 0);
+      if (j == 3) memcpy(corner[top][j], corner[0][j], sizeof corner[0][j]);
+    }
+  for (int i = 0, at = 0; i < n_curves; at += degrees[i++] + 1) {
+    const double *first = i < 6 ? corner[i / 3][i % 3] : corner[0][i - 6],
+                 *last = i < 6 ? corner[i / 3][i % 3 + 1] : corner[1][i - 6];
+    for (int k = 0; k <= degrees[i]; ++k) {
+      const double t = (double)k / degrees[i], inside = k > 0 && k < degrees[i] ? roughness : 0;
+      double *to = made.control[is_reversed[i] ? at + degrees[i] - k : at + k];
+      for (int c = 0; c < 3; ++c) to[c] = (1 - t) * first[c] + t * last[c] + inside * between(-0.3, 0.3);
+      if (k == 0 || k == degrees[i]) memcpy(to, k ? last : first, 3 * sizeof *to);
+    }
+  }
+  return made;
+}
+
+static riis_valve *valve_of(const strip *from) {
+  static const int32_t leaflet_id[n_patches] = {2, 0, 7};
+  int32_t curve_id[4 * n_patches], reversed[4 * n_patches];
+  for (int j = 0; j < n_patches; ++j) {
+    const int32_t sides[4] = {j, 3 + j, 6 + j, 7 + j};
+    for (int k = 0; k < 4; ++k) curve_id[4 * j + k] = sides[k], reversed[4 * j + k] = is_reversed[sides[k]];
+  }
+  riis_patches patches;
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_patches_init(&patches, sizeof patches));
+  patches.n_curves = n_curves;
+  patches.degree = degrees;
+  patches.control = from->control[0];
+  patches.n_patches = n_patches;
+  patches.curve_id = curve_id;
+  patches.reversed = reversed;
+  patches.leaflet_id = leaflet_id;
+  CHECK_OK(riis_valve_create_from_patches(&patches, &valve));
+  return valve;
+}
+
+/* The strip at a time t, when x has become (1 + growth t) x + drift t. */
+static strip strip_at(const strip *from, double t, double growth, const double *drift) {
+  strip made;
+  for (int i = 0; i < n_control; ++i)
+    for (int c = 0; c < 3; ++c) made.control[i][c] = (1 + growth * t) * from->control[i][c] + drift[c] * t;
+  return made;
+}
+
+/* Of any kind, with a state to open to. */
+static riis_valve *random_valve(int64_t kind) {
+  riis_valve *valve = NULL, *open = NULL;
+  if (kind == 2) {
+    const strip closed = random_strip(1), opened = random_strip(1);
+    valve = valve_of(&closed), open = valve_of(&opened);
+  } else {
+    CHECK_OK(riis_valve_create(kind ? "mitral" : "aortic", &valve));
+    CHECK_OK(riis_valve_copy(valve, &open));
+  }
+  if (kind == 0) {
+    static const char *cusps[3] = {"right", "left", "non_coronary"};
+    for (int i = 0; i < 3; ++i) {
+      char name[64];
+      double values[3];
+      snprintf(name, sizeof name, "%s.rotation", cusps[i]);
+      CHECK_OK(riis_valve_get(open, name, 3, values));
+      for (int c = 0; c < 3; ++c) values[c] += between(-20, 20);
+      CHECK_OK(riis_valve_set(open, name, 3, values));
+      snprintf(name, sizeof name, "%s.translation", cusps[i]);
+      for (int c = 0; c < 3; ++c) values[c] = between(-0.3, 0.3) - (c == 2);
+      CHECK_OK(riis_valve_set(open, name, 3, values));
+    }
+    CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", between(40, 60)));
+    CHECK_OK(riis_valve_set_scalar(open, "bending_power", between(1.5, 3)));
+  }
+  if (kind == 1) {
+    CHECK_OK(riis_valve_set_scalar(open, "surface_angle", between(-40, 40)));
+    CHECK_OK(riis_valve_set_scalar(open, "anterior_ratio", between(0.35, 0.5)));
+  }
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  riis_valve_destroy(&open);
+  return valve;
+}
+
+/* --- Content --------------------------------------------------------------------------------------------------------- */
+
+static int is_same_content(const riis_surface *a, const riis_surface *b) {
+  const surface_content s = surface_content_of(a), t = surface_content_of(b);
+  const riis_surface_info of_a = info_of(a), of_b = info_of(b);
+  const int64_t *id_a, *id_b;
+  CHECK_OK(riis_surface_triangles(a, NULL, NULL, &id_a, NULL, NULL));
+  CHECK_OK(riis_surface_triangles(b, NULL, NULL, &id_b, NULL, NULL));
+  const size_t n = (size_t)s.n_triangles;
+  return memcmp(&of_a, &of_b, offsetof(riis_surface_info, seconds_triangles)) == 0 &&
+         memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 &&
+         memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0 &&
+         memcmp(s.vertex_id, t.vertex_id, 3 * n * sizeof *s.vertex_id) == 0 &&
+         memcmp(id_a, id_b, n * sizeof *id_a) == 0 &&
+         memcmp(s.leaflet_id, t.leaflet_id, n * sizeof *s.leaflet_id) == 0 &&
+         memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
+}
+
+static riis_surface *surface_of(const riis_valve *valve, const riis_surface_options *options) {
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_create(valve, options, &surface));
+  return surface;
+}
+
+static void random_placement(riis_surface_options *options) {
+  options->scale = pow(10, between(-2, 2));
+  for (int c = 0; c < 3; ++c) {
+    options->rotation_axis[c] = between(-1, 1) + (c == 1 ? 2 : 0);
+    options->translation[c] = options->scale * between(-3, 3);
+  }
+  options->rotation_angle = between(-180, 180);
+}
+
+static void triangles_are_those_of_a_plain_update(void **state) {
+  (void)state;
+  static const int32_t threads[] = {0, 2, 3, 7};
+  riis_surface *moving = NULL;
+  for (int trial = 0; trial < 60; ++trial) {
+    const int64_t kind = trial % 3;
+    riis_valve *valve = random_valve(kind), *before = NULL;
+    CHECK_OK(riis_valve_copy(valve, &before));
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", any_of(5) ? between(0, 1) : (double)any_of(2)));
+    CHECK_OK(riis_valve_set_scalar(before, "opening", any_of(5) ? between(0, 1) : (double)any_of(2)));
+    riis_surface_options options = surface_options(), then = surface_options();
+    if (any_of(2)) random_placement(&options);
+    if (any_of(2)) random_placement(&then);
+    options.flip_normals = any_of(4) == 0;
+    options.tolerance = pow(10, between(-1.5, -0.2));
+    if (any_of(6) == 0) options.distance = RIIS_DISTANCE_SAMPLING, options.distance_tolerance = 0.5;
+    const riis_surface_options *options_before = any_of(3) ? &then : NULL;
+    const double seconds = (any_of(2) ? 1 : -1) * pow(10, between(-3, 1));
+    options.n_threads = 1;
+    riis_surface *plain = surface_of(valve, &options), *one = surface_of(valve, NULL);
+    if (!moving) moving = surface_of(valve, NULL);
+    assert_null(velocity_of(plain));
+    CHECK_OK(riis_surface_update_moving(one, valve, before, seconds, &options, options_before));
+    options.n_threads = threads[any_of(4)];
+    CHECK_OK(riis_surface_update_moving(moving, valve, before, seconds, &options, options_before));
+    assert_true(is_same_content(one, plain));
+    assert_true(is_same_content(moving, plain));
+    const int64_t n = surface_content_of(plain).n_vertices;
+    assert_memory_equal(velocity_of(one), velocity_of(moving), (size_t)n * 3 * sizeof(double));
+    for (int64_t i = 0; i < 3 * n; ++i) assert_true(isfinite(velocity_of(one)[i]));
+    if (any_of(2)) { /* the next goes on with a surface that has none */
+      CHECK_OK(riis_surface_update(moving, valve, &options));
+      assert_null(velocity_of(moving));
+      assert_true(is_same_content(moving, plain));
+    }
+    riis_surface_destroy(&plain), riis_surface_destroy(&one);
+    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+  }
+  riis_surface_destroy(&moving);
+}
+
+static void arrays_have_no_velocity(void **state) {
+  (void)state;
+  const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t ids[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
+  riis_valve *valve = random_valve(0);
+  riis_surface *surface = surface_of(valve, NULL);
+  CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
+  assert_non_null(velocity_of(surface));
+  CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
+  assert_null(velocity_of(surface));
+  CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL)); /* and back */
+  assert_non_null(velocity_of(surface));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+/* --- Known motions --------------------------------------------------------------------------------------------------- */
+
+/* The largest speed of the vertices of triangles with that leaflet, or with all for -1. */
+static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
+  static const double zero[3] = {0, 0, 0};
+  const surface_content c = surface_content_of(surface);
+  const double *velocity = velocity_of(surface);
+  double largest = 0;
+  for (int64_t k = 0; k < 3 * c.n_triangles; ++k) {
+    if (leaflet_id >= 0 && c.leaflet_id[k / 3] != leaflet_id) continue;
+    const double speed = distance(velocity + 3 * c.vertex_id[k], zero);
+    if (!(speed <= largest)) largest = speed;
+  }
+  return largest;
+}
+
+static void nothing_moves_where_nothing_changed(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 30; ++trial) {
+    riis_valve *valve = random_valve(trial % 3), *copy = NULL;
+    riis_surface_options options = surface_options();
+    if (trial % 2) random_placement(&options);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 6 ? (double)(trial % 2) : between(0, 1)));
+    CHECK_OK(riis_valve_copy(valve, &copy));
+    riis_surface *surface = surface_of(valve, &options);
+    const double seconds = pow(10, between(-30, 30));
+    for (int i = 0; i < 4; ++i) {
+      const riis_surface_options *before = i & 1 ? &options : NULL;
+      CHECK_OK(riis_surface_update_moving(surface, valve, i & 2 ? copy : valve, seconds, NULL, before));
+      const int64_t n = surface_content_of(surface).n_vertices;
+      for (int64_t k = 0; k < 3 * n; ++k)
+        if (velocity_of(surface)[k] != 0) fail_msg("trial %d: %.17g", trial, velocity_of(surface)[k]);
+    }
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve), riis_valve_destroy(&copy);
+  }
+}
+
+/* One cusp of three, and one scallop of the mitral valve. */
+static void parts_at_rest_have_no_velocity(void **state) {
+  (void)state;
+  static const double turned[3] = {5, 3, 121};
+  riis_valve *valve = NULL, *before = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_OK(riis_valve_copy(valve, &before));
+  CHECK_OK(riis_valve_set_scalar(before, "left.leaflet_angle", 50));
+  for (int i = 0; i < 2; ++i) {
+    riis_surface *surface = surface_of(valve, NULL);
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.01, NULL, NULL));
+    assert_true(largest_speed(surface, RIIS_LEAFLET_RIGHT) == 0);
+    assert_true(largest_speed(surface, RIIS_LEAFLET_NON_CORONARY) == 0);
+    assert_true(largest_speed(surface, RIIS_LEAFLET_LEFT) > 1);
+    riis_surface_destroy(&surface);
+    CHECK_OK(riis_valve_set(before, "left.rotation", 3, turned));
+  }
+  riis_valve_destroy(&valve), riis_valve_destroy(&before);
+  CHECK_OK(riis_valve_create("mitral", &valve));
+  CHECK_OK(riis_valve_copy(valve, &before));
+  CHECK_OK(riis_valve_set_scalar(before, "posterior_scallop_length2", 1.3));
+  riis_surface *surface = surface_of(valve, NULL);
+  CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.01, NULL, NULL));
+  const surface_content c = surface_content_of(surface);
+  const double *velocity = velocity_of(surface);
+  for (int64_t k = 0; k < 3 * c.n_triangles; ++k)
+    for (int x = 0; x < 3 && c.patch_id[k / 3] != 7 && c.patch_id[k / 3] != 8; ++x)
+      assert_true(velocity[3 * c.vertex_id[k] + x] == 0);
+  assert_true(largest_speed(surface, RIIS_LEAFLET_POSTERIOR) > 1);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve), riis_valve_destroy(&before);
+}
+
+/* The rotation by Rodrigues' formula, in extended precision. */
+typedef struct placed {
+  long double m[3][3], shift[3];
+} placed;
+
+static placed placed_by(const riis_surface_options *o) {
+  const long double angle = acosl(-1) * o->rotation_angle / 180, s = sinl(angle), c = cosl(angle);
+  long double n[3], size = 0;
+  for (int i = 0; i < 3; ++i) size += (long double)o->rotation_axis[i] * o->rotation_axis[i];
+  for (int i = 0; i < 3; ++i) n[i] = o->rotation_axis[i] / sqrtl(size);
+  placed made;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const long double across = i == j ? 0 : (j == (i + 1) % 3 ? -1 : 1) * n[3 - i - j];
+      made.m[i][j] = o->scale * ((i == j ? c : 0) + (1 - c) * n[i] * n[j] + s * across);
+    }
+    made.shift[i] = o->translation[i];
+  }
+  return made;
+}
+
+/* Where a point x of now was: the inverse of scale times rotation is its transpose over the scale's square. */
+static void before_of(const riis_surface_options *now, const riis_surface_options *then, const double *x,
+                      long double *was) {
+  const placed a = placed_by(now), b = placed_by(then);
+  const long double scale_sq = (long double)now->scale * now->scale;
+  long double p[3] = {0, 0, 0};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) p[i] += a.m[j][i] * (x[j] - a.shift[j]) / scale_sq;
+  for (int i = 0; i < 3; ++i) {
+    was[i] = b.shift[i];
+    for (int j = 0; j < 3; ++j) was[i] += b.m[i][j] * p[j];
+  }
+}
+
+/* A valve at rest that is translated, turned, scaled, or all of it. */
+static void placements_move(void **state) {
+  (void)state;
+  double worst = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    riis_valve *valve = random_valve(trial % 3);
+    riis_surface_options now = surface_options(), then;
+    if (trial % 2) random_placement(&now);
+    now.flip_normals = trial % 5 == 0;
+    then = now;
+    then.tolerance = 7, then.n_threads = -3, then.flip_normals = 9, then.half_thickness = NAN; /* these do not count */
+    const int what = trial / 3 % 4;
+    for (int c = 0; c < 3 && (what == 0 || what == 3); ++c) then.translation[c] += now.scale * between(-1, 1);
+    if (what == 1 || what == 3) then.rotation_angle += between(-30, 30);
+    if (what == 3) then.rotation_axis[0] += 0.1;
+    if (what == 2 || what == 3) then.scale *= between(0.8, 1.2);
+    const double seconds = (any_of(2) ? 1 : -1) * pow(10, between(-4, 2));
+    riis_surface *surface = surface_of(valve, NULL);
+    CHECK_OK(riis_surface_update_moving(surface, valve, valve, seconds, &now, &then));
+    const surface_content c = surface_content_of(surface);
+    const double *velocity = velocity_of(surface);
+    double size = 5 * (now.scale + then.scale); /* of coordinates */
+    for (int i = 0; i < 3; ++i) size += fabs(now.translation[i]) + fabs(then.translation[i]);
+    for (int64_t i = 0; i < c.n_vertices; ++i) {
+      long double was[3];
+      before_of(&now, &then, c.xyz + 3 * i, was);
+      for (int k = 0; k < 3; ++k) {
+        const double expected = (double)((c.xyz[3 * i + k] - was[k]) / seconds);
+        const double off = fabs(velocity[3 * i + k] - expected) * fabs(seconds) / size;
+        if (!(off <= worst)) worst = off;
+      }
+    }
+    CHECK_AT_MOST(worst, 1e-14);
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve);
+  }
+  printf("off by %.2g of the coordinates over the time\n", worst);
+}
+
+/* Control points that are scaled by 1 + growth t and drift: so does every point, by arc length also. The state before may
+ * be earlier or later. */
+static void patches_grow_and_drift(void **state) {
+  (void)state;
+  double worst = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const strip shape = random_strip(trial % 4 ? 1 : 0);
+    const double growth = trial % 5 ? between(-0.5, 0.5) : 0, dt = (any_of(2) ? 1 : -1) * between(0.01, 0.5);
+    const double drift[3] = {between(-1, 1), between(-1, 1), between(-1, 1)};
+    const strip now = strip_at(&shape, 0, growth, drift), then = strip_at(&shape, -dt, growth, drift);
+    riis_valve *valve = valve_of(&now), *before = valve_of(&then);
+    riis_surface_options options = surface_options();
+    options.tolerance = pow(10, between(-2, 0));
+    riis_surface *surface = surface_of(valve, &options);
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, dt, NULL, NULL));
+    const surface_content c = surface_content_of(surface);
+    const double *velocity = velocity_of(surface);
+    /* A vertex is a point of the polylines, which are as far from the curves as the tolerance allows. */
+    const double allowed = fabs(growth) * options.tolerance * 0.1 + 1e-10 / fabs(dt);
+    for (int64_t i = 0; i < c.n_vertices; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double off = fabs(velocity[3 * i + k] - (growth * c.xyz[3 * i + k] + drift[k]));
+        if (!(off <= worst * allowed)) worst = off / allowed;
+      }
+    CHECK_AT_MOST(worst, 1);
+    riis_surface_destroy(&surface);
+    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+  }
+  printf("off by %.3f of what the tolerance allows\n", worst);
+}
+
+/* The same two states with the time's sign changed move the other way, to the last bit. */
+static void time_goes_back(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 15; ++trial) {
+    riis_valve *valve = random_valve(trial % 3), *before = NULL;
+    riis_surface_options options = surface_options(), then = surface_options();
+    random_placement(&then);
+    CHECK_OK(riis_valve_copy(valve, &before));
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", between(0, 1)));
+    CHECK_OK(riis_valve_set_scalar(before, "opening", between(0, 1)));
+    riis_surface *on = surface_of(valve, &options), *back = surface_of(valve, &options);
+    const double seconds = between(0.001, 1);
+    CHECK_OK(riis_surface_update_moving(on, valve, before, seconds, NULL, trial % 2 ? &then : NULL));
+    CHECK_OK(riis_surface_update_moving(back, valve, before, -seconds, NULL, trial % 2 ? &then : NULL));
+    assert_true(largest_speed(on, -1) > 0);
+    for (int64_t i = 0; i < 3 * surface_content_of(on).n_vertices; ++i)
+      CHECK_SAME(velocity_of(on)[i], -velocity_of(back)[i]);
+    riis_surface_destroy(&on), riis_surface_destroy(&back);
+    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+  }
+}
+
+/* Where a vertex was, by its velocity, is a point of the surface before, on the same patch at the same u and v. */
+static void vertices_come_from_their_place_before(void **state) {
+  (void)state;
+  double worst = 0, worst_uv = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    riis_valve *valve = random_valve(0), *before = NULL;
+    riis_surface_options options = surface_options(), then;
+    options.tolerance = 0.05;
+    then = options;
+    CHECK_OK(riis_valve_copy(valve, &before));
+    if (trial == 0) /* any number of parameters at once */
+      CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 0.7));
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", trial % 4 ? between(0, 1) : 0));
+    CHECK_OK(riis_valve_set_scalar(before, "opening", trial % 4 == 1 ? 1 : between(0, 1)));
+    if (trial % 3 == 0) then.rotation_angle = 12, then.scale = 1.1;
+    const double seconds = between(0.01, 1);
+    riis_surface *surface = surface_of(valve, &options), *was = NULL;
+    then.tolerance = 0.01;
+    was = surface_of(before, &then);
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, seconds, NULL, &then));
+    const surface_content c = surface_content_of(surface), w = surface_content_of(was);
+    const double *velocity = velocity_of(surface);
+    for (int64_t k = 0; k < 3 * c.n_triangles; k += 3) {
+      const int64_t i = c.vertex_id[k];
+      double p[3];
+      for (int x = 0; x < 3; ++x) p[x] = c.xyz[3 * i + x] - seconds * velocity[3 * i + x];
+      const riis_closest closest = closest_to(was, p[0], p[1], p[2]);
+      worst = fmax(worst, closest.distance);
+      const int64_t t = closest.triangle_id;
+      if (w.patch_id[t] != c.patch_id[k / 3]) { /* on a border, or where patches touch */
+        assert_true(closest.distance < 0.02);
+        continue;
+      }
+      double place[2] = {0, 0};
+      for (int x = 0; x < 6; ++x)
+        place[x % 2] += closest.barycentric[x / 2] * w.uv[2 * w.vertex_id[3 * t + x / 2] + x % 2];
+      /* At the root u means nothing. */
+      const double off = fmax(fabs(place[1] - c.uv[2 * i + 1]), c.uv[2 * i + 1] > 0.2 ? fabs(place[0] - c.uv[2 * i]) : 0);
+      worst_uv = fmax(worst_uv, off);
+    }
+    riis_surface_destroy(&surface), riis_surface_destroy(&was);
+    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+  }
+  printf("off the surface before by %.3g, off the place there by %.3g\n", worst, worst_uv);
+  CHECK_AT_MOST(worst, 0.02);
+  CHECK_AT_MOST(worst_uv, 0.1);
+}
+
+/* Steps of a thousandth are as fast as those of a fiftieth, where rounding and jumps hardly show. */
+static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
+  (void)state;
+  riis_valve *valve = random_valve(0), *before = NULL;
+  CHECK_OK(riis_valve_copy(valve, &before));
+  riis_surface *surface = surface_of(valve, NULL);
+  double largest[2] = {0, 0};
+  for (int fine = 0; fine < 2; ++fine)
+    for (int n = fine ? 1000 : 50, i = 1; i <= n; ++i) {
+      CHECK_OK(riis_valve_set_scalar(before, "opening", (double)(i - 1) / n));
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", (double)i / n));
+      CHECK_OK(riis_surface_update_moving(surface, valve, before, 1.0 / n, NULL, NULL));
+      largest[fine] = fmax(largest[fine], largest_speed(surface, -1));
+    }
+  printf("largest speed in 1000 steps: %.6f per unit of opening, in 50: %.6f\n", largest[1], largest[0]);
+  CHECK_AT_MOST(largest[1], 1.02 * largest[0]);
+  CHECK_AT_MOST(0.98 * largest[0], largest[1]);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve), riis_valve_destroy(&before);
+}
+
+/* --- Copies ---------------------------------------------------------------------------------------------------------- */
+
+static void a_copy_is_a_valve_of_its_own(void **state) {
+  (void)state;
+  for (int64_t kind = 0; kind < 3; ++kind) {
+    riis_valve *valve = random_valve(kind), *copy = NULL;
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.3));
+    CHECK_OK(riis_valve_copy(valve, &copy));
+    riis_surface *a = surface_of(valve, NULL), *b = surface_of(copy, NULL);
+    assert_true(is_same_content(a, b));
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.6));
+    CHECK_OK(riis_surface_update(b, copy, NULL));
+    assert_true(is_same_content(a, b));
+    riis_valve_destroy(&valve);
+    CHECK_OK(riis_surface_update(b, copy, NULL)); /* with its own second state */
+    assert_true(is_same_content(a, b));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "copy is NULL", riis_valve_copy(copy, NULL));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &valve));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is a handle of another kind",
+                  riis_valve_copy((const void *)a, &valve));
+    assert_null(valve);
+    riis_surface_destroy(&a), riis_surface_destroy(&b);
+    riis_valve_destroy(&copy);
+  }
+}
+
+/* --- Refusals -------------------------------------------------------------------------------------------------------- */
+
+typedef struct kept {
+  const riis_surface *surface;
+  const double *velocity, *xyz;
+  double *values;
+} kept;
+
+static kept keep(const riis_surface *surface) {
+  const surface_content c = surface_content_of(surface);
+  kept made = {surface, velocity_of(surface), c.xyz, malloc((size_t)c.n_vertices * 6 * sizeof(double))};
+  memcpy(made.values, made.xyz, (size_t)c.n_vertices * 3 * sizeof(double));
+  memcpy(made.values + 3 * c.n_vertices, made.velocity, (size_t)c.n_vertices * 3 * sizeof(double));
+  return made;
+}
+
+/* The same arrays in the same place with the same values. */
+static void check_kept(const kept *k) {
+  const surface_content c = surface_content_of(k->surface);
+  assert_ptr_equal(velocity_of(k->surface), k->velocity);
+  assert_ptr_equal(c.xyz, k->xyz);
+  assert_memory_equal(k->values, k->xyz, (size_t)c.n_vertices * 3 * sizeof(double));
+  assert_memory_equal(k->values + 3 * c.n_vertices, k->velocity, (size_t)c.n_vertices * 3 * sizeof(double));
+}
+
+static void refusals_leave_the_surface_as_it_was(void **state) {
+  (void)state;
+  const strip shape = random_strip(1);
+  riis_valve *aortic = random_valve(0), *before = NULL, *mitral = random_valve(1), *patches = valve_of(&shape);
+  riis_valve *bad = NULL;
+  CHECK_OK(riis_valve_copy(aortic, &before));
+  CHECK_OK(riis_valve_set_scalar(aortic, "opening", 0.5));
+  riis_surface *surface = surface_of(aortic, NULL);
+  CHECK_OK(riis_surface_update_moving(surface, aortic, before, 0.5, NULL, NULL));
+  kept all = keep(surface);
+#define MOVING_REFUSED(status, parts, ...)                                          \
+  do {                                                                              \
+    CHECK_REFUSED(status, parts, riis_surface_update_moving(surface, __VA_ARGS__)); \
+    check_kept(&all);                                                               \
+  } while (0)
+  static const struct {
+    double seconds;
+    const char *text;
+  } times[] = {{0, "seconds is 0;"},           {-0.0, "seconds is -0;"},         {NAN, "seconds is nan;"},
+               {INFINITY, "seconds is inf;"},  {-INFINITY, "seconds is -inf;"},  {1e-40, "seconds is 1e-40;"},
+               {-1e-40, "seconds is -1e-40;"}, {1e31, "seconds is 1e+31;"}};
+  for (size_t i = 0; i < sizeof times / sizeof *times; ++i)
+    MOVING_REFUSED(RIIS_INVALID_ARGUMENT, times[i].text, aortic, before, times[i].seconds, NULL, NULL);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL",
+                riis_surface_update_moving(NULL, aortic, before, 1, NULL, NULL));
+  MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", NULL, before, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve_before is NULL", aortic, NULL, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve_before is a handle of another kind", aortic, (const void *)surface, 1, NULL,
+                 NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind mitral|aortic", aortic, mitral, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind patches|aortic", aortic, patches, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind aortic|mitral", mitral, aortic, 1, NULL, NULL);
+
+  /* A state before that is no valve. */
+  CHECK_OK(riis_valve_copy(before, &bad));
+  CHECK_OK(riis_valve_set_scalar(bad, "bending_height", 1));
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: bending_height is 1;", aortic, bad, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 1;", bad, aortic, 1, NULL, NULL);
+  assert_null(strstr(riis_last_error(), "valve_before"));
+  riis_valve_destroy(&bad);
+  CHECK_OK(riis_valve_create("aortic", &bad));
+  CHECK_OK(riis_valve_set_scalar(bad, "opening", 0.25));
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: opening is 0.25,|aortic", aortic, bad, 1, NULL, NULL);
+  riis_valve_destroy(&bad);
+
+  /* Options, those of before by their own name. */
+  riis_surface_options options = surface_options();
+#define BEFORE_REFUSED(change, parts)                                             \
+  do {                                                                            \
+    riis_surface_options then = surface_options();                                \
+    then.change;                                                                  \
+    MOVING_REFUSED(RIIS_INVALID_ARGUMENT, parts, aortic, before, 1, NULL, &then); \
+  } while (0)
+  BEFORE_REFUSED(scale = 0, "options_before.scale is 0;|from 1e-12 to 1e+12");
+  BEFORE_REFUSED(scale = -1, "options_before.scale is -1;");
+  BEFORE_REFUSED(scale = NAN, "options_before.scale is nan;");
+  BEFORE_REFUSED(rotation_angle = 2e6, "options_before.rotation_angle is 2e+06;");
+  BEFORE_REFUSED(rotation_axis[2] = 0, "options_before.rotation_axis is (0, 0, 0);");
+  BEFORE_REFUSED(rotation_axis[1] = INFINITY, "options_before.rotation_axis is inf;");
+  BEFORE_REFUSED(translation[1] = 1e51, "options_before.translation is 1e+51;");
+  riis_surface_options then = surface_options();
+  then.struct_size = 8;
+  MOVING_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options_before is 8;", aortic, before, 1, NULL, &then);
+  options.scale = 0;
+  MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0;", aortic, before, 1, &options, NULL);
+  options = surface_options();
+  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* found after the curves are made */
+  MOVING_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles", aortic, before, 1, &options, NULL);
+  free(all.values);
+
+  /* Patches of another build. */
+  CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL));
+  all = keep(surface);
+  static const int32_t degree[4] = {1, 1, 1, 1}, sides[4] = {0, 1, 2, 3};
+  static const double square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
+  riis_patches other;
+  CHECK_OK(riis_patches_init(&other, sizeof other));
+  other.n_curves = 4, other.n_patches = 1;
+  other.degree = degree, other.control = square, other.curve_id = sides;
+  CHECK_OK(riis_valve_create_from_patches(&other, &bad));
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before has 4 curves and 1 patches|10 and 3", patches, bad, 1, NULL, NULL);
+  riis_valve_destroy(&bad);
+  CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL)); /* as good as new */
+  free(all.values);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&aortic), riis_valve_destroy(&before), riis_valve_destroy(&mitral), riis_valve_destroy(&patches);
+}
+
+static void vertex_velocities_are_asked_for_rightly(void **state) {
+  (void)state;
+  riis_valve *valve = random_valve(0);
+  riis_surface *surface = surface_of(valve, NULL);
+  int64_t n = -1;
+  const double *velocity;
+  CHECK_OK(riis_surface_vertex_velocities(surface, NULL, NULL));
+  CHECK_OK(riis_surface_vertex_velocities(surface, &n, NULL));
+  assert_int_equal(n, surface_content_of(surface).n_vertices);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_surface_vertex_velocities(NULL, &n, &velocity));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is a handle of another kind",
+                riis_surface_vertex_velocities((const void *)valve, &n, &velocity));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(triangles_are_those_of_a_plain_update),
+      cmocka_unit_test(arrays_have_no_velocity),
+      cmocka_unit_test(nothing_moves_where_nothing_changed),
+      cmocka_unit_test(parts_at_rest_have_no_velocity),
+      cmocka_unit_test(placements_move),
+      cmocka_unit_test(patches_grow_and_drift),
+      cmocka_unit_test(time_goes_back),
+      cmocka_unit_test(vertices_come_from_their_place_before),
+      cmocka_unit_test(no_vertex_of_the_aortic_valve_is_an_outlier),
+      cmocka_unit_test(a_copy_is_a_valve_of_its_own),
+      cmocka_unit_test(refusals_leave_the_surface_as_it_was),
+      cmocka_unit_test(vertex_velocities_are_asked_for_rightly),
+  };
+  rng = random_start("test_motion");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

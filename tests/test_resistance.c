@@ -1,0 +1,559 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Resistance, reaction and band sums: integrals over a grid against areas of discs, cylinders and spheres, sums by plain
+ * loops, and refusals that leave the arrays as they were. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+static random_source rng;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+static const double pi = 3.14159265358979323846;
+
+static riis_resistance resistance_of(double r) {
+  riis_resistance resistance;
+  CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
+  resistance.resistance = r;
+  return resistance;
+}
+
+/* The header's formula. */
+static double coefficient_at(double r, double eps, double distance) {
+  return distance < eps ? r / eps * (1 + cos(pi * distance / eps)) / (2 * eps) : 0;
+}
+
+/* --- Integrals ------------------------------------------------------------------------------------------------------- */
+
+/* A surface x(s, t), 0 <= s, t <= 1, by n * m quads, each of two triangles. */
+typedef void (*shape)(double s, double t, double *p);
+static const double disc_radius = 1, cylinder_radius = 1.3, sphere_radius = 0.8;
+static double frame[3][3], origin[3]; /* by which all are turned and moved */
+
+static void into_frame(double a, double b, double c, double *p) {
+  for (int i = 0; i < 3; ++i) p[i] = origin[i] + a * frame[0][i] + b * frame[1][i] + c * frame[2][i];
+}
+static void disc(double s, double t, double *p) {
+  into_frame(disc_radius * t * cos(2 * pi * s), disc_radius * t * sin(2 * pi * s), 0, p);
+}
+/* Half a radian and a bit wide. */
+static void cylinder(double s, double t, double *p) {
+  const double angle = 0.9 * (s - 0.5);
+  into_frame(cylinder_radius * cos(angle), cylinder_radius * sin(angle), 0.7 * t, p);
+}
+/* A cap with a polar angle up to 0.8. */
+static void cap(double s, double t, double *p) {
+  const double polar = 0.8 * t, angle = 2 * pi * s;
+  into_frame(sphere_radius * sin(polar) * cos(angle), sphere_radius * sin(polar) * sin(angle),
+             sphere_radius * cos(polar), p);
+}
+
+static void random_frame(void) {
+  const double a = between(0, 2 * pi), b = between(0, 2 * pi);
+  const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);
+  const double turned[3][3] = {{ca * cb, sa * cb, sb}, {-sa, ca, 0}, {-ca * sb, -sa * sb, cb}};
+  memcpy(frame, turned, sizeof frame);
+  for (int i = 0; i < 3; ++i) origin[i] = between(-1, 1);
+}
+
+static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
+  double *xyz = malloc((size_t)((n + 1) * (m + 1)) * 3 * sizeof *xyz);
+  int32_t *ids = malloc((size_t)(n * m) * 4 * sizeof *ids);
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= n; ++i) at((double)i / n, (double)j / m, xyz + 3 * (j * (n + 1) + i));
+  /* Where a shape closes, its ends are the same place to the last bit. */
+  for (int j = 0; j <= m; ++j)
+    if (at != cylinder) memcpy(xyz + 3 * (j * (n + 1) + n), xyz + 3 * j * (n + 1), 3 * sizeof *xyz);
+  for (int i = 1; i <= n; ++i)
+    if (at != cylinder) memcpy(xyz + 3 * i, xyz, 3 * sizeof *xyz);
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int32_t first = j * (n + 1) + i, corner[4] = {first, first + 1, first + n + 2, first + n + 1};
+      memcpy(ids + 4 * (j * n + i), corner, sizeof corner);
+    }
+  riis_surface_arrays arrays = triangle_arrays((n + 1) * (m + 1), xyz, n * m, ids);
+  arrays.corners_per_face = 4;
+  riis_surface_options options = surface_options();
+  options.half_thickness = half_thickness;
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  riis_surface *surface = surface_from(&arrays, &options);
+  free(xyz), free(ids);
+  return surface;
+}
+
+/* The sum of K over a grid with a spacing, times the cells' volume. */
+static double integral_of(const riis_surface *surface, const riis_resistance *resistance, double spacing) {
+  test_mesh nodes = lattice_around(surface, spacing, info_of(surface).half_thickness + spacing);
+  double volume = 1, sum = 0;
+  for (int c = 0; c < 3; ++c) { /* from one node to the next */
+    int64_t i = 1;
+    while (nodes.xyz[3 * i + c] == nodes.xyz[c]) ++i;
+    volume *= nodes.xyz[3 * i + c] - nodes.xyz[c];
+  }
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.fields = RIIS_FIELD_RIM;
+  options.search = RIIS_SEARCH_CLUSTERS;
+  CHECK_OK(riis_mesh_create(nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3, &mesh));
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  double *k = calloc((size_t)nodes.n, sizeof *k);
+  CHECK_OK(riis_mark_result_add_resistance(result, resistance, nodes.n, k, NULL));
+  for (int64_t i = 0; i < nodes.n; ++i) sum += k[i];
+  free(k);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  free_test_mesh(&nodes);
+  return sum * volume;
+}
+
+/* Without the rim the integral of K is the area times R / eps: of a plane and of a cylinder, whose layers inside and
+ * outside make up for each other, exactly; of a sphere times 1 + c eps^2 / r^2, where c is the integral of
+ * x^2 (1 + cos pi x) from 0 to 1, 1/3 - 2/pi^2. */
+static void the_integral_is_the_area(void **state) {
+  (void)state;
+  const double c = 1.0 / 3 - 2 / (pi * pi);
+  CHECK_NEAR(c, 0.1307, 1e-4);
+  const struct {
+    const char *name;
+    shape at;
+    int n, m;
+    double radius_sq; /* of a sphere, or infinite */
+  } shapes[] = {{"disc", disc, 300, 30, INFINITY},
+                {"part of a cylinder", cylinder, 60, 1, INFINITY},
+                {"part of a sphere", cap, 160, 60, sphere_radius * sphere_radius}};
+  for (int i = 0; i < 3; ++i)
+    for (int fine = 0; fine < 2; ++fine) {
+      const double eps = i == 2 ? 0.3 : 0.15, r = pow(10, between(-3, 3));
+      random_frame();
+      riis_surface *surface = surface_of(shapes[i].at, shapes[i].n, shapes[i].m, eps);
+      riis_resistance resistance = resistance_of(r);
+      resistance.rim = RIIS_RIM_CUT;
+      const double expected = r / eps * info_of(surface).area * (1 + c * eps * eps / shapes[i].radius_sq);
+      const double off = integral_of(surface, &resistance, eps / (fine ? 10 : 5)) / expected - 1;
+      resistance.rim = RIIS_RIM_ROUND;
+      const double round = integral_of(surface, &resistance, eps / (fine ? 10 : 5)) / expected - 1;
+      printf("%s, %d nodes in eps: off by %.2g of the area with the rim cut, %.2g more with a round rim\n",
+             shapes[i].name, fine ? 10 : 5, off, round - off);
+      CHECK_AT_MOST(fabs(off), fine ? 2e-3 : 5e-3);
+      assert_true(round > off + 0.02);
+      riis_surface_destroy(&surface);
+    }
+}
+
+/* --- Any surface, any nodes ------------------------------------------------------------------------------------------ */
+
+/* A moving aortic valve and nodes around it. */
+typedef struct flow {
+  riis_surface *surface;
+  test_mesh nodes;
+  riis_mesh *mesh;
+  riis_mark_result *result;
+  double *velocity, *value, *weight;
+} flow;
+
+enum { all_fields = RIIS_FIELD_RIM | RIIS_FIELD_SIDE | RIIS_FIELD_VELOCITY };
+
+static flow random_flow(int32_t fields, double limit) {
+  flow f = {0};
+  riis_valve *valve = NULL, *before = NULL;
+  CHECK_OK(riis_valve_create("aortic", &valve));
+  CHECK_OK(riis_valve_copy(valve, &before));
+  CHECK_OK(riis_valve_set_scalar(before, "leaflet_angle", between(55, 62)));
+  CHECK_OK(riis_surface_create(valve, NULL, &f.surface));
+  CHECK_OK(riis_surface_update_moving(f.surface, valve, before, between(0.01, 1), NULL, NULL));
+  f.nodes = lattice_around(f.surface, between(0.05, 0.09), 0.2);
+  f.mesh = mesh_from(&f.nodes);
+  f.result = new_result();
+  riis_mark_options options = mark_options();
+  options.fields = fields;
+  if (limit > 0) options.distance_limit = limit;
+  CHECK_OK(riis_mark_nodes(f.surface, f.mesh, &options, f.result));
+  const size_t n = (size_t)f.nodes.n;
+  f.velocity = malloc(3 * n * sizeof(double));
+  f.value = malloc(n * sizeof(double));
+  f.weight = malloc(n * sizeof(double));
+  for (size_t i = 0; i < 3 * n; ++i) f.velocity[i] = between(-1, 1);
+  for (size_t i = 0; i < n; ++i) f.value[i] = between(-100, 100), f.weight[i] = between(0, 1);
+  riis_valve_destroy(&valve), riis_valve_destroy(&before);
+  return f;
+}
+
+static void free_flow(flow *f) {
+  free(f->velocity), free(f->value), free(f->weight);
+  riis_mark_result_destroy(&f->result);
+  riis_mesh_destroy(&f->mesh);
+  free_test_mesh(&f->nodes);
+  riis_surface_destroy(&f->surface);
+}
+
+static riis_mark_fields fields_of(const flow *f) {
+  riis_mark_fields fields;
+  CHECK_OK(riis_mark_result_within_limit_fields(f->result, &fields, sizeof fields));
+  return fields;
+}
+
+/* K, K u of the surface, and the force, by a plain loop over all nodes, whatever the library keeps. */
+static void sums_are_those_of_plain_loops(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 12; ++trial) {
+    const double limit = trial % 3 ? between(0.1, 0.25) : 0;
+    flow f = random_flow(trial % 4 == 3 ? RIIS_FIELD_RIM : all_fields, limit);
+    const int moves = trial % 4 != 3;
+    riis_resistance resistance = resistance_of(trial == 5 ? 0 : pow(10, between(-5, 5)));
+    if (trial % 2) resistance.rim = RIIS_RIM_CUT;
+    if (trial % 3 == 2) resistance.half_thickness = between(0.02, limit);
+    const double eps = resistance.half_thickness == RIIS_AUTO ? 0.1 : resistance.half_thickness;
+    const int64_t n = f.nodes.n;
+    double *k = malloc((size_t)n * 4 * sizeof *k), *momentum = k + n, *expected = malloc((size_t)n * 4 * sizeof *k);
+    for (int64_t i = 0; i < 4 * n; ++i) k[i] = expected[i] = between(-1, 1); /* to be added to */
+    double force[3], expected_force[3], scale = 0;
+    for (int c = 0; c < 3; ++c) force[c] = expected_force[c] = between(-1, 1);
+    const found_nodes within = within_in(f.result);
+    const riis_mark_fields fields = fields_of(&f);
+    int64_t n_resisting = 0;
+    for (int64_t j = 0; j < within.n; ++j) {
+      const int64_t i = within.node_id[j];
+      if (resistance.rim == RIIS_RIM_CUT && fields.rim[j]) continue;
+      const double at = coefficient_at(resistance.resistance, eps, within.distance[j]);
+      n_resisting += at > 0;
+      expected[i] += at;
+      for (int c = 0; c < 3; ++c) {
+        const double u = moves ? fields.velocity[3 * j + c] : 0;
+        expected[n + 3 * i + c] += at * u;
+        expected_force[c] += f.weight[i] * at * (f.velocity[3 * i + c] - u);
+        scale += f.weight[i] * at * (1 + fabs(u));
+      }
+    }
+    assert_true(n_resisting > 50 || trial == 5);
+    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, k, moves ? momentum : NULL));
+    if (!moves) memcpy(momentum, expected + n, (size_t)n * 3 * sizeof *k);
+    const double largest = resistance.resistance / (eps * eps);
+    for (int64_t i = 0; i < n; ++i) CHECK_NEAR(k[i], expected[i], 1e-14 * (1 + largest));
+    for (int64_t i = 0; i < 3 * n; ++i)
+      CHECK_NEAR(momentum[i], expected[n + i], 1e-14 * (1 + fabs(expected[n + i]) + largest));
+    CHECK_OK(riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, f.weight, force));
+    for (int c = 0; c < 3; ++c) CHECK_NEAR(force[c], expected_force[c], 1e-12 * (1 + scale));
+
+    /* One without the other, and neither. */
+    double *alone = calloc((size_t)n * 3, sizeof *alone), *both = calloc((size_t)n * 4, sizeof *both);
+    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, NULL, NULL));
+    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, both, moves ? both + n : NULL));
+    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, alone, NULL));
+    assert_memory_equal(alone, both, (size_t)n * sizeof *alone);
+    memset(alone, 0, (size_t)n * 3 * sizeof *alone);
+    if (moves) CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, NULL, alone));
+    assert_memory_equal(alone, both + n, (size_t)n * 3 * sizeof *alone);
+
+    /* Momentum is K times the surface's velocity. */
+    for (int64_t j = 0; j < within.n && moves; ++j)
+      for (int c = 0; c < 3; ++c)
+        CHECK_SAME(both[n + 3 * within.node_id[j] + c] + 0.0, both[within.node_id[j]] * fields.velocity[3 * j + c] + 0.0);
+    free(k), free(expected), free(alone), free(both);
+    free_flow(&f);
+  }
+}
+
+/* The force on the surface is what the flow loses; ranks that share the nodes add theirs. */
+static void ranks_add_up(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 8; ++trial) {
+    flow f = random_flow(all_fields, 0.2);
+    const int64_t n = f.nodes.n;
+    riis_resistance resistance = resistance_of(3);
+    double whole[3] = {0, 0, 0}, parts[3] = {0, 0, 0}, halves[3] = {0, 0, 0}, scale = 0;
+    riis_band_sums all, of_rank[2];
+    CHECK_OK(riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, f.weight, whole));
+    CHECK_OK(riis_mark_result_band_sums(f.result, 0, 0.2, n, f.value, f.weight, &all, sizeof all));
+    /* Weights of 0 for the other rank's. */
+    double *weight = malloc((size_t)n * sizeof *weight);
+    uint8_t *rank = malloc((size_t)n);
+    for (int64_t i = 0; i < n; ++i) rank[i] = random_bits(&rng) & 1, scale += 300 * f.weight[i];
+    for (int r = 0; r < 2; ++r) {
+      for (int64_t i = 0; i < n; ++i) weight[i] = rank[i] == r ? f.weight[i] : 0;
+      CHECK_OK(riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, weight, parts));
+      CHECK_OK(riis_mark_result_band_sums(f.result, 0, 0.2, n, f.value, weight, of_rank + r, sizeof all));
+    }
+    for (int c = 0; c < 3; ++c) CHECK_NEAR(parts[c], whole[c], 1e-13 * scale);
+    for (int side = 0; side < 2; ++side) {
+      CHECK_NEAR(of_rank[0].sum[side] + of_rank[1].sum[side], all.sum[side], 1e-13 * scale);
+      CHECK_NEAR(of_rank[0].weight[side] + of_rank[1].weight[side], all.weight[side], 1e-13 * scale);
+    }
+    /* Each rank with a mesh of its own nodes. */
+    for (int r = 0; r < 2; ++r) {
+      double *of_mesh = malloc((size_t)n * 7 * sizeof *of_mesh), *velocity = of_mesh + 3 * n, *own = of_mesh + 6 * n;
+      int64_t m = 0;
+      for (int64_t i = 0; i < n; ++i) {
+        if (rank[i] != r) continue;
+        memcpy(of_mesh + 3 * m, f.nodes.xyz + 3 * i, 24);
+        memcpy(velocity + 3 * m, f.velocity + 3 * i, 24);
+        own[m++] = f.weight[i];
+      }
+      riis_mesh *mesh = NULL;
+      riis_mark_result *result = new_result();
+      riis_mark_options options = mark_options();
+      options.fields = RIIS_FIELD_VELOCITY;
+      CHECK_OK(riis_mesh_create(m, of_mesh, of_mesh + 1, of_mesh + 2, 3, &mesh));
+      CHECK_OK(riis_mark_nodes(f.surface, mesh, &options, result));
+      CHECK_OK(riis_mark_result_add_reaction(result, &resistance, m, velocity, own, halves));
+      riis_mark_result_destroy(&result);
+      riis_mesh_destroy(&mesh);
+      free(of_mesh);
+    }
+    for (int c = 0; c < 3; ++c) CHECK_NEAR(halves[c], whole[c], 1e-13 * scale);
+    free(weight), free(rank);
+    free_flow(&f);
+  }
+}
+
+static void two_surfaces_add_up(void **state) {
+  (void)state;
+  flow f = random_flow(all_fields, 0);
+  const int64_t n = f.nodes.n;
+  riis_surface_options options = surface_options();
+  options.rotation_angle = 90, options.rotation_axis[0] = 1;
+  riis_surface *other = aortic_surface(&options);
+  riis_mark_result *result = new_result();
+  CHECK_OK(riis_mark_nodes(other, f.mesh, NULL, result));
+  double *sum = calloc((size_t)n * 12, sizeof *sum), *one = sum + 4 * n, *two = sum + 8 * n;
+  riis_resistance a = resistance_of(2), b = resistance_of(5);
+  CHECK_OK(riis_mark_result_add_resistance(f.result, &a, n, one, one + n));
+  CHECK_OK(riis_mark_result_add_resistance(result, &b, n, two, NULL)); /* a valve at rest */
+  CHECK_OK(riis_mark_result_add_resistance(f.result, &a, n, sum, sum + n));
+  CHECK_OK(riis_mark_result_add_resistance(result, &b, n, sum, NULL));
+  int64_t n_both = 0;
+  for (int64_t i = 0; i < 4 * n; ++i) {
+    CHECK_SAME(sum[i], one[i] + two[i]);
+    n_both += i < n && one[i] > 0 && two[i] > 0;
+  }
+  assert_true(n_both > 10);
+  free(sum);
+  riis_mark_result_destroy(&result);
+  riis_surface_destroy(&other);
+  free_flow(&f);
+}
+
+static void band_sums_are_those_of_a_plain_loop(void **state) {
+  (void)state;
+  int64_t n_rim = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    flow f = random_flow(all_fields, 0.25);
+    const found_nodes within = within_in(f.result);
+    const riis_mark_fields fields = fields_of(&f);
+    for (int i = 0; i < 5; ++i) {
+      double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
+      if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n]; /* both ends belong to it */
+      riis_band_sums expected = {{0, 0}, {0, 0}, {0, 0}}, sums;
+      double scale = 0;
+      for (int64_t j = 0; j < within.n; ++j) {
+        const int64_t node = within.node_id[j];
+        if (within.distance[j] < inner || within.distance[j] > outer) continue;
+        n_rim += fields.rim[j];
+        if (fields.rim[j] || fields.side[j] == 0) continue;
+        const int band = fields.side[j] > 0;
+        expected.sum[band] += f.weight[node] * f.value[node];
+        expected.weight[band] += f.weight[node];
+        ++expected.n_nodes[band];
+        scale += 100 * f.weight[node];
+      }
+      memset(&sums, 0x55, sizeof sums);
+      CHECK_OK(riis_mark_result_band_sums(f.result, inner, outer, f.nodes.n, f.value, f.weight, &sums, sizeof sums));
+      for (int band = 0; band < 2; ++band) {
+        assert_int_equal(sums.n_nodes[band], expected.n_nodes[band]);
+        CHECK_NEAR(sums.sum[band], expected.sum[band], 1e-13 * scale);
+        CHECK_NEAR(sums.weight[band], expected.weight[band], 1e-13 * scale);
+      }
+      if (i == 0) assert_true(sums.n_nodes[0] > 100 && sums.n_nodes[1] > 100);
+    }
+    free_flow(&f);
+  }
+  assert_true(n_rim > 100);
+}
+
+/* A pressure that jumps across a closed surface: the means are those of its sides. */
+static void a_jump_of_pressure_is_measured(void **state) {
+  (void)state;
+  random_frame();
+  riis_surface *surface = surface_of(disc, 100, 10, 0.1);
+  test_mesh nodes = lattice_around(surface, 0.05, 0.2);
+  riis_mesh *mesh = mesh_from(&nodes);
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.fields = RIIS_FIELD_SIDE | RIIS_FIELD_RIM;
+  options.distance_limit = 0.2;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+  double *pressure = malloc((size_t)nodes.n * 2 * sizeof *pressure), *weight = pressure + nodes.n;
+  for (int64_t i = 0; i < nodes.n; ++i) {
+    double height = 0;
+    for (int c = 0; c < 3; ++c) height += frame[2][c] * (nodes.xyz[3 * i + c] - origin[c]);
+    pressure[i] = height > 0 ? 7 : 12;
+    weight[i] = between(0.5, 1);
+  }
+  riis_band_sums sums;
+  CHECK_OK(riis_mark_result_band_sums(result, 0.1, 0.2, nodes.n, pressure, weight, &sums, sizeof sums));
+  /* The disc's triangles turn so that their normals are along the frame's third axis, or all against it. */
+  const double mean[2] = {sums.sum[0] / sums.weight[0], sums.sum[1] / sums.weight[1]};
+  const int turned = mean[0] < mean[1];
+  CHECK_NEAR(mean[turned], 12, 1e-12);
+  CHECK_NEAR(mean[1 - turned], 7, 1e-12);
+  free(pressure);
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  free_test_mesh(&nodes);
+  riis_surface_destroy(&surface);
+}
+
+/* --- Refusals -------------------------------------------------------------------------------------------------------- */
+
+static void refusals_leave_the_arrays(void **state) {
+  (void)state;
+  flow f = random_flow(all_fields, 0.2), bare = random_flow(0, 0);
+  const int64_t n = f.nodes.n, m = bare.nodes.n;
+  const size_t size = (size_t)(n > m ? n : m) * 4 * sizeof(double);
+  double *k = malloc(size), *before = malloc(size), *momentum = k + n, force[3] = {1, 2, 3};
+  for (size_t i = 0; i < size / sizeof *k; ++i) k[i] = before[i] = between(-1, 1);
+  riis_resistance resistance;
+  riis_band_sums sums, sums_before;
+  memset(&sums, 0x33, sizeof sums);
+  sums_before = sums;
+#define UNCHANGED()                                               \
+  do {                                                            \
+    assert_memory_equal(k, before, size);                         \
+    assert_true(force[0] == 1 && force[1] == 2 && force[2] == 3); \
+    assert_memory_equal(&sums, &sums_before, sizeof sums);        \
+  } while (0)
+#define CALLS_REFUSED(status, parts)                                                                      \
+  do {                                                                                                    \
+    CHECK_REFUSED(status, parts, riis_mark_result_add_resistance(f.result, &resistance, n, k, momentum)); \
+    UNCHANGED();                                                                                          \
+    CHECK_REFUSED(status, parts,                                                                          \
+                  riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, f.weight, force));  \
+    UNCHANGED();                                                                                          \
+  } while (0)
+#define CHANGED_IS_REFUSED(change, parts)        \
+  do {                                           \
+    resistance = resistance_of(1);               \
+    resistance.change;                           \
+    CALLS_REFUSED(RIIS_INVALID_ARGUMENT, parts); \
+  } while (0)
+  CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
+  assert_true(isnan(resistance.resistance) && resistance.half_thickness == RIIS_AUTO &&
+              resistance.rim == RIIS_RIM_ROUND && resistance.reserved == 0);
+  CALLS_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.resistance is nan;|from 0 to 1e+60");
+  CHANGED_IS_REFUSED(resistance = -1, "resistance.resistance is -1;");
+  CHANGED_IS_REFUSED(resistance = -1e-300, "resistance.resistance is -1e-300;");
+  CHANGED_IS_REFUSED(resistance = INFINITY, "resistance.resistance is inf;");
+  CHANGED_IS_REFUSED(resistance = 1.1e60, "resistance.resistance is 1.1e+60;");
+  CHANGED_IS_REFUSED(half_thickness = 0.21, "resistance.half_thickness is 0.21;|the distance limit of the marking, 0.2");
+  CHANGED_IS_REFUSED(half_thickness = 0, "resistance.half_thickness is 0;|from 1e-50");
+  CHANGED_IS_REFUSED(half_thickness = -0.1, "resistance.half_thickness is -0.1;");
+  CHANGED_IS_REFUSED(half_thickness = NAN, "resistance.half_thickness is nan;");
+  CHANGED_IS_REFUSED(rim = 2, "resistance.rim is 2;|RIIS_RIM_ROUND or RIIS_RIM_CUT");
+  CHANGED_IS_REFUSED(rim = -1, "resistance.rim is -1;");
+  CHANGED_IS_REFUSED(reserved = 5, "resistance.reserved is 5");
+  static const int64_t sizes[] = {0, 8, 24, 40, -32};
+  for (int i = 0; i < 5; ++i) {
+    resistance = resistance_of(1);
+    resistance.struct_size = sizes[i];
+    CALLS_REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of resistance");
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of resistance", riis_resistance_init(&resistance, sizes[i]));
+  }
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL", riis_resistance_init(NULL, sizeof resistance));
+
+  resistance = resistance_of(1);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 7;|a mesh with",
+                riis_mark_result_add_resistance(f.result, &resistance, 7, k, momentum));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is -1;",
+                riis_mark_result_add_reaction(f.result, &resistance, -1, f.velocity, f.weight, force));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 0;",
+                riis_mark_result_band_sums(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
+  UNCHANGED();
+
+  /* Fields that the result lacks. */
+  const char *lacks = "options.fields = 0";
+  resistance.rim = RIIS_RIM_CUT;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",
+                riis_mark_result_add_resistance(bare.result, &resistance, m, k, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_FIELD_RIM",
+                riis_mark_result_add_reaction(bare.result, &resistance, m, bare.velocity, bare.weight, force));
+  resistance.rim = RIIS_RIM_ROUND;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "momentum needs RIIS_FIELD_VELOCITY|options.fields = 0",
+                riis_mark_result_add_resistance(bare.result, &resistance, m, k, momentum));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_SIDE",
+                riis_mark_result_band_sums(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
+  assert_non_null(strstr(riis_last_error(), lacks));
+  riis_mark_options options = mark_options();
+  options.fields = RIIS_FIELD_SIDE;
+  CHECK_OK(riis_mark_nodes(bare.surface, bare.mesh, &options, bare.result));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_RIM|options.fields = 8",
+                riis_mark_result_band_sums(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
+  UNCHANGED();
+
+  /* Bands. */
+#define BAND_REFUSED(inner, outer, parts)                                                                        \
+  do {                                                                                                           \
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts,                                                                  \
+                  riis_mark_result_band_sums(f.result, inner, outer, n, f.value, f.weight, &sums, sizeof sums)); \
+    UNCHANGED();                                                                                                 \
+  } while (0)
+  BAND_REFUSED(0.15, 0.1, "inner is 0.15;|outer, which is 0.1");
+  BAND_REFUSED(-0.01, 0.1, "inner is -0.01;");
+  BAND_REFUSED(NAN, 0.1, "inner is nan;");
+  BAND_REFUSED(0, NAN, "inner is 0;|nan");
+  BAND_REFUSED(0, 0.3, "outer is 0.3;|the distance limit of the marking, 0.2");
+  BAND_REFUSED(0, INFINITY, "outer is inf;");
+  static const int64_t sum_sizes[] = {0, 40, 56};
+  for (int i = 0; i < 3; ++i)
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of sums",
+                  riis_mark_result_band_sums(f.result, 0, 0.1, n, f.value, f.weight, &sums, sum_sizes[i]));
+  UNCHANGED();
+
+  /* NULLs. */
+  const void *no_result = f.mesh;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL",
+                riis_mark_result_add_resistance(NULL, &resistance, n, k, momentum));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is a handle of another kind",
+                riis_mark_result_add_resistance(no_result, &resistance, n, k, momentum));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL",
+                riis_mark_result_add_resistance(f.result, NULL, n, k, momentum));
+#define REACTION_REFUSED(parts, ...) \
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_mark_result_add_reaction(__VA_ARGS__))
+  REACTION_REFUSED("result is NULL", NULL, &resistance, n, f.velocity, f.weight, force);
+  REACTION_REFUSED("resistance is NULL", f.result, NULL, n, f.velocity, f.weight, force);
+  REACTION_REFUSED("velocity is NULL", f.result, &resistance, n, NULL, f.weight, force);
+  REACTION_REFUSED("weight is NULL", f.result, &resistance, n, f.velocity, NULL, force);
+  REACTION_REFUSED("force is NULL", f.result, &resistance, n, f.velocity, f.weight, NULL);
+#define SUMS_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_mark_result_band_sums(__VA_ARGS__))
+  SUMS_REFUSED("result is NULL", NULL, 0, 0.1, n, f.value, f.weight, &sums, sizeof sums);
+  SUMS_REFUSED("value is NULL", f.result, 0, 0.1, n, NULL, f.weight, &sums, sizeof sums);
+  SUMS_REFUSED("weight is NULL", f.result, 0, 0.1, n, f.value, NULL, &sums, sizeof sums);
+  SUMS_REFUSED("sums is NULL", f.result, 0, 0.1, n, f.value, f.weight, NULL, sizeof sums);
+  UNCHANGED();
+
+  /* A result that was never marked with. */
+  riis_mark_result *empty = new_result();
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with",
+                riis_mark_result_add_resistance(empty, &resistance, 0, k, NULL));
+  REACTION_REFUSED("result was never marked with", empty, &resistance, 0, f.velocity, f.weight, force);
+  SUMS_REFUSED("needs RIIS_FIELD_SIDE", empty, 0, 0, 0, f.value, f.weight, &sums, sizeof sums);
+  UNCHANGED();
+  riis_mark_result_destroy(&empty);
+  free(k), free(before);
+  free_flow(&f), free_flow(&bare);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_integral_is_the_area),
+      cmocka_unit_test(sums_are_those_of_plain_loops),
+      cmocka_unit_test(ranks_add_up),
+      cmocka_unit_test(two_surfaces_add_up),
+      cmocka_unit_test(band_sums_are_those_of_a_plain_loop),
+      cmocka_unit_test(a_jump_of_pressure_is_measured),
+      cmocka_unit_test(refusals_leave_the_arrays),
+  };
+  rng = random_start("test_resistance");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
