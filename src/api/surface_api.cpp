@@ -18,7 +18,7 @@ using riis::require_handle;
 
 namespace {
 
-// Sizes of the first release.
+// The structs' sizes in the first release.
 constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 
 const riis_surface_options default_options{
@@ -65,7 +65,7 @@ void check_options(const riis_surface_options &options) {
 
 riis::Placement placement_of(const riis_surface_options &options) {
   const double *axis = options.rotation_axis, *t = options.translation;
-  // Scaled before it is squared.
+  // hypot scales before it squares, so very long and very short axes are safe.
   const double size = std::hypot(axis[0], axis[1], axis[2]);
   return {options.scale,
           riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
@@ -76,13 +76,13 @@ double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
 
-// distance_tolerance * half_thickness.
+// Returns distance_tolerance * half_thickness. The tolerance stands in where distance_tolerance is RIIS_AUTO.
 double distance_error_of(const riis_surface_options &options) {
   return half_thickness_of(options) *
          (options.distance_tolerance == RIIS_AUTO ? options.tolerance : options.distance_tolerance);
 }
 
-// A translation so far that coordinates round by what matters would flatten the valve.
+// Refuses a translation so far that the rounding of coordinates would flatten the valve.
 void check_precision(const riis_surface_options &options, const char *name, double wanted) {
   const double *t = options.translation;
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
@@ -91,7 +91,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Where it is not said: so many that starting them pays, going by the last content.
+// Where the options leave the number open, takes as many threads as pay for their start. The last content's size is the guide.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
   if (options.n_threads > 0) return options.n_threads;
   constexpr std::size_t triangles_per_thread = 4096;
@@ -100,14 +100,14 @@ int threads_for(const riis_surface &surface, const riis_surface_options &options
                                                 static_cast<std::size_t>(riis::default_thread_count())));
 }
 
-// Above this many triangles, of some 300 bytes each, memory is worth more than the time to get it again.
+// A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
 constexpr std::size_t max_triangles_kept = 1'000'000;
 
 riis::SurfaceRequest request_of(const riis_surface &surface, const riis_surface_options &options) {
   return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, threads_for(surface, options)};
 }
 
-// Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
+// Makes the new content aside and puts it in place at the end: a failure leaves the surface as it was.
 template <class Make>
 void fill(riis_surface &surface, const riis_surface_options &options, const Make &make) {
   const riis::SurfaceRequest request = request_of(surface, options);
