@@ -8,8 +8,7 @@
 
 static void numbers_of_the_model(void **state) {
   (void)state;
-  /* Area and bounds that the model must have; triangles lie on chords, so both come from below as the tolerance falls.
-   */
+  /* The area and bounds that the model must have. Triangles lie on chords, so both approach from below as the tolerance falls. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -45,7 +44,7 @@ static void default_half_thickness_follows_the_scale(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Everything the triangles carry, checked one by one. */
+/* Checks all data of the triangles, one by one. */
 static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -95,8 +94,8 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Downstream is from the ventricle to the sinus: a point in each sinus, between cusp and wall, is on the side +1, a
- * point below the closed middle on the side -1; flipped, the other way round. */
+/* Downstream is from the ventricle to the sinus. A point in each sinus, between cusp and wall, is on side +1. A point below the
+ * closed middle is on side -1. Flipped normals swap the sides. */
 static void normals_point_downstream(void **state) {
   (void)state;
   const double angle[3] = {0, 119.5, -121.5};
@@ -114,7 +113,7 @@ static void normals_point_downstream(void **state) {
       assert_int_equal(below.leaflet_id, cusp);
       assert_int_equal(below.side, -downstream);
     }
-    /* And of every triangle: the area vector of each cusp points outwards and upwards. */
+    /* This holds for whole cusps: the area vector of each points outwards and upwards. */
     int64_t n;
     const double *xyz;
     const int64_t *id;
@@ -139,7 +138,7 @@ static void normals_point_downstream(void **state) {
   }
 }
 
-/* scale, then rotation, then translation, of the same triangles. */
+/* The same triangles are scaled, then rotated, then moved. */
 static void placement_is_applied_last(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -177,7 +176,7 @@ static void three_cusps_are_three_pieces(void **state) {
   /* No vertex of one cusp touches another's: the radii differ at the commissures. Smallest gap at each. */
   double gap = INFINITY;
   int32_t *of_vertex = malloc((size_t)n_vertices * sizeof *of_vertex);
-  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* vertices that only triangles without area had */
+  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* stays for vertices that only triangles without area had */
   for (int64_t i = 0; i < 3 * n; ++i) of_vertex[id[i]] = leaflet_id[i / 3];
   for (int64_t i = 0; i < n_vertices; ++i)
     for (int64_t j = i + 1; j < n_vertices; ++j)
@@ -193,8 +192,8 @@ static void three_cusps_are_three_pieces(void **state) {
 
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
-/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved: every edge
- * there (u = 0 at both ends) is of exactly two triangles. Sides depend on it where the cusp is folded. */
+/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge there
+ * (u = 0 at both ends) belongs to exactly two triangles. Sides depend on this where the cusp is folded. */
 static void halves_meet_to_the_last_bit(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -267,7 +266,7 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
   CHECK_OK(riis_surface_update(surface, valve, NULL));
   CHECK_NEAR(info_of(surface).lower[2], 8, 1e-12);
   CHECK_NEAR(info_of(surface).upper[2], 13, 1e-12);
-  /* A refused update leaves all as it was. */
+  /* A refused update changes nothing. */
   const riis_surface_info before = info_of(surface);
   CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 1.5));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height", riis_surface_update(surface, valve, NULL));
@@ -279,7 +278,7 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
   assert_null(valve);
 }
 
-/* Every parameter but root_height changes the triangles; every name and default of the paper's table is there. */
+/* Every parameter but root_height changes the triangles. All names and defaults of the paper's table exist. */
 static void every_parameter_by_name(void **state) {
   (void)state;
   static const struct {
@@ -336,7 +335,7 @@ static void every_parameter_by_name(void **state) {
     double values[3];
     CHECK_OK(riis_valve_get(valve, name, n_values, values));
     for (int k = 0; k < n_values; ++k) CHECK_SAME(values[k], expected[k]);
-    /* Changed a little, the surface changes; put back, it is the same again. */
+    /* A small change of the parameter changes the surface. The old value gives the old surface again. */
     riis_surface *before = NULL, *after = NULL;
     CHECK_OK(riis_surface_create(valve, NULL, &before));
     for (int k = 0; k < n_values; ++k) values[k] += 0.01;

@@ -1,6 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds what the exhaustive one finds, to the last bit, whatever mesh, surface, limit, mask, instructions and
- * number of threads; where it cannot be used the exhaustive one runs and is named. */
+/* SPDX-License-Identifier: Apache-2.0 The search over clusters finds what the exhaustive one finds, to the last bit, whatever
+ * mesh, surface, limit, mask, instructions and number of threads; where it cannot be used the exhaustive one runs and is
+ * named. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -20,7 +20,7 @@ static riis_mesh *mesh_of(int64_t n, const double *xyz) {
   return mesh;
 }
 
-/* Whether this processor has them. */
+/* Tells whether the marking was refused because this processor lacks the instructions. */
 static int is_refused(riis_status status, int32_t instructions) {
   if (status == RIIS_OK) return 0;
   char text[64];
@@ -30,10 +30,11 @@ static int is_refused(riis_status status, int32_t instructions) {
   return 1;
 }
 
-static int32_t most_threads; /* that ran in any of these */
+static int32_t most_threads; /* the most threads that ran in any of these markings */
 static int64_t most_within;
 
-/* By all instructions that there are and up to so many threads; expected_search is what runs. A fresh mesh each time if fresh. */
+/* Marks with every instruction set and up to max_threads threads, and compares. expected_search is the search that must run. If
+ * fresh, each marking has a new mesh. */
 static void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                        int32_t expected_search) {
   riis_mark_result *expected = new_result(), *result = new_result();
@@ -78,7 +79,7 @@ static void check(const riis_surface *surface, int64_t n, const double *xyz, dou
   riis_mesh_destroy(&mesh);
 }
 
-/* A point of a surface's triangle, moved by up to so much. */
+/* A point of one of a surface's triangles, moved by up to `off`. */
 static void point_near(const riis_surface *surface, double off, double *p) {
   const surface_content all = surface_content_of(surface);
   const int64_t *id = all.vertex_id + 3 * (random_bits(&rng) % (uint64_t)all.n_triangles);
@@ -117,7 +118,7 @@ static void meshes_of_few_nodes(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* All in one place, in few places, on a line, in a plane; counts around those of leaves, clusters and regions. */
+/* Nodes in one place, in few places, on a line or in a plane. Their numbers are near those of a leaf, a cluster and a region. */
 static void nodes_without_extent(void **state) {
   (void)state;
   static const int counts[] = {1, 2, 31, 33, 100, 511, 513, 1025, 8191, 8193, 20000};
@@ -143,7 +144,7 @@ static void nodes_without_extent(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Differences of coordinates that have no inverse, or are the smallest that there are. */
+/* The coordinates differ by numbers that have no inverse, or by the smallest number. */
 static void nodes_that_differ_by_next_to_nothing(void **state) {
   (void)state;
   const double soup[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
@@ -169,8 +170,8 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Both valves; spacings that grow to one side, and cells a hundred times as long as they are high; limits from next to nothing to beyond
- * the mesh. */
+/* Both valves, with spacings that grow to one side or cells a hundred times as long as they are high. Limits reach from nearly 0
+ * to beyond the mesh. */
 static void graded_and_anisotropic_meshes(void **state) {
   (void)state;
   static const double limits[] = {0, 1e-3, 0.05, 0.4, 50};
@@ -195,7 +196,7 @@ static void graded_and_anisotropic_meshes(void **state) {
       }
       riis_surface_destroy(&surface);
     }
-  /* Threads are as many as were asked for, if OpenMP gives them: more than one ran. */
+  /* If OpenMP gives as many threads as asked for, more than one ran. */
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
 }
 
@@ -223,7 +224,8 @@ static void masked_nodes_are_left_out(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* A node alone, so that nothing but what is allowed for single precision makes its box large: the limit is its distance, or a bit less. */
+/* Each mesh is one node, so only the allowance for single precision makes its box large. The limit is the node's distance, or a
+ * bit less. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -233,7 +235,7 @@ static void nodes_at_the_limit_are_found(void **state) {
   const double square[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
   const int32_t ids[6] = {0, 1, 2, 0, 2, 3};
   const riis_surface_arrays arrays = triangle_arrays(4, square, 2, ids);
-  /* Of the square's box the distance is that of the square. */
+  /* The square's box has the same distance as the square. */
   riis_surface *surfaces[2] = {valve_surface("aortic", options), surface_from(&arrays, &options)};
   for (int k = 0; k < 2; ++k) {
     int n_tried = 0;
@@ -256,7 +258,7 @@ static void nodes_at_the_limit_are_found(void **state) {
 
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
 
-/* A sphere about the origin, (2 n) times n quads, two triangles each but at the poles. */
+/* A sphere about the origin of (2 n) times n quads, each of two triangles except at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
   double *at = malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at);
   int32_t *ids = malloc((size_t)(4 * n * n) * 3 * sizeof *ids);
@@ -283,8 +285,8 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   return surface;
 }
 
-/* The surface's middle is as far from all of it: far more pairs than there is room for. How many pairs must be left for the decision is
- * counted here: triangles whose distance is no more than what single precision may be off by beyond the smallest. */
+/* All of the surface is equally far from its middle, so the filter leaves far more pairs than there is room for. The test counts
+ * the pairs that the filter must leave: triangles whose distance is within single precision's error of the smallest. */
 static void more_pairs_than_room(void **state) {
   (void)state;
   enum { n = 40, room = 4096 };
@@ -298,20 +300,20 @@ static void more_pairs_than_room(void **state) {
     n_equal += oracle_point_triangle(middle, abc) <= smallest + error;
   }
   printf("%lld of %lld triangles are as near\n", (long long)n_equal, (long long)all.n_triangles);
-  assert_true(32 * n_equal > 2 * room); /* a leaf's alone */
+  assert_true(32 * n_equal > 2 * room); /* one leaf has so many */
   for (int spread = 0; spread < 3; ++spread) {
     for (int i = 0; i < 3 * n; ++i)
       xyz[i] = spread == 0 ? 0 : (spread == 1 ? 1e-7 : 1e-3) * random_between(&rng, -1, 1);
     most_within = 0;
     check(surface, n, xyz, 1);
     assert_int_equal(most_within, n);
-    check(surface, n, xyz, smallest); /* only what is there exactly, or nearer */
+    check(surface, n, xyz, smallest); /* only triangles at exactly this distance, or nearer */
   }
   riis_surface_destroy(&surface);
 }
 
-/* Triangles by arrays: any, needles down to 1e-11, sizes over many powers of ten, levels, pieces apart; in units from 1e-50 to 1e50 and far
- * from the origin, where coordinates round. */
+/* Triangles from arrays: arbitrary ones, needles down to 1e-11, sizes over many powers of ten, level ones, and separate pieces.
+ * Units go from 1e-50 to 1e50, and some surfaces are far from the origin, where coordinates round. */
 static void surfaces_from_arrays(void **state) {
   (void)state;
   enum { max_triangles = 600, n = 1500 };
@@ -348,7 +350,7 @@ static void surfaces_from_arrays(void **state) {
     CHECK_OK(status);
     const double off = unit * power_of_ten(-6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
-    for (int i = 0; i < n; i += 50) /* some far away: the mesh is larger than the surface, or the same */
+    for (int i = 0; i < n; i += 50) /* some far away, so that the mesh is larger than the surface or as large */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
     check(surface, n, xyz, fmax(options.half_thickness, off * power_of_ten(-1, 1)));
@@ -357,7 +359,7 @@ static void surfaces_from_arrays(void **state) {
   assert_int_equal(most_within, n);
 }
 
-/* Needles along a diagonal whose heights are lost where the surface's middle is taken off their corners. */
+/* Needles along a diagonal. Subtracting the surface's middle from their corners rounds their heights away. */
 static void needles_that_are_lines_in_the_frame(void **state) {
   (void)state;
   enum { n_triangles = 64, n = 2000 };
@@ -373,7 +375,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
       p[6] = p[7] = p[8];
       p[6] += size * 1e-11, p[7] -= size * 1e-11;
     }
-    /* One that makes the frame. */
+    /* This triangle determines the frame. */
     const double large[9] = {0.7, 0.7, 0.7, -0.1, 0.7, 0.7, 0.7, -0.1, -0.1};
     memcpy(corners, large, sizeof large);
     const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);
@@ -388,7 +390,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
   }
 }
 
-/* The whole valve where a scanner has its origin, and where coordinates round. */
+/* The valve lies far from the origin: as in a scanner's coordinates, or where coordinates round. */
 static void valves_far_from_the_origin(void **state) {
   (void)state;
   static const double far[] = {300, 1e4, 1e6};
@@ -458,7 +460,7 @@ static void what_options_say(void **state) {
     options.instructions = wrong[k];
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result));
   }
-  /* Those beyond the best are not there. */
+  /* The processor lacks the instruction sets beyond the best. */
   for (int32_t set = RIIS_INSTRUCTIONS_BASELINE; set <= RIIS_INSTRUCTIONS_AVX512; ++set) {
     options.instructions = set;
     assert_int_equal(is_refused(riis_mark_nodes(surface, mesh, &options, result), set), set > best);
@@ -486,7 +488,7 @@ static void nodes_and_valve_move(void **state) {
   riis_mark_options options = mark_options();
   for (int step = 0; step < 8; ++step) {
     check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
-    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* slowly, then far apart, then all mixed */
+    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* the nodes move slowly, then far apart, then mix */
     double *to = step % 2 ? xyz : other;
     for (int i = 0; i < n; ++i) {
       const double *p = (step % 2 ? other : xyz) + 3 * i, x = p[0], y = p[1];
@@ -522,11 +524,11 @@ static void non_finite_coordinates(void **state) {
         options.n_threads = threads;
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* else they are as they were when they are next asked for */
+        if (made_before < 2) { /* otherwise clusters are unchanged at the next use */
           riis_mesh_destroy(&mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* Clusters that are to be made, or to be placed. */
+        /* Clusters must now be made, or placed again. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
@@ -560,7 +562,8 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   return search;
 }
 
-/* Exhaustive for the first marking of a mesh, clusters for all others, and for the first, too, if the mesh is prepared. */
+/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh and clusters for all others. If the mesh is prepared, it is also
+ * clusters for the first. */
 static void what_auto_is(void **state) {
   (void)state;
   enum { n = 200 };
@@ -591,7 +594,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   riis_mesh_destroy(&mesh);
-  mesh = mesh_of(n, xyz); /* a marking is one, whatever its search */
+  mesh = mesh_of(n, xyz); /* a marking by any search counts */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   riis_mesh_destroy(&mesh);
@@ -600,7 +603,7 @@ static void what_auto_is(void **state) {
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
-/* 1 if a marking of a mesh that may be new to all is not the expected one. */
+/* Returns 1 if a marking is not the expected one. The mesh may be new to all threads. */
 static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_mark_result *expected, int n_threads,
                        int prepares) {
   riis_mark_options options = {0};
@@ -615,7 +618,7 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
   return wrong;
 }
 
-/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards looks
+/* The thread sanitizer does not see the end of an OpenMP team inside another team. A stack that is used again afterwards looks
  * like a race. */
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
@@ -642,7 +645,7 @@ static void several_callers_of_one_mesh(void **state) {
         int n_wrong = 0;
         riis_mesh_destroy(&mesh);
         mesh = mesh_of(nodes.n, nodes.xyz);
-        if (moved) { /* only to be placed */
+        if (moved) { /* clusters only have to be placed again */
           CHECK_OK(riis_mesh_prepare(mesh, 1));
           CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
         }
@@ -658,7 +661,7 @@ static void several_callers_of_one_mesh(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* So many nodes that threads share the sorting of them. */
+/* The mesh has so many nodes that threads share their sorting. */
 static void a_mesh_that_threads_sort_together(void **state) {
   (void)state;
   const int64_t n = 300000;

@@ -67,7 +67,7 @@ typedef struct whole_case {
 
 static int64_t whole(int64_t largest) { return random_integer(-largest, largest); }
 
-/* Triangles by themselves, or a sheet of them that share corners. */
+/* Separate triangles, or a sheet of triangles that share corners. */
 static void random_triangles(whole_case *c, int64_t largest) {
   int64_t m = 0;
   const int is_sheet = one_in(2), side = (int)random_integer(1, 4);
@@ -109,7 +109,7 @@ static void random_rows(whole_case *c) {
   int64_t n = 0;
   for (int64_t i = 0; i < c->n_nodes; ++i) {
     c->offsets[i] = n;
-    for (int64_t k = random_integer(0, 11); k > 0; --k) /* itself, repetitions and ghosts among them */
+    for (int64_t k = random_integer(0, 11); k > 0; --k) /* the node itself, repeats and ghosts are among them */
       c->columns[n++] = one_in(12) ? c->n_nodes + 3 : random_integer(0, c->n_nodes - 1);
   }
   c->offsets[c->n_nodes] = n;
@@ -122,7 +122,7 @@ static void make_case(whole_case *c) {
     random_triangles(c, largest);
     drop_flat_triangles(c);
   } while (c->n_triangles == 0);
-  /* Now and then a mesh that is millions of times as large as the surface. */
+  /* Some meshes are millions of times as large as the surface. */
   const int is_huge = largest == 3 && one_in(4);
   c->n_nodes = random_integer(2, max_nodes);
   for (int64_t i = 0; i < 3 * c->n_nodes; ++i)
@@ -159,7 +159,7 @@ static int crosses(const whole_case *c, int64_t a, int64_t b) {
   return 0;
 }
 
-/* leaks[a * n + b] for a < b; the number of them. */
+/* Sets leaks[a * n + b] for a < b and returns the number of leaks. */
 static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t *leaks) {
   int64_t n = 0;
   memset(leaks, 0, (size_t)(c->n_nodes * c->n_nodes));
@@ -173,7 +173,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
   return n;
 }
 
-/* Marks as the oracle has them; where rounding decides, as the result. */
+/* The oracle's marks. Where rounding decides, the result's marks. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_mark_result *result, uint8_t *marks) {
   const surface_content all = surface_content_of(surface);
@@ -218,7 +218,7 @@ static void check_list(const whole_case *c, const double *xyz, const riis_surfac
   }
 }
 
-/* How many leaks there are with another half thickness. */
+/* The number of leaks with another half thickness. */
 static int64_t n_leaks_with(const whole_case *c, const riis_mesh *mesh, double half_thickness) {
   riis_surface *surface = surface_of_case(c, half_thickness);
   riis_mark_result *result = new_result();
@@ -276,7 +276,7 @@ static void random_meshes_leak_where_the_loop_says(void **state) {
 
 /* --- What must not matter ---------------------------------------------------------------------------------------------- */
 
-/* Turned by whole quarters, mirrored and moved, with its nodes in another order: the same edges. */
+/* A case that is turned by quarters, mirrored, moved and renumbered has the same leaking edges. */
 static void motion_and_order_do_not_matter(void **state) {
   (void)state;
   static whole_case c, moved;
@@ -346,7 +346,8 @@ static void threads_do_not_matter(void **state) {
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
-/* How far the segment passes inside the triangle, as a share of its size: below 0 where it passes outside. */
+/* The depth at which the segment passes inside the triangle, as a share of its size. It is below 0 if the segment passes
+ * outside. */
 static long double depth_in(const double *a, const double *b, const double *const *corner) {
   long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
   for (int i = 0; i < 3; ++i) {
@@ -366,7 +367,7 @@ static long double depth_in(const double *a, const double *b, const double *cons
   return least;
 }
 
-/* Every edge between two unmarked nodes, however short, against every triangle. */
+/* Checks every edge between two unmarked nodes, however short, against every triangle. */
 static int64_t check_against_valve(const test_mesh *nodes, const riis_surface *surface, const uint8_t *marks,
                                    leak_list list) {
   const surface_content all = surface_content_of(surface);
@@ -425,7 +426,7 @@ static riis_surface *valve_surface(const char *kind, double opening, int32_t dis
   return surface;
 }
 
-/* By whichever distances it is marked. */
+/* This holds for every method that measures distances. */
 static void valves_leak_where_the_loop_says(void **state) {
   (void)state;
   static const char *const kinds[2] = {"aortic", "mitral"};
@@ -448,7 +449,7 @@ static void valves_leak_where_the_loop_says(void **state) {
   for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
 }
 
-/* Edges of at most two half thicknesses cannot leak: not even those of exactly that length, through a plane half way. */
+/* Edges of at most two half thicknesses cannot leak, not even edges of exactly that length with the surface half way. */
 static void short_edges_do_not_leak(void **state) {
   (void)state;
   for (int trial = 0; trial < 4; ++trial) {
@@ -467,7 +468,7 @@ static void short_edges_do_not_leak(void **state) {
 
 /* --- Plates ------------------------------------------------------------------------------------------------------------ */
 
-/* The squares [-1, 1]^2 at the heights 0 and 10, half thickness 0.25. */
+/* The squares [-1, 1]^2 at the heights 0 and 10, with half thickness 0.25. */
 static riis_surface *two_plates(void) {
   static const double xyz[24] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 10, 1, -1, 10, 1, 1, 10, -1, 1, 10};
   static const int32_t ids[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
@@ -484,7 +485,7 @@ static test_mesh column_of_nodes(int64_t n, double from, double step) {
   return lattice(counts, lower, upper);
 }
 
-/* Where the search may have missed nodes, short edges are looked at as well. */
+/* If the search may have missed nodes, short edges are also checked. */
 static void what_the_papers_search_misses_leaks(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(121, -1, 0.1);
@@ -505,7 +506,7 @@ static void what_the_papers_search_misses_leaks(void **state) {
   free_test_mesh(&nodes);
 }
 
-/* The list is of what the mesh and its adjacency are now, and of the last marking. */
+/* The list belongs to the mesh and adjacency as they are now, and to the last marking. */
 static void changes_are_seen(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(12, -0.5, 1);
@@ -525,20 +526,20 @@ static void changes_are_seen(void **state) {
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   int64_t n = -1;
   CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
-  assert_int_equal(n, 0); /* until they are sought again */
+  assert_int_equal(n, 0); /* empty until the next search for leaks */
   assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 1);
 
   for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i + 2] += 0.3;
   CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0); /* at 0.2 from the plates: marked */
+  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0); /* nodes at 0.2 from the plates are marked */
 
   static const int64_t offsets[13] = {0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, columns[1] = {11};
   riis_csr csr;
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = 12, csr.offsets = offsets, csr.columns = columns, csr.offset_bits = csr.column_bits = 64;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  list = leaks_of(surface, mesh, NULL, result); /* from 0.8 to 10.8 */
+  list = leaks_of(surface, mesh, NULL, result); /* nodes from 0.8 to 10.8 */
   assert_int_equal(list.sum.n_edges, 1);
   CHECK_NEAR(list.sum.longest_length, 10, 1e-14);
   CHECK_NEAR(list.sum.half_thickness, 0.8, 1e-14);

@@ -1,6 +1,5 @@
-/* SPDX-License-Identifier: Apache-2.0
- * Marked nodes against the independent oracle and analytic shapes; lists, dense arrays, limits, masks, threads, reuse.
- */
+/* SPDX-License-Identifier: Apache-2.0 Marked nodes against the independent oracle and analytic shapes; lists, dense arrays,
+ * limits, masks, threads, reuse. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -105,8 +104,8 @@ static void aortic_marks_equal_the_oracle(void **state) {
   free(xyz);
 }
 
-/* A rectangle [0,4] x [0,2] in z = 0 on a lattice: the count of nodes within 1/2 is arithmetic, nodes exactly at 1/2
- * included. */
+/* A rectangle [0,4] x [0,2] in z = 0 on a lattice. Arithmetic gives the number of nodes within 1/2, including nodes exactly at
+ * 1/2. */
 static void lattice_around_a_rectangle_is_counted(void **state) {
   (void)state;
   const double corners[12] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
@@ -164,7 +163,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   assert_int_equal(n_marked, b.n);
   assert_int_equal(stats_of(wide).n_within_limit, c.n);
 
-  /* Dense: every entry written, the far value where nothing is near. */
+  /* Dense arrays: every entry is written. Nodes beyond the limit get the far value. */
   static uint8_t mark[n];
   static double distance[n];
   static int64_t triangle_id[n];
@@ -179,7 +178,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
     assert_int_equal(mark[i], listed && c.distance[at] <= 0.1);
     at += listed;
   }
-  /* Any of the arrays alone; any far value that cannot be mistaken. */
+  /* Any of the arrays may be given alone. Any far value that cannot be taken for a near distance is accepted. */
   CHECK_OK(riis_mark_result_dense(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_of(wide).node_id[0] == 0);
   CHECK_OK(riis_mark_result_dense(wide, n, -1, mark, NULL, NULL, NULL));
@@ -217,7 +216,7 @@ static void mask_leaves_nodes_out(void **state) {
   }
   assert_int_equal(b.n, at);
   assert_true(at > 0 && at < a.n);
-  memset(mask, 0, sizeof mask); /* no fluid here: nothing to find, no error */
+  memset(mask, 0, sizeof mask); /* an empty mask finds nothing and is no error */
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
   const int64_t *node_id = (const int64_t *)&options;
   int64_t n_marked = -1;
@@ -248,7 +247,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     for (int repeat = 0; repeat < 3; ++repeat) {
       options.n_threads = threads;
       CHECK_OK(riis_mark_nodes(surface, mesh, &options, many));
-      assert_int_equal(stats_of(many).n_threads, threads); /* they really ran */
+      assert_int_equal(stats_of(many).n_threads, threads); /* so many threads really ran */
       const list b = within_of(many);
       assert_int_equal(a.n, b.n);
       assert_memory_equal(a.node_id, b.node_id, (size_t)a.n * sizeof *a.node_id);
@@ -269,7 +268,7 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_result *result = new_result();
-  assert_int_equal(marked_of(result).n, 0); /* never marked with */
+  assert_int_equal(marked_of(result).n, 0); /* no marking yet */
   assert_int_equal(stats_of(result).n_nodes, 0);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   const int64_t n_before = marked_of(result).n;
@@ -282,7 +281,8 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_true(llabs(marked_of(result).n - n_before) <= 2); /* z + 10 - 10 rounds */
-  /* Spoilt behind the handle's back: refused by name if it is asked, and the result keeps what it had. Clusters have what they were told. */
+  /* A coordinate is spoilt without an update of the handle. A search that reads it refuses it by name, and the result keeps its
+   * content. Clusters keep the coordinates that they were told. */
   const list kept = marked_of(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];

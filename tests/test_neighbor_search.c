@@ -1,7 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0
- * The neighbour search finds what the exhaustive one finds, to the last bit, whatever mesh, adjacency, mask, limit, number of
- * threads, and last marking; the paper's own algorithm finds the piece of the band that it starts in, and says so.
- */
+/* SPDX-License-Identifier: Apache-2.0 The neighbour search finds what the exhaustive one finds, to the last bit, whatever mesh,
+ * adjacency, mask, limit, number of threads, and last marking; the paper's own algorithm finds the piece of the band that it
+ * starts in, and says so. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* dladdr, RTLD_DEFAULT */
 #endif
@@ -17,7 +16,7 @@
 
 static random_source rng;
 
-/* Marks by both searches, the neighbour search into the result (a new one if NULL), and compares. */
+/* Marks by both searches and compares. The neighbour search marks into the result, or into a new one if NULL. */
 static riis_mark_stats check_same_as_exhaustive(const riis_surface *surface, const riis_mesh *mesh,
                                                 riis_mark_options options, riis_mark_result *result) {
   riis_mark_result *mine = result ? result : new_result(), *expected = new_result();
@@ -53,7 +52,7 @@ static riis_mark_result *marked_by(const riis_surface *surface, const riis_mesh 
   return result;
 }
 
-/* How many nodes the paper's algorithm misses, which it must not hide. */
+/* The number of nodes that the paper's algorithm misses. The stats must not hide that it may miss some. */
 static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh *mesh, const uint8_t *mask) {
   riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
   riis_mark_result *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 2, mask);
@@ -75,7 +74,7 @@ static riis_surface *mitral_surface(double opening) {
   return surface;
 }
 
-/* A band of that half thickness around the default aortic valve. */
+/* The default aortic valve with a half thickness. */
 static riis_surface *aortic_band(double half_thickness) {
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
@@ -100,14 +99,14 @@ static void three_separate_cusps(void **state) {
   test_mesh nodes = lattice_around(surface, 0.08, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
   const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
-  assert_int_equal(stats.n_unreached, 0); /* a start in every near group reaches all of a connected band */
+  assert_int_equal(stats.n_unreached, 0); /* starts in every near ball reach all of a connected band */
   /* One start finds one cusp. */
   const int64_t missed = missed_by_the_paper(surface, mesh, NULL);
   assert_true(missed > stats.n_marked / 2 && missed < stats.n_marked);
   riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i) assert_int_equal(found.leaflet_id[i], found.leaflet_id[0]);
-  /* Started from there, the others are found by the proof. */
+  /* A walk that starts at these nodes leaves the others to the proof. */
   riis_mark_options options = mark_options();
   assert_true(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached == missed);
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
@@ -118,7 +117,7 @@ static void three_separate_cusps(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* Slabs that no neighbours join, and the same region twice: the second time half a spacing away. */
+/* Slabs that no edge joins, and the same region twice, the second time half a spacing away. */
 static void mesh_of_several_components(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -170,14 +169,14 @@ static void valve_that_sticks_out_of_the_mesh(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   const riis_surface_info info = info_of(surface);
   static const int64_t counts[3] = {24, 22, 26};
-  for (int trial = 0; trial < 20; ++trial) { /* any box: around a part of the valve, beside it, within it */
+  for (int trial = 0; trial < 20; ++trial) { /* random boxes around a part of the valve, beside it or within it */
     double lower[3], upper[3];
     for (int c = 0; c < 3; ++c) {
       const double a = random_between(&rng, info.lower[c] - 0.3, info.upper[c] + 0.3);
       const double b = random_between(&rng, info.lower[c] - 0.3, info.upper[c] + 0.3);
       lower[c] = fmin(a, b), upper[c] = fmax(a, b);
     }
-    if (trial == 0) /* half of the valve, certainly */
+    if (trial == 0) /* this box surely holds half of the valve */
       for (int c = 0; c < 3; ++c) lower[c] = info.lower[c], upper[c] = c ? info.upper[c] : 0;
     test_mesh nodes = lattice(counts, lower, upper);
     riis_mesh *mesh = mesh_from(&nodes);
@@ -201,8 +200,8 @@ static void isolated_nodes(void **state) {
   riis_mark_result *result = new_result();
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
-  assert_true(first.n_unreached > first.n_marked / 2); /* a walk of one step from each start */
-  assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0); /* all are starts */
+  assert_true(first.n_unreached > first.n_marked / 2); /* each start's walk has one step */
+  assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0); /* now all nodes are starts */
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);
@@ -210,7 +209,7 @@ static void isolated_nodes(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Adjacency is only where to look first. */
+/* The adjacency only says where to look first, so the result does not depend on it. */
 static void any_adjacency_is_right(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -227,7 +226,7 @@ static void any_adjacency_is_right(void **state) {
     riis_mesh_destroy(&mesh);
     free(pairs);
   }
-  /* One way only, to the next node, round and round; and every node its own neighbour, many times. */
+  /* First each node has only the next one as a neighbour, in a ring. Then every node is its own neighbour many times. */
   for (int self = 0; self < 2; ++self) {
     free(nodes.columns);
     nodes.columns = malloc((size_t)nodes.n * 5 * sizeof *nodes.columns);
@@ -243,7 +242,7 @@ static void any_adjacency_is_right(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* The other ranks' nodes, and widths and bases of the rows. */
+/* Rows with the other ranks' nodes, in every width and base. */
 static void ghosts_are_passed_over(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -307,7 +306,7 @@ static void mesh_of_one_node(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Nodes at the same place, on a line, in a plane, and far apart from each other. */
+/* Nodes at the same place, on a line, in a plane, or far apart from each other. */
 static void degenerate_meshes(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -331,8 +330,8 @@ static void degenerate_meshes(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* The limit is what the library itself says of the first of a column of nodes over a triangle, of any size. All other distances of the
- * proof are equal to it up to rounding, which must not lose the node. */
+/* The limit is the library's own distance of the first node of a column over a triangle, which has any size. All other distances
+ * in the proof equal it up to rounding, which must not lose the node. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -370,8 +369,8 @@ static void nodes_at_the_limit_are_found(void **state) {
   }
 }
 
-/* Triangles nearly without a height, nodes as close to them as that, the limit where the first node is: what a needle's rounding does
- * to the kernel's distances must not lose a node either. */
+/* Triangles have nearly no height, nodes are as close to them as that height, and the limit is the first node's distance. The
+ * rounding of a needle's distances in the kernel must not lose a node. */
 static void needles_lose_no_node(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -394,7 +393,7 @@ static void needles_lose_no_node(void **state) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue; /* too thin to be one */
+    if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue; /* all triangles are too thin */
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);
     CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, &options));
     test_mesh nodes = {.n = 2, .xyz = xyz};
@@ -428,12 +427,12 @@ static void masked_nodes_are_left_out(void **state) {
     riis_mark_result *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        check_same_as_exhaustive(surface, mesh, options, reused); /* from another mask's marking */
+        check_same_as_exhaustive(surface, mesh, options, reused); /* starts from the marking with another mask */
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);
     if (trial == 8) {
       assert_int_equal(stats.n_within_limit, 0);
-      missed_by_the_paper(surface, mesh, mask); /* nowhere to start */
+      missed_by_the_paper(surface, mesh, mask); /* there is no node to start from */
     } else {
       assert_true(stats.n_within_limit > 100);
     }
@@ -446,7 +445,7 @@ static void masked_nodes_are_left_out(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* A wall of one layer of masked nodes across a connected band: no walk passes it. */
+/* No walk passes a wall of one layer of masked nodes across a connected band. */
 static void mask_that_cuts_the_band(void **state) {
   (void)state;
   const double corners[9] = {-1, -1, 0, 1, -1, 0, 0, 2, 0};
@@ -470,7 +469,7 @@ static void mask_that_cuts_the_band(void **state) {
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i)
     assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the first vertex's side */
-  /* From the one side's marking the walk does not get to the other: the proof does. */
+  /* From one side's marking the walk does not reach the other side, but the proof does. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, missed);
   riis_mark_result_destroy(&paper);
   free(mask);
@@ -501,7 +500,7 @@ static void limits_wider_than_the_half_thickness(void **state) {
 
 /* --- The paper's algorithm ------------------------------------------------------------------------------------------- */
 
-/* What it must find: from the node nearest to the first vertex, over neighbours, the marked ones. */
+/* The paper's algorithm must find the marked nodes that neighbours connect to the node nearest to the first vertex. */
 static void paper_finds_the_piece_that_it_starts_in(void **state) {
   (void)state;
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
@@ -509,7 +508,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
     riis_surface *surface = aortic_band(half_thickness[k]);
     test_mesh nodes = lattice_around(surface, 0.1, 0.3);
     for (int64_t i = 0; i < 3 * nodes.n; ++i)
-      nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* no equally near nodes */
+      nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* so no two nodes are equally near */
     riis_mesh *mesh = mesh_from(&nodes);
     riis_mark_result *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
     riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
@@ -545,7 +544,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
   }
 }
 
-/* The default is the library's choice: complete, with an adjacency and without. */
+/* The default search is the library's choice, which is complete with or without an adjacency. */
 static void auto_is_never_incomplete(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -621,13 +620,13 @@ static void a_valve_jumps(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   riis_mark_result *result = new_result();
   riis_surface_options options = surface_options();
-  static const double x[10] = {0, 7, 0, 100, 0.01, 0, 4, 4.5, -50, 7}; /* also where there is no mesh */
+  static const double x[10] = {0, 7, 0, 100, 0.01, 0, 4, 4.5, -50, 7}; /* some places are outside the mesh */
   for (int step = 0; step < 10; ++step) {
     options.translation[0] = x[step];
     CHECK_OK(riis_surface_update(surface, valve, &options));
     const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), result);
     assert_int_equal(stats.n_marked > 0, fabs(x[step]) < 10);
-    if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit); /* the start was of no use */
+    if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit); /* the start was useless */
   }
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);
@@ -641,7 +640,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh a = lattice_around(surface, 0.15, 0.2), b = lattice_around(surface, 0.11, 0.3),
             c = lattice_around(surface, 0.15, 0.2);
-  for (int64_t i = c.n - 1; i > 0; --i) /* c: as many nodes as a, at other places */
+  for (int64_t i = c.n - 1; i > 0; --i) /* c has as many nodes as a, at other places */
     for (int k = 0; k < 3; ++k) {
       const int64_t j = (int64_t)(random_bits(&rng) % (uint64_t)i);
       const double swap = c.xyz[3 * i + k];
@@ -664,7 +663,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* More steps than a small counter holds. */
+/* There are more steps than the 8-bit counter of walks holds. */
 static void many_steps(void **state) {
   (void)state;
   riis_surface *surface = aortic_band(0.1);
@@ -689,17 +688,17 @@ static void nodes_move(void **state) {
   double *moved = malloc((size_t)nodes.n * 3 * sizeof *moved);
   for (int step = 0; step < 12; ++step) {
     const double shift = step < 8 ? 0.03 * step : 1000 * (step % 2),
-                 mix = step == 5 ? 3 : 0.05; /* 5: all places anew */
+                 mix = step == 5 ? 3 : 0.05; /* step 5 changes all places */
     for (int64_t i = 0; i < 3 * nodes.n; ++i) {
       moved[i] = nodes.xyz[i] + shift + random_between(&rng, -mix, mix);
-      if (step % 2 == 0) nodes.xyz[i] = moved[i]; /* in place, or elsewhere */
+      if (step % 2 == 0) nodes.xyz[i] = moved[i]; /* the coordinates change in place, or in another array */
     }
     const double *now = step % 2 == 0 ? nodes.xyz : moved;
     CHECK_OK(riis_mesh_update(mesh, nodes.n, now, now + 1, now + 2, 3));
     check_same_as_exhaustive(surface, mesh, mark_options(), result);
     check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   }
-  /* Fewer nodes, and the adjacency is gone; with one of them it goes on. */
+  /* Fewer nodes remove the adjacency. With a new one the search goes on. */
   const int64_t fewer = nodes.n / 2;
   CHECK_OK(riis_mesh_update(mesh, fewer, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   riis_mark_options options = mark_options();
@@ -720,7 +719,7 @@ static void nodes_move(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Made non-finite behind the handle's back, before the first search or between two. */
+/* Coordinates become non-finite without an update of the handle, before the first search or between two. */
 static void non_finite_coordinates_are_refused(void **state) {
   (void)state;
   static const double bad[3] = {NAN, INFINITY, -INFINITY};
@@ -737,7 +736,7 @@ static void non_finite_coordinates_are_refused(void **state) {
     const found_nodes marked = marked_in(expected);
     const int is_first_search = trial % 4 < 2;
     if (!is_first_search) CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    /* A node of the band: it has to be asked. */
+    /* A node of the band has to be queried. */
     const int64_t node = marked.node_id[random_bits(&rng) % (uint64_t)marked.n];
     double *coordinate = nodes.xyz + 3 * node + trial % 3;
     const double good = *coordinate;
@@ -751,7 +750,7 @@ static void non_finite_coordinates_are_refused(void **state) {
     if (!is_first_search) assert_true(same_results(result, expected));
     *coordinate = good;
     if (is_first_search) CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
-    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result)); /* and goes on */
+    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result)); /* the next marking works again */
     assert_true(same_results(result, expected));
     riis_mark_result_destroy(&result);
     riis_mesh_destroy(&mesh);
@@ -761,7 +760,7 @@ static void non_finite_coordinates_are_refused(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* Nodes that moved in place are where they moved to, even if the handle was told with coordinates that it refused. */
+/* Nodes that moved in place are searched at their new places, even if the update of the handle was refused. */
 static void a_refused_update_forgets_where_nodes_were(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -816,7 +815,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
         if (stats.n_threads > most[threads]) most[threads] = stats.n_threads;
         riis_mark_result_destroy(&many);
       }
-    /* They really ran. The paper's is nothing but the walk, which a second thread joins when the system lets it. */
+    /* Several threads really ran. The paper's search is only the walk, which a second thread joins when the system lets it. */
     for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
       riis_mark_result *two = marked_by(surface, mesh, searches[k], 2, NULL);
       most[2] = stats_of(two).n_threads;
@@ -826,7 +825,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     assert_int_equal(most[2], 2);
     riis_mark_result_destroy(&one);
   }
-  /* The groups, too: a mesh's first search by any number of threads. */
+  /* The balls do not depend on threads either: this is a mesh's first search, by any number of threads. */
   riis_mark_result *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
   for (int threads = 1; threads <= 4; ++threads) {
     riis_mesh *fresh = mesh_from(&nodes);
@@ -864,7 +863,7 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
-/* The same surface and mesh, new to all of them: the first makes the mesh's groups. */
+/* All threads share a surface and a mesh that is new to them. The first one makes the mesh's balls. */
 static void several_caller_threads_at_once(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -894,7 +893,7 @@ static void several_caller_threads_at_once(void **state) {
   riis_surface_destroy(&surface);
 }
 
-/* 1 if the marking is not the expected one. */
+/* Returns 1 if the marking is not the expected one. */
 static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *expected,
                        int n_threads) {
   riis_mark_options options = {0};
@@ -915,11 +914,11 @@ static void inside_the_callers_openmp(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
   for (int n_threads = 0; n_threads <= 3; ++n_threads)
-    for (int nested = 1; nested <= 2; ++nested) { /* regions within regions, too */
+    for (int nested = 1; nested <= 2; ++nested) { /* also regions within regions */
       const int levels = omp_get_max_active_levels();
       int n_wrong = 0;
       omp_set_max_active_levels(nested);
-      /* Every time a mesh that none has searched. */
+      /* Each time the mesh is one that no thread has searched. */
       riis_mesh_destroy(&mesh);
       mesh = mesh_from(&nodes);
 #pragma omp parallel num_threads(3) reduction(+ : n_wrong)
@@ -985,8 +984,9 @@ static void the_callers_openmp_settings_stay(void **state) {
 
 /* --- Memory ---------------------------------------------------------------------------------------------------------- */
 
-/* All allocations of the process come by here, since an executable's symbols go before those of the libraries; those that come out of the
- * object that has riis_mark_nodes are counted. Allocators of sanitizers want to be the only ones. */
+/* All allocations of the process pass through these functions, since an executable's symbols take precedence over the libraries'.
+ * Allocations from the object that has riis_mark_nodes are counted. Sanitizers need their own allocators, so there is no counting
+ * under them. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define IS_SANITIZED 1
 #elif defined(__has_feature)
@@ -1019,7 +1019,7 @@ void *aligned_alloc(size_t alignment, size_t size) {
   return counted(__libc_memalign(alignment, size), __builtin_return_address(0));
 }
 
-/* operator new, new[], and both for aligned types. */
+/* operator new and new[], each also for aligned types. */
 void *new_one(size_t size) __asm__("_Znwm");
 void *new_many(size_t size) __asm__("_Znam");
 void *new_aligned(size_t size, size_t alignment) __asm__("_ZnwmSt11align_val_t");
@@ -1063,7 +1063,7 @@ static void a_steady_step_allocates_nothing(void **state) {
       options.search = search;
       options.n_threads = 1;
       if (wide) options.distance_limit = 0.2;
-      /* The first makes room: it shows that allocations are seen, vectors' and aligned ones. */
+      /* The first step makes room. It shows that allocations are seen, both vectors' and aligned ones. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
       for (int step = 3; step <= 5; ++step) assert_int_equal(allocations_of_a_step(surface, mesh, &options, result), 0);

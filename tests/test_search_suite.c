@@ -1,8 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0
- * Random meshes, surfaces, placements, half thicknesses, limits, masks, threads: the neighbour search against the exhaustive one, bit by
- * bit, and nodes of both against brute force in extended precision. RIIS_TEST_LONG=1 goes on until ten million pairs of a node and a
- * surface have been compared with brute force.
- */
+/* SPDX-License-Identifier: Apache-2.0 Random meshes, surfaces, placements, half thicknesses, limits, masks, threads: the
+ * neighbour search against the exhaustive one, bit by bit, and nodes of both against brute force in extended precision.
+ * RIIS_TEST_LONG=1 goes on until ten million pairs of a node and a surface have been compared with brute force. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -20,8 +18,8 @@ static int one_in(int n) { return random_integer(1, n) == 1; }
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
-/* Triangles in blocks, with boxes: those whose box is farther than the closest so far, by more than any rounding, need not be asked. All
- * that are asked are asked in extended precision. */
+/* Triangles in blocks with boxes. A triangle whose box is farther than the closest so far, by more than any rounding, is left
+ * out. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;
@@ -73,7 +71,7 @@ static double to_box_sq(const double *p, const double *box) {
   return sum;
 }
 
-/* The distance to the closest triangle, if it is at most reach; something above reach otherwise. */
+/* Returns the distance to the closest triangle if it is at most reach, and any number above reach otherwise. */
 static long double brute_force_distance(const brute_force *b, const double *p, double reach) {
   long double least = INFINITY;
   double least_sq = reach * reach * (1 + 1e-9);
@@ -106,7 +104,7 @@ static int64_t *pairs_of_rows(const test_mesh *mesh, int64_t *n_pairs) {
   return pairs;
 }
 
-/* Keeps the nodes that are wanted, and the pairs of these. */
+/* Keeps the wanted nodes and the pairs of wanted nodes. */
 static void keep(test_mesh *mesh, const uint8_t *wanted) {
   int64_t n_pairs, m = 0, n = 0, *number = malloc((size_t)mesh->n * sizeof *number),
                    *pairs = pairs_of_rows(mesh, &n_pairs);
@@ -124,7 +122,7 @@ static void keep(test_mesh *mesh, const uint8_t *wanted) {
   free(number);
 }
 
-/* Another order of the nodes. */
+/* Puts the nodes into another order. */
 static void shuffle(test_mesh *mesh) {
   int64_t n_pairs, *pairs = pairs_of_rows(mesh, &n_pairs), *number = malloc((size_t)mesh->n * sizeof *number);
   double *xyz = malloc((size_t)mesh->n * 3 * sizeof *xyz);
@@ -142,7 +140,7 @@ static void shuffle(test_mesh *mesh) {
   free(number);
 }
 
-/* Joins each node to the k nearest of those in the cells around its own, as neighbours in a Delaunay mesh mostly are. */
+/* Joins each node to the k nearest nodes in the cells around its own, which are mostly the neighbours in a Delaunay mesh. */
 static void join_near_nodes(test_mesh *mesh, const double *lower, const double *upper, int k) {
   int64_t counts[3], n_cells = 1;
   double size = 1;
@@ -185,7 +183,7 @@ static void join_near_nodes(test_mesh *mesh, const double *lower, const double *
   free(first), free(next), free(pairs);
 }
 
-/* Six tetrahedra a cube, their edges by the library's builder. */
+/* Cuts each cube into six tetrahedra, and takes their edges from the library's builder. */
 static void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   static const int corners[6][4][3] = {
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}},
@@ -219,7 +217,7 @@ static void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   free(ids);
 }
 
-/* About n_wanted nodes in the box; *spacing becomes the length of most edges. */
+/* Returns about n_wanted nodes in the box. *spacing becomes the length of most edges. */
 static test_mesh random_mesh(int kind, int64_t n_wanted, const double *lower, const double *upper, double *spacing) {
   int64_t counts[3];
   double volume = 1;
@@ -304,7 +302,7 @@ static void place(const placement *p, test_mesh *mesh) {
   }
 }
 
-/* A valve or triangles that can be made again, moved. */
+/* A valve, or triangles, from which surfaces can be made again at other places. */
 typedef struct shape {
   riis_valve *valve; /* or NULL */
   int is_mitral;
@@ -334,7 +332,7 @@ static void free_shape(shape *s) {
   free(s->xyz), free(s->ids);
 }
 
-/* Makes the surface, or makes it again a step later. */
+/* Makes the surface, or updates it to the next step. */
 static void update_surface(riis_surface **surface, shape *s, const riis_surface_options *options) {
   if (s->valve) {
     s->opening += s->step;
@@ -364,7 +362,7 @@ static struct totals {
   double largest;                                        /* error, relative to the coordinates */
 } totals;
 
-/* A share of the nodes against brute force. */
+/* Compares a share of the nodes with brute force. */
 static void compare_with_brute_force(const riis_surface *surface, const test_mesh *nodes, const uint8_t *mask,
                                      const riis_mark_result *result, double limit, int64_t n_wanted) {
   const double half_thickness = info_of(surface).half_thickness;
@@ -379,7 +377,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   double largest = 0;
 #pragma omp parallel for num_threads(2) schedule(dynamic, 64) reduction(+ : pairs, within, undecided, bad_distances, bad_marks) reduction(max : largest)
   for (int64_t i = first; i < nodes->n; i += stride) {
-    if (mask && !mask[i]) { /* left out, wherever it is */
+    if (mask && !mask[i]) { /* must be left out, wherever it is */
       bad_marks += mark[i] != 0 || distance[i] != 1e30;
       continue;
     }
@@ -411,7 +409,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   free_brute_force(&b);
 }
 
-/* The clusters by every instruction set that there is: the exhaustive search's result, bit by bit. */
+/* Checks that clusters with every instruction set give the exhaustive search's result, bit by bit. */
 static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *asked,
                              const riis_mark_result *exhaustive, riis_mark_result *clustered) {
   riis_mark_options options = *asked;
@@ -438,7 +436,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   shape s = random_shape();
   riis_surface *surface = NULL;
   update_surface(&surface, &s, NULL);
-  /* A box around the surface, or one that it sticks out of. */
+  /* The box is around the surface, or the surface sticks out of it. */
   riis_surface_info info = info_of(surface);
   double lower[3], upper[3], spacing;
   for (int c = 0; c < 3; ++c) {
@@ -460,7 +458,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   uint8_t *mask = NULL;
   for (int64_t step = 0, n_steps = random_integer(1, 4); step < n_steps; ++step) {
     update_surface(&surface, &s, &options);
-    if (step > 0 && one_in(4)) { /* the mesh moves, too */
+    if (step > 0 && one_in(4)) { /* the mesh also moves */
       for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += random_between(&rng, -0.1, 0.1) * spacing;
       CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
     }
@@ -542,13 +540,13 @@ static void random_cases_equal_brute_force(void **state) {
   assert_int_equal(totals.incomplete, 0);
   assert_int_equal(totals.different_distances, 0);
   assert_int_equal(totals.different_marks, 0);
-  /* The cases are worth something. */
+  /* The cases are not trivial. */
   assert_true(totals.pairs >= (is_long ? n_pairs : 50000));
   assert_true(totals.pairs_within > totals.pairs / 50);
   assert_true(totals.undecided < totals.pairs / 1000);
 }
 
-/* Brute force as fast as above is the plain loop. */
+/* Brute force with boxes equals the plain loop. */
 static void boxes_leave_nothing_out(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {

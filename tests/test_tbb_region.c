@@ -21,7 +21,7 @@ typedef struct work {
   int is_wrong[n_tasks];
 } work;
 
-/* With its own result, cold and then warm. Asserts nothing: any thread runs it. */
+/* Marks with a result of its own, first new and then used. Asserts nothing, because any thread runs it. */
 static void mark(void *data, int task) {
   work *w = data;
   riis_mark_options options = {0};
@@ -51,7 +51,7 @@ static void expect_same_as_outside(int region) {
   int most_at_once = 0;
   for (int count = 0; count < 4; ++count)
     for (int repeat = 0; repeat < 3; ++repeat) {
-      /* Every time a mesh that none has searched: one of the tasks makes the groups. */
+      /* Each time the mesh is one that no task has searched, so one of the tasks makes the balls. */
       riis_mesh_destroy(&mesh);
       mesh = mesh_from(&nodes);
       work w = {.surface = surface, .mesh = mesh, .expected = expected};
@@ -99,11 +99,11 @@ int main(void) {
       cmocka_unit_test(in_the_callers_arena_of_one),
       cmocka_unit_test(under_the_callers_limit_of_one),
   };
-  /* Nothing prints: TBB announces on stderr what it is asked for in vain. */
+  /* Nothing may be printed: TBB reports on stderr if it is asked for more than it can give. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;
-  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* which writes there, too */
+  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* cmocka also writes there */
   char line[256];
   dup2(terminal, STDERR_FILENO);
   for (rewind(captured); fgets(line, sizeof line, captured);) {
