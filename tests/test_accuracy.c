@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Points of known distance, which ./run bench accuracy measures with, on surfaces whose distances are formulas: a parabolic
- * cylinder, and two sheets that face each other; and on the leaflets that it takes. */
+ * The points of known distance that ./run bench accuracy measures with. They are tested on surfaces whose distances are
+ * formulas, a parabolic cylinder and two sheets that face each other, and on the leaflets that the benchmark takes. */
 #include "accuracy.h"
 #include "test_support.h"
 

@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: Apache-2.0 Adjacencies: the builders against lists of pairs made by other means, and what is refused
- * of rows, cells, faces and grids. */
+/* SPDX-License-Identifier: Apache-2.0
+ * Adjacencies: the builders against lists of pairs made by other means, and the refusals of rows, cells, faces and grids. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The curves of the aortic valve: what the model says each must pass through. */
+ * The curves of the aortic valve pass through the points that the model gives. */
 #include "internals.h"
 #include "test_support.h"
 

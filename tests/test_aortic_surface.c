@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The aortic valve as triangles: the published numbers, its shape, what its triangles carry, its placement. */
+ * The aortic valve as triangles: the published numbers, the shape, the triangles' data, and the placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * O(u) of patches of arcs: its value, and the bound on how far it is from linear between two u. */
+ * O(u) of patches of arcs: its value, and the bound on its deviation from linear between two u. */
 #include "internals.h"
 #include "test_support.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Closest points through the Embree scene against the independent oracle and against plain loops: every triangle, every
- * place, every limit. */
+ * Closest points through the Embree scene, compared with the independent oracle and with plain loops, for every triangle, place
+ * and limit. */
 #include <riis/riis.h>
 
 #include "oracle.h"

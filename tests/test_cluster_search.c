@@ -1,6 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0 The search over clusters finds what the exhaustive one finds, to the last bit, whatever
- * mesh, surface, limit, mask, instructions and number of threads; where it cannot be used the exhaustive one runs and is
- * named. */
+/* SPDX-License-Identifier: Apache-2.0
+ * The search over clusters finds the same nodes as the exhaustive search, to the last bit, whatever the mesh, surface, limit,
+ * mask, instructions and number of threads. Where it cannot be used, the exhaustive search runs and is named. */
 #include <omp.h>
 #include <riis/riis.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Distances by sampling and by minimisation: against flat and cylindrical patches of which the distance is known, against
- * triangles fifty times as fine, and against each other. */
+ * Distances by sampling and by minimisation, compared with known distances of flat and cylindrical patches, with triangles
+ * fifty times as fine, and with each other. */
 #include "internals.h"
 #include "test_support.h"
 

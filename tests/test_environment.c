@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero;
- * OpenMP settings and parallel regions; errors and logs of several threads; standard output and error. */
+ * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero, OpenMP
+ * settings, parallel regions, errors and logs of several threads, standard output and error. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* feenableexcept */
 #endif

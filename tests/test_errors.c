@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Every refusal of the public interface by code and text. */
+ * Every refusal of the public interface, by code and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"

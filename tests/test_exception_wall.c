@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What cannot be asked for through the public interface: failures from inside become a status and a text, and memory
- * that runs out leaves everything as it was. */
+ * Failures that the public interface cannot provoke: failures from inside become a status and a message, and memory that runs
+ * out leaves everything as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Edges that cross the surface between unmarked nodes, against a loop over all edges and all triangles: in whole numbers for
- * random surfaces, in extended precision for valves. RIIS_TEST_LONG=1 tries a thousand times as many. */
+ * Edges that cross the surface between unmarked nodes, compared with a loop over all edges and all triangles. The loop uses
+ * whole numbers for random surfaces and extended precision for valves. RIIS_TEST_LONG=1 tries a thousand times as many. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0 Marked nodes against the independent oracle and analytic shapes; lists, dense arrays,
- * limits, masks, threads, reuse. */
+/* SPDX-License-Identifier: Apache-2.0
+ * Marked nodes, compared with the independent oracle and with analytic shapes: lists, dense arrays, limits, masks, threads,
+ * reuse. */
 #include <riis/riis.h>
 
 #include "oracle.h"

@@ -1,6 +1,7 @@
-/* SPDX-License-Identifier: Apache-2.0 The neighbour search finds what the exhaustive one finds, to the last bit, whatever mesh,
- * adjacency, mask, limit, number of threads, and last marking; the paper's own algorithm finds the piece of the band that it
- * starts in, and says so. */
+/* SPDX-License-Identifier: Apache-2.0
+ * The neighbour search finds the same nodes as the exhaustive search, to the last bit, whatever the mesh, adjacency, mask,
+ * limit, number of threads and last marking. The paper's own algorithm finds the piece of the band that it starts in, and
+ * reports that it may be incomplete. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* dladdr, RTLD_DEFAULT */
 #endif

@@ -1,6 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0 Memory that runs out at every single allocation of the library's own code, and at
- * everything that Embree asks its memory monitor for: the call says RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and
- * the same call succeeds afterwards. */
+/* SPDX-License-Identifier: Apache-2.0
+ * Memory runs out at every single allocation of the library's own code, and at every request of Embree to its memory monitor.
+ * The call then returns RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The decision kernel against an independent one in extended precision, on triangles of every shape, size and place. */
+ * The decision kernel, compared with an independent one in extended precision on triangles of every shape, size and place. */
 #include "internals.h"
 #include "oracle.h"
 #include "test_support.h"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What must not matter: where the whole stands, how it is turned, in which unit it is measured, in which order nodes
- * and triangles come. */
+ * Results must not depend on the place, rotation or unit of the whole, or on the order of nodes and triangles. */
 #include <riis/riis.h>
 
 #include "test_support.h"

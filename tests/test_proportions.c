@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * The warning of a mesh, a surface and a half thickness that can hardly be in one unit: it comes once, and not for a part of
- * a mesh that is elsewhere. It goes by the box of the nodes, which is tested for every layout of the coordinates. */
+ * The warning about a mesh, a surface and a half thickness that can hardly be in one unit. It comes once, and not for a part of
+ * a mesh that is elsewhere. It depends on the box of the nodes, which is tested for every layout of the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 

@@ -1,6 +1,7 @@
-/* SPDX-License-Identifier: Apache-2.0 Random meshes, surfaces, placements, half thicknesses, limits, masks, threads: the
- * neighbour search against the exhaustive one, bit by bit, and nodes of both against brute force in extended precision.
- * RIIS_TEST_LONG=1 goes on until ten million pairs of a node and a surface have been compared with brute force. */
+/* SPDX-License-Identifier: Apache-2.0
+ * The neighbour search is compared with the exhaustive search bit by bit, and nodes of both with brute force in extended
+ * precision. Meshes, surfaces, placements, half thicknesses, limits, masks and threads are random. RIIS_TEST_LONG=1 goes on
+ * until ten million pairs of a node and a surface have been compared with brute force. */
 #include <riis/riis.h>
 
 #include "oracle.h"

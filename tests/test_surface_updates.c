@@ -1,6 +1,7 @@
-/* SPDX-License-Identifier: Apache-2.0 A surface that is updated, in the memory of what it was, is the surface that would be made
- * anew: in every bit of its content, of closest points and of marks, whatever it was before, by any number of threads. An update
- * that is refused leaves no trace and says what one thread says. */
+/* SPDX-License-Identifier: Apache-2.0
+ * A surface that is updated in its old memory equals a new surface, in every bit of its content, of closest points and of
+ * marks. This holds whatever it was before, and for any number of threads. A refused update leaves no trace and gives the same
+ * message as with one thread. */
 #include <riis/riis.h>
 #include <stddef.h>
 

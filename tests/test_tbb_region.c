@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marking from tasks of the caller's own TBB: the same bits as outside, and the caller's settings stay. */
+ * Marking from tasks of the caller's own TBB gives the same bits as outside, and the caller's settings stay. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * tolerance * half thickness bounds the distance between the triangles and the smooth surface, measured on
- * independent evaluations of the smooth one: for the aortic valve, Coons patches of its Bézier curves by exact arc length; for
+ * tolerance * half thickness bounds the distance between the triangles and the smooth surface. It is measured on independent
+ * evaluations of the smooth surface. For the aortic valve these are Coons patches of its Bézier curves by exact arc length; for
  * the mitral valve, tests/support/mitral_oracle.h. */
 #include "internals.h"
 #include "test_support.h"

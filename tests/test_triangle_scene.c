@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The Embree scene only culls: its answers are those of the loop over all triangles with the same kernel, bit for bit,
- * wherever the surface stands, whatever its shape, near and at the limit. */
+ * The Embree scene only culls. Its answers are those of a loop over all triangles with the same kernel, bit for bit, wherever
+ * the surface is, whatever its shape, near the limit and at it. */
 #include "internals.h"
 #include "test_support.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Valves from the caller's patches: every refusal by code and text, and surfaces against what the patches say. */
+ * Valves from the caller's patches: every refusal by code and message, and surfaces compared with the patches. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The calls of test_calls.f90, made from C, and the layout of the structs as C sees it. */
+ * The calls of test_calls.f90 made from C, and the layout of the structs in C. */
 #include "c_twin.h"
 
 #include <stddef.h>

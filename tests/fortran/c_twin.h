@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these. */
+ * The results that c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these. */
 #ifndef RIIS_TESTS_FORTRAN_C_TWIN_H
 #define RIIS_TESTS_FORTRAN_C_TWIN_H
 

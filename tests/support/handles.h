@@ -52,7 +52,7 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
-/* Vertices and triangles of a surface, as it shows them. */
+/* Vertices and triangles of a surface, as its queries give them. */
 typedef struct surface_content {
   int64_t n_vertices, n_triangles;
   const double *xyz, *uv;
@@ -75,7 +75,7 @@ static inline riis_closest closest_to(const riis_surface *surface, double x, dou
   return closest;
 }
 
-/* n random triangles in [-1,1]^3, none without area. *xyz (9 n) and *ids (3 n) are to be freed. */
+/* Makes n random triangles in [-1,1]^3, all with an area. The caller frees *xyz (9 n) and *ids (3 n). */
 static inline void random_soup(random_source *random, int64_t n, double size, double **xyz, int32_t **ids) {
   *xyz = malloc((size_t)n * 9 * sizeof **xyz);
   *ids = malloc((size_t)n * 3 * sizeof **ids);

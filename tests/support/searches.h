@@ -45,7 +45,8 @@ static inline int same_nodes(found_nodes a, found_nodes b) {
          memcmp(a.leaflet_id, b.leaflet_id, m * sizeof *a.leaflet_id) == 0;
 }
 
-/* The same nodes, marked and within the limit, with the same bits. Asserts nothing: any thread may ask. */
+/* Returns 1 if both have the same nodes, marked and within the limit, with the same bits. Asserts nothing, so any thread may call
+ * it. */
 static inline int same_results(const riis_mark_result *a, const riis_mark_result *b) {
   const riis_mark_result *of[2] = {a, b};
   found_nodes m[2], w[2];
@@ -59,7 +60,7 @@ static inline int same_results(const riis_mark_result *a, const riis_mark_result
   return same_nodes(m[0], m[1]) && same_nodes(w[0], w[1]);
 }
 
-/* Nodes and which are neighbours: n + 1 offsets and their columns, from 0. All on the heap. */
+/* Nodes and their neighbours: n + 1 offsets and their columns, from 0. All are on the heap. */
 typedef struct test_mesh {
   int64_t n;
   double *xyz;
@@ -71,7 +72,7 @@ static inline void free_test_mesh(test_mesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
 }
 
-/* Rows from pairs, (2, n_pairs): each joins both ways. */
+/* Makes rows from pairs (2, n_pairs). Each pair joins both ways. */
 static inline void set_rows(test_mesh *mesh, int64_t n_pairs, const int64_t *pairs) {
   const size_t n = (size_t)mesh->n;
   int64_t *next = calloc(n + 1, sizeof *next);
@@ -109,7 +110,7 @@ static inline test_mesh lattice(const int64_t *counts, const double *lower, cons
   return mesh;
 }
 
-/* A lattice with about that spacing, as wide as the surface and a margin around it. */
+/* A lattice with about the given spacing, as wide as the surface and a margin around it. */
 static inline test_mesh lattice_around(const riis_surface *surface, double spacing, double margin) {
   const riis_surface_info info = info_of(surface);
   double lower[3], upper[3];
@@ -131,7 +132,7 @@ static inline riis_csr csr_of(const test_mesh *mesh) {
   return csr;
 }
 
-/* Borrows all of it. */
+/* The mesh borrows all arrays. */
 static inline riis_mesh *mesh_from(const test_mesh *from) {
   riis_mesh *mesh = NULL;
   const riis_csr csr = csr_of(from);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * The neighbour search on unstructured meshes from files, by VTK's Delaunay filter and by gmsh: the same nodes as the
- * exhaustive search, to the last bit. */
+ * The neighbour search on unstructured meshes from files, made by VTK's Delaunay filter and by gmsh. It finds the same nodes as
+ * the exhaustive search, to the last bit. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -19,7 +18,7 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   riis_surface_options options = surface_options();
   if (half_thickness > 0) options.half_thickness = half_thickness;
   CHECK_OK(riis_valve_create(kind, &valve));
-  if (strcmp(kind, "aortic") == 0) { /* has no second state of its own */
+  if (strcmp(kind, "aortic") == 0) { /* the aortic valve has no second state of its own */
     riis_valve *open = NULL;
     CHECK_OK(riis_valve_create(kind, &open));
     CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 50));
@@ -32,7 +31,8 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   return surface;
 }
 
-/* Marks by both searches, cold and warm, with several limits and numbers of threads. Returns how many were marked first. */
+/* Marks by both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes marked
+ * first. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_mark_result *warm) {
   riis_mark_result *expected = new_result(), *cold = new_result();
   const double wide = 0.3;
@@ -63,7 +63,7 @@ static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, r
   return n_marked;
 }
 
-/* That valve in the mesh of the file at every opening, thin and at its default thickness. */
+/* Marks the valve in the mesh of the file at every opening, both thin and with its default thickness. */
 static void expect_same_in_file(const char *path, const char *kind, int64_t least_nodes) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -76,7 +76,7 @@ static void expect_same_in_file(const char *path, const char *kind, int64_t leas
   CHECK_OK(riis_vtk_mesh_adjacency(file, 2, &adjacency));
   CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
   assert_in_range(n_nodes, least_nodes, 50000);
-  assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* of tetrahedra: about 14 neighbours */
+  assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* a node of tetrahedra has about 14 neighbours */
   CHECK_OK(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   const double half_thickness[2] = {0.03, -1};
@@ -131,7 +131,7 @@ static void mitral_in_a_delaunay_mesh(void **state) {
 }
 
 #ifdef RIIS_GMSH
-/* A cylinder around the valve, fine at some place of it and coarser away from there. */
+/* A cylinder around the valve, with a mesh that is fine at one place and coarser away from it. */
 static void graded_by_gmsh(const char *kind) {
   double lower[3], upper[3], fine[3];
   char text[2048], command[2048];
