@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_layouts_judged.sh CC SCRATCH Runs check_layouts.sh on a library of a few lines and its next releases. It must accept
-# changes that callers do not notice, and refuse others.
+# check_layouts_judged.sh CC SCRATCH
+# Runs check_layouts.sh on a library of a few lines and its next releases. It must accept changes that callers do not notice,
+# and refuse others.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cc=$1 scratch=$2

@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_symbols.sh LIST HEADER LIBRARY The list has a line for every function that a release exported, "NAME VERSION", and for
-# every constant, "NAME = VALUE VERSION". The version is the one that it came with. Compiled callers contain these names and
-# values. So everything in the list must be in the library and the header, and the other way round.
+# check_symbols.sh LIST HEADER LIBRARY
+# The list has a line for every function that a release exported, "NAME VERSION", and for every constant, "NAME = VALUE
+# VERSION". The version is the one that it came with. Compiled callers contain these names and values. So everything in the list
+# must be in the library and the header, and the other way round.
 set -euo pipefail
 list=$1 header=$2 library=$3
 version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$(dirname "$header")/riis.h" | paste -s -d .)

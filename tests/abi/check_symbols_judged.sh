@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_symbols_judged.sh LIBRARY SCRATCH check_symbols.sh must refuse a function or constant that is gone or has another name or
-# value, in the library and in the header. It must also refuse one that the list lacks.
+# check_symbols_judged.sh LIBRARY SCRATCH
+# check_symbols.sh must refuse a function or constant that is gone or has another name or value, in the library and in the
+# header. It must also refuse one that the list lacks.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../.. library=$1 scratch=$2
