@@ -16,7 +16,7 @@ enum { longest_output = 65536 };
 /* Results of the last run. */
 extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
-extern char program_leaks[longest_output]; /* the warning about leaks, which is not in program_err; "" if there was none */
+extern char program_leaks[longest_output]; /* the warning about leaks, not in program_err; "" if there was none */
 
 /* The place for the program's stdout instead of program_out: the path of a file, or "" for a closed stdout. NULL at first. */
 extern const char *program_stdout;

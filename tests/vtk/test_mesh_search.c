@@ -76,7 +76,7 @@ static void expect_same_in_file(const char *path, const char *kind, int64_t leas
   CHECK_OK(riis_vtk_mesh_adjacency(file, 2, &adjacency));
   CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
   assert_in_range(n_nodes, least_nodes, 50000);
-  assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* a node of tetrahedra has about 14 neighbours */
+  assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* tetrahedra: about 14 neighbours */
   CHECK_OK(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   const double half_thickness[2] = {0.03, -1};
