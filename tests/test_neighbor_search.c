@@ -202,7 +202,7 @@ static void isolated_nodes(void **state) {
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
   assert_true(first.n_unreached > first.n_marked / 2); /* each start's walk has one step */
-  assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0); /* all are starts now */
+  assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0); /* all are starts */
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
   riis_mark_result_destroy(&result);
   riis_mesh_destroy(&mesh);
