@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The warning about a mesh, a surface and a half thickness that can hardly be in one unit. It comes once, and not for a part of
  * a mesh that is elsewhere. It depends on the box of the nodes, which is tested for every layout of the coordinates. */
 #include <pthread.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The layouts and values that programs compiled yesterday rely on. The numbers are literals, written down when the interface
  * was made. If one of them has to change, programs break: append instead. Appended fields, functions and values get new lines.
  * The sizes of structs that grew are the only old lines that may change. */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Compares the marks that riis-mark writes with the C interface's marks on the same mesh, in.vtu of the scratch folder. */
 #ifndef RIIS_TESTS_MARKS_H
 #define RIIS_TESTS_MARKS_H

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Files of other formats: the refusal names a command that contains the user's own file names. If the command's program is
  * installed, the test runs the command and reads the file that it makes. */
 #include <stdio.h>

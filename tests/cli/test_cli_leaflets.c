@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * --leaflets takes a surface file's leaflets from its pieces or from one of its arrays. --prefix and --replace put the marks of
  * a second valve beside those of the first, or in their place. */
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The warning about edges that cross the valve between unmarked nodes, against the C interface and all edges of the mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>

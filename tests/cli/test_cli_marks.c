@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The files that riis-mark writes, compared with the C interface on the same mesh. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>

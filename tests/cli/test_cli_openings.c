@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Valves that open, in riis-mark and in the C interface: the mitral valve by itself, and any valve between two files. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The output of riis-mark without a mesh, and the reading of its command line. */
 #include <riis/riis.h>
 #include <stdio.h>

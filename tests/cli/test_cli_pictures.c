@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * --picture: without a display there is one line and exit code 1, not an abort. With a display there is a file for each option,
  * each with its view. */
 #include <riis/riis_vtk.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The example of a valve of one's own, as prosthesis.json, .c and .f90. All three are the same valve. Its leaflets never cross
  * each other, and closed it has no hole. */
 #include <math.h>

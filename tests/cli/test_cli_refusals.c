@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Every refusal has its exit code and one line on stderr that names the fault. No refusal leaves output behind. */
 #include <stdio.h>
 #include <stdlib.h>

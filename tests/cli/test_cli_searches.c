@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * riis-mark --search: the search that runs, the marks, which are always the same, and the message about a search that may be
  * incomplete. */
 #include <stdio.h>

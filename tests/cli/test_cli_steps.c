@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * --steps prints the cost of each step of a moving valve and changes nothing else. */
 #include <stdlib.h>
 #include <string.h>

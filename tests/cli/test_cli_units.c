@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * --unit and --surface-unit: the marks are the same whatever the unit. For sizes that do not go together, the test takes the
  * options that the warning names, and they mend it. */
 #include <riis/riis_vtk.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * --valve FILE.json: the marks of such a valve, compared with the C interface's, and every refusal of a file. */
 #include <stdio.h>
 #include <stdlib.h>

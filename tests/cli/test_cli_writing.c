@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Files are replaced as a whole or left as they were, even if the write is interrupted or fails. No input is lost, and nothing
  * is left beside the files. */
 #include <linux/capability.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The page of figures: every figure is there with a caption. Every picture is a PNG of the size that the page gives, with more
  * than one colour. Nothing is fetched from elsewhere. */
 #include <stdint.h>

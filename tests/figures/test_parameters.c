@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The drawings of the parameters' meaning. Every parameter that riis_valve_parameter knows is named in its valve's drawing,
  * also in the drawing that the documents show. A drawing that would leave one out or show another value is refused. The test is
  * skipped where Python lacks matplotlib. */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The test's own folder below the working directory, files in it, and a watch on the process's output. Functions end the
  * program with a message if the test cannot go on. */
 #ifndef RIIS_TESTS_SCRATCH_H

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Meshes that cannot be read. Each is an error whose message names the file, nothing is printed, nothing is returned, and no
  * file is taken for a smaller mesh than it was. */
 #include <riis/riis_vtk.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Leaflets of surface files from pieces and from arrays, marks with other names, and the length of a mesh's edges. Pieces and
  * edges are compared with slow computations of them. */
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Meshes through files: nodes keep the file's order, points are doubles, every array is kept, and marks are the core's. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The neighbour search on unstructured meshes from files, made by VTK's Delaunay filter and by gmsh. It finds the same nodes as
  * the exhaustive search, to the last bit. */
 #include <riis/riis_vtk.h>

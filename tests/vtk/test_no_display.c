@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * A picture is refused without a display. VTK on its own would abort the process. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * The outside of a mesh as pictures draw it has the faces that VTK's own filter finds, turned outwards. */
 #include <stdint.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Pictures under a virtual display have the requested size, are not blank, have one panel or two, and differ for each view. */
 #include <riis/riis_vtk.h>
 #include <signal.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Surfaces through files: written files hold the same surface as queries give, and surfaces that are read keep winding, order
  * and leaflets. */
 #include <locale.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Closest distances of random points, compared with VTK's own searches on the same triangles: another implementation in double
  * precision. RIIS_TEST_SEED repeats a run. */
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Refusals of NULL pointers, of structs that no init function filled and of options out of range, and the caller's
  * floating-point environment, which stays. */
 #include <fenv.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Memory runs out at every allocation of the component's own code. The status says so, no file is left half written, nothing of
  * its own leaks, and the same call succeeds afterwards. Failures of VTK's own allocations are not tested. */
 #include <riis/riis_vtk.h>

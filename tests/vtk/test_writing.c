@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * Files are complete or not there. A write that fails leaves the old file in its place and nothing beside it. */
 #include <errno.h>
 #include <riis/riis_vtk.h>

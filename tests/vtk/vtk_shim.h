@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
+ *
  * VTK itself, for tests: makes files and reads them back without any code of riis. The interface is C, since a failed assertion
  * leaves by longjmp. Every function has released its VTK objects when it returns. */
 #ifndef RIIS_TESTS_VTK_SHIM_H
