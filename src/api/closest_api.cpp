@@ -96,7 +96,7 @@ double limit_of(const riis_closest_options &options) {
   return options.distance_limit;
 }
 
-// The points that are wanted: all, those of a mask, or those of a list.
+// The wanted points: all points, a mask's points, or a list's points.
 class WantedPoints {
  public:
   WantedPoints(const riis_closest_options &options, const riis::StridedPoints &points)
@@ -126,7 +126,7 @@ class WantedPoints {
   }
 
   std::int64_t n() const { return n_; }
-  // The number of the k-th point.
+  // Returns the number of the k-th point.
   std::int64_t id(std::int64_t k) const { return ids_ ? ids_[k] : k; }
   bool is_wanted(std::int64_t id) const { return !mask_ || mask_[id] != 0; }
 

@@ -38,7 +38,7 @@ void check_flag(const char *name, std::int32_t value) {
     riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
 }
 
-// `name` is the argument's.
+// `name` is the name of the argument.
 void check_placement(const riis_surface_options &options, const char *name) {
   check_range(name, "scale", options.scale, 1e-12, 1e12);
   check_range(name, "rotation_angle", options.rotation_angle, -1e6, 1e6);
@@ -132,7 +132,7 @@ struct MotionArguments {
 
 riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
   require_handle(motion.valve_before, "valve_before");
-  // A state that lasts less than that, or longer, is a mistake, and the velocity stays far from overflow.
+  // A shorter or longer time is a mistake. Within these limits the velocity stays far from overflow.
   if (!(std::abs(motion.seconds) >= 1e-30 && std::abs(motion.seconds) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "seconds is ", motion.seconds,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");

@@ -51,7 +51,7 @@ Ran run_clusters(const SearchRequest &request, MarkResult &result) {
 Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
   static const std::vector<std::int64_t> nowhere;
   if (request.mesh.nodes().n == 0) {
-    // A rank without nodes: every search finds all of nothing.
+    // A rank may have no nodes. Then every search is complete and finds nothing.
     result.found.prepare(1);
     return {search, {0, 1, true, 0}};
   }
@@ -79,7 +79,7 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   check_fields(request.surface, fields);
   const auto [search, report] = run(request, search_for(request, asked_for), result);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
-  // What may fail comes before the first list is overwritten.
+  // Calls that may fail come before the first list is overwritten.
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) request.surface.prepare_sides();

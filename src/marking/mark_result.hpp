@@ -23,8 +23,8 @@ struct LeakingEdges {
 };
 
 struct MarkResult {
-  NodeList within;  // nodes within the distance limit
-  NodeList marked;  // used only where the limit is wider than the half thickness; elsewhere `within` has them
+  NodeList within;          // nodes within the distance limit
+  NodeList marked;          // used only where the limit is wider than the half thickness; elsewhere `within` has them
   bool was_marked = false;  // false for an empty result
   std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking was asked for
   NodeFields fields_within;
