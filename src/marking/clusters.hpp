@@ -46,7 +46,7 @@ struct Clusters {
 // A leaf stores node numbers in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// Both functions fail with RIIS_INVALID_MESH for a coordinate that is not finite. Clusters with n_nodes 0 have not been made yet.
+// Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. Clusters with n_nodes 0 have not been made yet.
 void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
 // Keeps the order and updates places and boxes to the nodes' new coordinates.
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);

@@ -26,7 +26,7 @@ struct NodeBalls {
   Range balls_of(std::int64_t large_ball) const;
 };
 
-// Makes the order. Both functions fail with RIIS_INVALID_MESH for a coordinate that is not finite.
+// Makes the order. Both functions fail with RIIS_INVALID_MESH for an unusable coordinate.
 void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
 // Makes the balls and large balls from the order.

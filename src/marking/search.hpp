@@ -27,7 +27,7 @@ struct SearchReport {
   std::int64_t n_unreached;  // found by the neighbour search's proof
 };
 
-// Every search fills FoundNodes in any order, and fails with RIIS_INVALID_MESH if a coordinate is not finite.
+// Every search fills FoundNodes in any order, and fails with RIIS_INVALID_MESH if it reads an unusable coordinate.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
