@@ -25,7 +25,7 @@ class Contest {
   void run();
 
   double least(const std::string &name) const;
-  // Returns the median of the ratios of the two least times in each fifth of the run.
+  // Returns the median over the fifths of the run of the ratio of the two contenders' least times.
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it was not.
   std::string why_left_out(const std::string &name) const;
