@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far off the paper's three ways to measure a distance are (4.1, "Performance evaluation"), on a leaflet of either valve, for
-// points whose true distance is known. Prints a table; argv[1]: a file for the same and more as JSON; argv[2]: how many
-// points a leaflet. Fails where a distance is off by more than is promised of it.
+// Measures the errors of the paper's three ways to measure a distance (4.1, "Performance evaluation"), on a leaflet of either
+// valve, for points whose true distance is known. Prints a table. Fails if an error is larger than promised.
+//   argv[1]  a file for the table and more as JSON
+//   argv[2]  the number of points per leaflet
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -28,19 +29,19 @@ using namespace riis::accuracy;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-// Triangles for the check of true distances: two million or so a leaflet.
+// The tolerance of the triangles that check true distances. It gives about two million triangles per leaflet.
 constexpr double fine_tolerance = 5e-5;
 constexpr std::uint64_t seed = 1;
-// Sampling may be off by more than its tolerance for so many of the points.
+// For this share of the points, sampling may be off by more than its tolerance.
 constexpr double sampling_share = 1e-3;
 
-// Of ascending values, that below which a share of them lies.
+// Returns the value below which a share of the ascending values lies.
 double quantile(const std::vector<double> &ascending, double share) {
   const auto n = static_cast<double>(ascending.size());
   return ascending[std::min(ascending.size() - 1, static_cast<std::size_t>(share * n))];
 }
 
-// Counts by the logarithm; what is below the first bin is in none but "below".
+// Counts values in bins of their logarithm. Values below the first bin count only in "below".
 json histogram_of(const std::vector<double> &values, double lowest_power, double highest_power, double bins_per_power) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>((highest_power - lowest_power) * bins_per_power));
   std::int64_t below = 0, above = 0;
@@ -65,7 +66,7 @@ json summary_of(std::vector<double> values) {
   return {{"median", quantile(values, 0.5)}, {"p95", quantile(values, 0.95)}, {"max", values.back()}};
 }
 
-// Microseconds a point of the fastest of three passes: what else the machine does only adds.
+// Returns microseconds per point in the fastest of three passes: other work of the machine only adds time.
 double mean_microseconds(const MeasuredSurface &surface, const TruePoints &points) {
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (int pass = 0; pass < 3; ++pass) {
@@ -89,7 +90,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
     least = std::min(least, error);
     most = std::max(most, error);
     errors.push_back(std::abs(error));
-    // The coordinates of points round.
+    // The margin is for the rounding of the points' coordinates.
     n_over += std::abs(error) > tolerance + 1e-9;
   }
   json result = summary_of(errors);
@@ -105,7 +106,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
   return result;
 }
 
-// What is promised and not kept; empty if it is.
+// Returns a text about the broken promise, or "" if all are kept.
 std::string broken_promise(const Setting &setting, const json &run) {
   for (const char *where : {"on_surface", "off_surface"}) {
     const double share = run.at(where).at("share_over_tolerance");

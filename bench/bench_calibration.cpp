@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that has nothing to do with the library, so that another machine, or the same one on another day, can compare:
-// compare.py divides every other time by these.
+// Work that has nothing to do with the library. compare.py divides every other time by these times, so that other machines, or
+// the same one on another day, can be compared.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// What memory gives: a million nodes' coordinates, read once.
+// Measures memory: reads the coordinates of a million nodes once.
 void calibration_coordinates(benchmark::State &state) {
   constexpr std::size_t n_nodes = 1000000;
   std::vector<double> xyz(3 * n_nodes);
@@ -19,7 +19,7 @@ void calibration_coordinates(benchmark::State &state) {
 }
 BENCHMARK(calibration_coordinates)->Unit(benchmark::kMillisecond);
 
-// What a core gives: a product and a sum in double precision, each waiting for the one before.
+// Measures a core: products and sums in double precision, each waiting for the one before.
 void calibration_products(benchmark::State &state) {
   constexpr int n_products = 1000000;
   double factor = 0.9999999, summand = 1e-7;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's three ways to measure a distance (4.1, "Performance evaluation"): a query each, of points on the surface, as in
-// the paper, and of points in a box around it, with what they are off there. Tolerances are shares of the half thickness, 0.1.
+// Times and errors of a query by each of the paper's three ways to measure a distance (4.1, "Performance evaluation"). The points
+// are on the surface, as in the paper, or in a box around it. Tolerances are shares of the half thickness, 0.1.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -31,7 +31,7 @@ Surface surface_of(const char *kind, std::int32_t distance, double tolerance) {
   return Surface(surface);
 }
 
-// The same every run, with distances to triangles within 1e-3 half thicknesses of the smooth surface.
+// The points are the same in every run. Their distances are to triangles within 1e-3 half thicknesses of the smooth surface.
 struct Points {
   std::vector<double> xyz, distances;
 
@@ -56,7 +56,7 @@ struct Points {
   }
 };
 
-// Arguments: RIIS_DISTANCE_*, tolerance in tenths of a per cent, whether the points are on the surface.
+// Arguments: RIIS_DISTANCE_*, the tolerance in tenths of a per cent, and 1 if the points are on the surface.
 void distance_query(benchmark::State &state, const char *kind) {
   const auto method = static_cast<std::int32_t>(state.range(0));
   const Surface surface = surface_of(kind, method, 1e-3 * static_cast<double>(state.range(1)));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench marking: what a time step costs, beside what it is compared with, in one run. A step is the surface of a valve
-// that moved, its scene, the marking, and the list of marked nodes with distances and triangles (time_steps.hpp). Prints the
-// measured times and the bars; argv[1], if given, is a file for them as JSON. argv[2]: thousands of nodes in the place of a
-// million, for a quick look. Fails if what is compared does not mark the same nodes.
+// ./run bench marking: the cost of a time step and of its competitors, in one run. A step makes the surface of a valve that moved
+// and its scene, marks, and reads the list of marked nodes with distances and triangles (time_steps.hpp). Prints the measured
+// times and the bars. Fails if a competitor does not mark the same nodes.
+//   argv[1]  a file for the times and bars as JSON, optional
+//   argv[2]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ constexpr double half_thickness = 0.1;
 constexpr double coarse = 0.056, fine = 0.0034;  // tolerances for about 2,500 and 36,000 triangles
 constexpr int n_turns = 40, n_slow_turns = 20;
 
-// So much at most is what the paper's loop counts for a node and a triangle, however long it takes here.
+// The paper's loop counts at most this time for a node and a triangle, however long it takes here.
 constexpr double most_ns_a_pair = 6;
 const RatioBar paper_bars[] = {
     {"the paper's search with every triangle, at most 6 ns a pair, / step, 1 thread",
@@ -76,7 +77,7 @@ void add(Contest &contest, const std::string &name, TimeSteps &steps) {
 std::string of_threads(int n_threads) { return n_threads == 1 ? ", 1 thread" : ", 2 threads"; }
 
 #if defined(RIIS_WITH_CGAL)
-// Whether CGAL marks the same nodes: all but those whose distance is the half thickness but for rounding.
+// Tells whether CGAL marks the same nodes. Nodes whose distance equals the half thickness up to rounding may differ.
 bool is_same(const std::vector<double> &distance, const Marked &marked) {
   constexpr double rounding = 1e-12;
   std::int64_t n_different = 0, n_unexplained = 0, next = 0;
@@ -97,7 +98,7 @@ bool is_same(const std::vector<double> &distance, const Marked &marked) {
 }
 #endif
 
-// Steps and what they are compared with, on the same nodes. False if these do not mark the same.
+// Measures steps and their competitors on the same nodes. Returns false if these do not mark the same nodes.
 bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts) {
   const CylinderMesh nodes(wide_cylinder, about_n_nodes);
   const std::int64_t n = nodes.n_nodes();
@@ -129,7 +130,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       contest.leave_out(name, "the processor has no AVX-512");
   }
 
-  // The others are asked for the surface as it is now.
+  // The competitors mark the surface as it is now.
   const Marked marked = two.step();
   const Triangles triangles(two.surface());
   PaperSearch paper(n, xyz, nodes.rows());
@@ -202,7 +203,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   return is_right;
 }
 
-// A tenth of the nodes, the nodes, and ten times as many: coordinates alone.
+// Measures a tenth of the nodes, the nodes, and ten times as many. Meshes are coordinates only.
 void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   struct Size {
     CylinderNodes nodes;
@@ -216,7 +217,7 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
   const auto add_size = [&](const std::string &name, Size &size) {
     contest.add(
         name, n_turns, [&] { size.steps.step(); },
-        [&] {  // an untimed step before: what a mesh of another size left in the caches does not matter
+        [&] {  // an untimed step first, so that another mesh's data in the caches does not matter
           size.steps.move();
           size.steps.step();
           size.steps.move();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: the same nodes and the same triangles given to others (CGAL, VTK), on one thread. First their marks
-// are compared with those of a loop over all triangles, then their times are taken in turns. argv[1] is a file for that as
-// JSON; argv[2], thousands of nodes, 100 if it is not there; argv[3], a folder that gets nodes, triangles and distances as
-// raw binary numbers, for peers.py. Fails if the library, or CGAL, does not mark what the loop does.
+// ./run bench peers: gives the same nodes and triangles to others (CGAL, VTK), on one thread. First their marks are compared with
+// those of a loop over all triangles, then their times are taken in turns. Fails if the library or CGAL does not mark the loop's
+// nodes.
+//   argv[1]  a file for the results as JSON
+//   argv[2]  thousands of nodes; 100 if left out
+//   argv[3]  a folder that gets nodes, triangles and distances as raw binary numbers, for peers.py
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,13 +36,13 @@ constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// What there is to agree on: distances by a loop over all triangles.
+// The truth to agree on: distances by a loop over all triangles.
 struct Truth {
   std::vector<double> distance;
-  std::vector<bool> nearest_is_thin;  // the nearest triangle's height over its longest edge is below 1e-6 of that
+  std::vector<bool> nearest_is_thin;  // the nearest triangle's height over its longest edge is below 1e-6 of that edge
 };
 
-// One peer's distances beside the truth. Nodes that are marked differently are counted by the reason.
+// Compares one peer's distances with the truth. Nodes that are marked differently are counted by reason.
 json compared(const Truth &truth, const std::vector<double> &distance) {
   constexpr double rounding = 1e-12, single = 2e-6;  // cm, of coordinates of some cm
   std::map<std::string, std::int64_t> reasons;
@@ -80,7 +82,7 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   for (std::int64_t i = 0; i < n; ++i)
     truth.distance[static_cast<std::size_t>(i)] =
         every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
-  // Which triangle is nearest the library says; that the distance is right is compared.
+  // The library gives the nearest triangle, and the comparison checks its distance.
   std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from parameters to a scene, stage by stage (paper, 3 and 4.1), on one thread: of the aortic valve and of the
-// mitral valve half open, at the default tolerance. Every stage has what it needs from the one before. riis_surface_create
-// does all of them; what a stage costs there is less where it works in the memory of the last surface.
+// The way from parameters to a scene, stage by stage (paper, 3 and 4.1), on one thread. Valves are the aortic one and the
+// half-open mitral one, at the default tolerance. Every stage starts from the results of the stage before. riis_surface_create
+// runs all stages. A stage costs less there if it works in the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
@@ -39,7 +39,7 @@ void pipeline_patches(benchmark::State &state, const char *kind) {
   state.counters["curves"] = static_cast<double>(valve->valve.make_patches().curves.size());
 }
 
-// Every curve once, all of the error being its own; surfaces ask for finer ones.
+// Flattens every curve once, with the whole error for itself. Surfaces need finer curves.
 void pipeline_curves(benchmark::State &state, const char *kind) {
   const riis::PatchSet patches = moved_valve(kind)->valve.make_patches();
   std::size_t n_points = 0;
@@ -57,7 +57,7 @@ void pipeline_quads(benchmark::State &state, const char *kind) {
   for (auto _ : state) benchmark::DoNotOptimize(riis::make_grids(patches, max_error));
 }
 
-// The same, and the triangles in place: quads are not kept in between.
+// The same, then the placed triangles. Quads are not kept in between.
 void pipeline_triangles(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   const riis::PatchSet patches = valve->valve.make_patches();
@@ -85,7 +85,7 @@ void pipeline_scene_again(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 
-// All of it, as a caller asks for it.
+// Runs all stages, as a caller does.
 void pipeline_surface(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   for (auto _ : state) surface_of(valve.get());

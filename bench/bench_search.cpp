@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The searches, on cylinders that the valves fit generously, as in the paper's tables (4.2.3): what is asked changes with
-// every marking, as a moving valve does. Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py
-// makes tables of them.
+// The searches, on cylinders that the valves fit generously, as in the paper's tables (4.2.3). The valve moves between markings.
+// Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py makes tables of the times.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -29,7 +28,7 @@ const CylinderMesh &mesh_of(const benchmark::State &state) {
   return *mesh;
 }
 
-// A valve on its way there and back, a hundredth of its motion from state to state. Tolerance 5 %, as the paper's.
+// A valve that moves there and back, by a hundredth of its motion from state to state. The tolerance is the paper's, 5 %.
 class MovingValve {
  public:
   explicit MovingValve(std::int64_t kind) {
@@ -78,7 +77,7 @@ void count_time_per(benchmark::State &state, const char *name, double n) {
       benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-// The shortest of many markings: what else the machine does only adds.
+// The shortest of many markings, since other work of the machine only adds time.
 class Shortest {
  public:
   template <class Work>
@@ -107,7 +106,7 @@ void count(benchmark::State &state, const riis_mark_result *result) {
   count_time_per(state, "time/node", n_nodes);
 }
 
-// Every marking with the same result, the valve moving.
+// Marks again and again into the same result while the valve moves.
 void mark_repeatedly(benchmark::State &state, std::int32_t search) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -128,7 +127,7 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// A new result every time: no last marking to start from, no memory to reuse. The mesh has its balls.
+// Marks into a new result every time, so there is no last marking to start from and no memory to reuse. The mesh has its balls.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -147,7 +146,7 @@ void search_neighbor_cold(benchmark::State &state) {
   count(state, result.get());
 }
 
-// The full distance of every node, which is what the paper's exhaustive search computes, by the scene.
+// Computes the full distance of every node by the scene. The paper's exhaustive search also computes these distances.
 void search_all_distances(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   MovingValve &valve = valve_of(state);
@@ -174,8 +173,8 @@ void search_all_distances(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The paper's exhaustive search itself: every node, every triangle, one thread, with the library's kernel. Of every 50th node;
-// "all_nodes_s" is that times the nodes there are, since each costs the same.
+// The paper's exhaustive search itself: every node, every triangle, one thread, with the library's kernel. Only every 50th node
+// is measured. "all_nodes_s" scales the time to all nodes, since each costs the same.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
@@ -198,8 +197,8 @@ void search_every_triangle(benchmark::State &state) {
   count_time_per(state, "time/pair", static_cast<double>(n_sample) * n_triangles_of(surface));
 }
 
-// The paper's own two, written plainly (references.hpp). Every node to every triangle: of every so many nodes, about 2,000;
-// "all_nodes_ms" is that times the nodes there are, since each costs the same.
+// The paper's two searches, written plainly (references.hpp). The first measures every node against every triangle, for an evenly
+// spaced sample of about 2,000 nodes. "all_nodes_ms" scales the time to all nodes, since each costs the same.
 void search_paper_exhaustive(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -227,7 +226,7 @@ void search_paper_exhaustive(benchmark::State &state) {
       shortest.milliseconds() * static_cast<double>(mesh.n_nodes()) / static_cast<double>(n_sample);
 }
 
-// From marked nodes to their neighbours, every triangle each.
+// The second walks from marked nodes to their neighbours and measures each against every triangle.
 void search_paper_neighbor(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -244,7 +243,7 @@ void search_paper_neighbor(benchmark::State &state) {
   state.counters["triangles"] = static_cast<double>(triangles.n());
 }
 
-// The first neighbour search of a mesh sorts its nodes into balls: this is its cost.
+// Measures the sorting of a mesh's nodes into balls, which the mesh's first neighbour search does.
 void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();
@@ -256,7 +255,7 @@ void search_groups(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// And what the library's own adjacency costs once.
+// Measures the making of the library's adjacency, which is needed once.
 void search_adjacency_of_tetrahedra(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::vector<std::int32_t> tetrahedra = mesh.tetrahedra();
@@ -265,7 +264,7 @@ void search_adjacency_of_tetrahedra(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The faces between the grid's cells, numbered as its nodes are: owner and neighbour.
+// Measures an adjacency from faces. The grid's nodes count as cells; each face has an owner and a neighbour.
 void search_adjacency_of_faces(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::int64_t n[3] = {mesh.n_across(), mesh.n_across(), mesh.n_along()};
@@ -308,14 +307,14 @@ void search_adjacency_of_grid(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// About the sizes of the paper's meshes, and its numbers of threads.
+// These are about the sizes of the paper's meshes, and its numbers of threads.
 const std::vector<std::int64_t> valves{0, 1}, sizes{110, 260, 500, 1000, 1480}, threads{1, 2, 4, 8, 12};
 
 void with(benchmark::internal::Benchmark *benchmark, const std::vector<std::vector<std::int64_t>> &arguments) {
   benchmark->ArgsProduct(arguments)->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 void of_every_size(benchmark::internal::Benchmark *benchmark) { with(benchmark, {valves, sizes, threads}); }
-// What does not depend on the valve.
+// Arguments of benchmarks that do not depend on the valve.
 void of_every_mesh(benchmark::internal::Benchmark *benchmark) { with(benchmark, {{0}, {110, 500, 1000}, {1, 2}}); }
 void of_the_smallest(benchmark::internal::Benchmark *benchmark) { with(benchmark, {valves, {110}, {1}}); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One benchmark a stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the
-// machine; what guards the speed are the ratios, both sides measured in the same run.
+// One benchmark per stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine.
+// The ratios guard the speed: both sides are measured in the same run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -31,7 +31,7 @@ Surface aortic_surface(double tolerance) {
   return Surface(surface);
 }
 
-// Nodes in the box that the demo's cylinder fills; the same every run.
+// Nodes in the box that the demo's cylinder fills, the same in every run.
 const std::vector<double> &nodes() {
   static const std::vector<double> xyz = [] {
     constexpr std::size_t n_nodes = 100000;
@@ -57,7 +57,7 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-// Parameters to triangles to scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per
+// From parameters to triangles to the scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per
 // cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = make_valve("aortic");
@@ -80,7 +80,7 @@ void closest_point(benchmark::State &state) {
   const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
   std::size_t i = 0;
   riis_closest closest;
-  check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));  // makes what sides need
+  check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));  // makes the data that sides need
   for (auto _ : state) {
     check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));
     benchmark::DoNotOptimize(closest);
@@ -111,8 +111,8 @@ void mark_exhaustive(benchmark::State &state) {
 }
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// The loop over all triangles with the library's own kernel, against the marking of the same nodes on one thread: how
-// many times faster the scene is. The sample is every 100th node.
+// Compares the loop over all triangles, with the library's own kernel, with the marking of the same nodes on one thread. The
+// ratio tells how many times faster the scene is. The sample is every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const riis::TriangleSet &triangles = surface->surface->triangles();

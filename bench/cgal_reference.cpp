@@ -37,8 +37,8 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
   return x * x + y * y + z * z;
 }
 
-// What CGAL's traversal asks: into which boxes, and what to do with a triangle. As its own for closest points, but it begins
-// with a radius.
+// Tells CGAL's traversal which boxes to enter and what to do with a triangle. It is like CGAL's own for closest points, but it
+// begins with a radius.
 struct WithinLimit {
   double radius_sq;
   bool has_found = false;
@@ -76,7 +76,7 @@ void CgalQuery::distances(std::int64_t n_nodes, const double *xyz, double limit,
                           double *distance) const {
   const Tree &tree = implementation_->tree;
   const CGAL::Bbox_3 box = tree.bbox();
-  // Chunks, since the dear nodes are those near the valve.
+  // Threads take chunks, since nodes near the valve cost more than others.
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 4096)
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const Point p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);

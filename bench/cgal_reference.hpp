@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library's marking is compared with, if CGAL was found: its tree of boxes round triangles (AABB_tree).
+// A competitor of the library's marking, if CGAL was found: its tree of boxes round triangles (AABB_tree).
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace bench {
 
-// Distances of all nodes within a limit, each by a query of its own; infinity for the others. Of what CGAL offers, the
-// fastest that gives a distance. On one thread, a million nodes of which 3 % are marked, 2456 triangles:
+// Computes the distances of all nodes within a limit, each by a query of its own, and infinity for the others. It is the fastest
+// of CGAL's ways that give a distance. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
 //
 //   a traversal that begins with the limit and shrinks, as here, with the tree's own box before it    50 ms
 //   the same with CGAL's test of a sphere and a box in place of the distance of a box                 62 ms

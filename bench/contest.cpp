@@ -37,7 +37,7 @@ void Contest::run() {
   }
   for (int turn = 0; turn < most; ++turn)
     for (const Contender &contender : contenders_) {
-      // Those with fewer turns have them spread over all.
+      // A contender with fewer turns has them spread over the whole run.
       if (turn * contender.n_turns / most == (turn + 1) * contender.n_turns / most) continue;
       contender.before();
       times_[contender.name].push_back(milliseconds_of(contender.work));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of several pieces of work that take turns, so that what else the machine does falls on all alike; and the bars that
-// ratios of them are held against. As tables in markdown and as JSON.
+// Times of several pieces of work that take turns, so that other work of the machine falls on all alike. Then the bars that
+// ratios of these times must meet. Out: tables in markdown, and JSON.
 #pragma once
 
 #include <functional>
@@ -15,20 +15,21 @@ class Contest {
  public:
   using Work = std::function<void()>;
 
-  // before() prepares a turn, outside its time. At least 5 turns: a ratio is the median of five parts of the run.
+  // before() prepares a turn outside its time. There must be at least 5 turns, because a ratio is the median of five parts of the
+  // run.
   void add(
       const std::string &name, int n_turns, Work work, Work before = [] {});
-  // A contender that cannot take part here; bars with it are left out, and the reason is said.
+  // Records a contender that cannot take part here. Bars with it are left out, and the reason is printed.
   void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
-  // All that were added since the last run. Each works once, untimed, before the first turn.
+  // Runs all contenders that were added since the last run. Each works once, untimed, before the first turn.
   void run();
 
   double least(const std::string &name) const;
-  // Of the two least times in each fifth of the run, the median ratio.
+  // Returns the median over the fifths of the run of the ratio of the two contenders' least times.
   double ratio(const std::string &above, const std::string &below) const;
-  // Why a contender was left out; empty if it was not.
+  // Returns the reason why a contender was left out, or "" if it was not.
   std::string why_left_out(const std::string &name) const;
-  // Of all that were left out, by name.
+  // Returns the reasons of all contenders that were left out, by name.
   const std::map<std::string, std::string> &left_out() const { return left_out_; }
 
   void print() const;
@@ -47,7 +48,7 @@ class Contest {
 
 enum class Wanted { at_least, at_most };
 
-// What is wanted of the ratio of two contenders.
+// The bar for the ratio of two contenders.
 struct RatioBar {
   const char *name, *above, *below;
   Wanted wanted;

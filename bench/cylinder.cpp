@@ -8,7 +8,7 @@
 namespace bench {
 
 CylinderNodes::CylinderNodes(const Cylinder &cylinder, std::int64_t about_n_nodes) {
-  // Equal edges along the axis and, on average, across it.
+  // Edges along the axis are as long as the average edge across it.
   const double width = std::sqrt(M_PI) * cylinder.radius, length = cylinder.upper - cylinder.lower;
   const double edge = std::cbrt(width * width * length / static_cast<double>(about_n_nodes));
   n_across_ = std::lround(width / edge) + 1;
@@ -17,7 +17,7 @@ CylinderNodes::CylinderNodes(const Cylinder &cylinder, std::int64_t about_n_node
   for (std::int64_t k = 0; k < n_along_; ++k) {
     for (std::int64_t j = 0; j < n_across_; ++j) {
       for (std::int64_t i = 0; i < n_across_; ++i) {
-        // A square onto a disc.
+        // Maps a square onto a disc.
         const double u = 2.0 * static_cast<double>(i) / static_cast<double>(n_across_ - 1) - 1;
         const double v = 2.0 * static_cast<double>(j) / static_cast<double>(n_across_ - 1) - 1;
         xyz_.push_back(cylinder.radius * u * std::sqrt(1 - v * v / 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes like the paper's: cylinders that a valve fits, of tetrahedra, of any number of nodes.
+// Meshes like the paper's: cylinders of tetrahedra that a valve fits, with any number of nodes.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ struct Cylinder {
   double centre_y;
 };
 
-// Of the aortic and of the mitral valve: somewhat larger than the demo's round the one, the same round the other. About 4 %
-// of the nodes are marked, as many as the paper's ratio of 18 to 26 lets suppose.
+// The cylinders of the aortic and of the mitral valve. The first is somewhat larger than the demo's, the second is the same.
+// About 4 % of the nodes are marked, which the paper's ratio of 18 to 26 suggests.
 inline constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
 
-// Wider, round the aortic valve: about 3 % of the nodes are within 0.1 cm of it, as in the paper's meshes by the ratio of
-// its searches.
+// A wider cylinder round the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The ratio of the paper's
+// searches suggests the same for its meshes.
 inline constexpr Cylinder wide_cylinder{2.0, -2.1, 1.3, 0};
 
 // A structured grid bent to a cylinder.
@@ -31,7 +31,7 @@ class CylinderNodes {
   std::int64_t n_across() const { return n_across_; }
   std::int64_t n_along() const { return n_along_; }
   const std::vector<double> &xyz() const { return xyz_; }
-  // Each cell cut into 6.
+  // Cuts each cell into 6 tetrahedra.
   std::vector<std::int32_t> tetrahedra() const;
 
  private:
@@ -39,17 +39,17 @@ class CylinderNodes {
   std::vector<double> xyz_;
 };
 
-// These nodes as a mesh of the library's, which borrows their coordinates.
+// Makes a mesh of the library from these nodes. It borrows their coordinates.
 Mesh mesh_over(const CylinderNodes &nodes);
 
-// With the adjacency by the tetrahedra.
+// A mesh with the adjacency from its tetrahedra.
 class CylinderMesh : public CylinderNodes {
  public:
   CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes);
 
-  // 64-bit offsets, 32-bit columns.
+  // The rows have 64-bit offsets and 32-bit columns.
   riis_csr rows() const;
-  // Borrows from this.
+  // The mesh borrows from this object.
   const riis_mesh *mesh() const { return mesh_.get(); }
 
  private:

@@ -7,15 +7,15 @@ MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 
 
 def without_suffix(name):
-    """search_clusters/0/110/1/min_time:0.250/real_time -> search_clusters/0/110/1"""
+    """Makes search_clusters/0/110/1 of search_clusters/0/110/1/min_time:0.250/real_time."""
     parts = name.split("/")
     return "/".join(p for p in parts if p not in ("real_time", "process_time") and not p.startswith(("min_time:", "repeats:")))
 
 
 def least_times(runs):
-    """From the "benchmarks" of a file, by name: of repeated runs the one with the least time, which is in "ms": the counter
-    least_ms, the shortest single call, where a benchmark has it, else the time an iteration. Runs that ended early are in the
-    second answer, with their message."""
+    """Returns the "benchmarks" of a file by name. Of repeated runs it takes the one with the least time, which is in "ms". That
+    is the counter least_ms, the shortest single call, if a benchmark has it, else the time per iteration. The second result has
+    the runs that ended early, with their messages."""
     best, failed = {}, {}
     for run in runs:
         if run.get("run_type", "iteration") != "iteration":

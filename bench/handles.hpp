@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's handles with their destruction, for benchmarks: what goes wrong ends the program.
+// The library's handles with their destruction, for benchmarks: an error ends the program.
 #pragma once
 
 #include <riis/riis.h>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench leaks: how fine a mesh must be, as the tables of docs/meshes.md. Edges that cross a closed valve and leak, against the
-// longest edge; what of the aortic valve's cross-section its triangles leave open; what riis_find_leaks costs beside a marking.
-// argv[1], if there is one: thousands of nodes for the last. Random places are those of printed seeds.
+// ./run bench leaks: measures how fine a mesh must be, for the tables of docs/meshes.md:
+//   the edges that leak through a closed valve, by the longest edge
+//   the part of the aortic valve's cross-section that its triangles leave open
+//   the cost of riis_find_leaks beside a marking
+// argv[1], optional: thousands of nodes for the last. Random places come from printed seeds.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -59,8 +61,9 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
   return Surface(made);
 }
 
-// A cube of nodes at the corners and in the middles of small cubes, turned and shifted at random; cut into tetrahedra all alike, whose
-// edges are the cubes' own, of this length, and 0.87 times that from a middle to the eight corners round it.
+// A cube of nodes at the corners and in the middles of small cubes, turned and shifted at random. It is cut into equal
+// tetrahedra. Their edges are the cubes' own, of this length, and those from a middle to the eight corners round it, 0.87 times
+// as long.
 struct Crystal {
   std::vector<double> xyz;
   std::vector<std::int64_t> offsets{0}, columns;
@@ -81,7 +84,7 @@ Crystal crystal_round(const riis_surface_info &info, double edge, std::uint64_t 
   std::mt19937_64 random(seed);
   const std::array<Point, 3> rotation = random_rotation(random);
   std::uniform_real_distribution<double> share(0, 1);
-  double reach = 0;  // of a ball round the surface
+  double reach = 0;  // radius of a ball round the surface
   Point middle, shift;
   for (std::size_t i = 0; i < 3; ++i) {
     middle[i] = 0.5 * (info.lower[i] + info.upper[i]);
@@ -161,7 +164,7 @@ void print_leaks(const char *kind) {
   }
 }
 
-// The share of a disc round the axis that no triangle covers, seen along the axis: on a square grid of points.
+// Returns the share of a disc round the axis that no triangle covers, seen along the axis. It counts points of a square grid.
 double open_share(const Surface &surface, double radius, int n_per_radius) {
   const int side = 2 * n_per_radius + 1;
   const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };
@@ -213,7 +216,7 @@ double shortest(
   return 1e3 * least;
 }
 
-// In milliseconds: a marking by clusters, a first search for leaks, and one when the edges are known.
+// Prints milliseconds of a marking by clusters, a first search for leaks, and a search when the edges are known.
 void print_cost(double thickness, const CylinderMesh &nodes) {
   const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
   const double *xyz = nodes.xyz().data();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the process has of malloc, and of the system.
+// The memory that the process has from malloc and from the system.
 #pragma once
 
 #include <malloc.h>
@@ -9,13 +9,13 @@
 
 namespace bench {
 
-// Bytes that were given and not yet freed, of all arenas and of pages of their own.
+// Returns the bytes that malloc gave and that are not yet freed, in all arenas and in separate pages.
 inline double allocated() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-// Bytes of the process in memory.
+// Returns the bytes of the process that are in memory.
 inline double resident() {
   long long all = 0, in_memory = 0;
   std::FILE *file = std::fopen("/proc/self/statm", "r");

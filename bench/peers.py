@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Python packages given the nodes and triangles that riis_bench_peers wrote: their marks, then their times, as JSON.
+"""Gives the nodes and triangles that riis_bench_peers wrote to Python packages. Measures their marks, then their times, as JSON.
 
-Runs in a virtual environment that study.py makes; a package that is not there is left out, with the reason. The process
-keeps to one processor, so that what these packages do on threads of their own costs what it costs one."""
+Runs in a virtual environment that study.py makes. A missing package is left out, with the reason. The process keeps to one
+processor, so that work of these packages on threads of their own costs as much as on one."""
 
 import argparse
 import collections
@@ -15,7 +15,7 @@ import time
 
 HALF_THICKNESS = 0.1
 TURNS = 5
-# Coordinates of some centimetres: what double and single precision may be off.
+# The errors that double and single precision may have for coordinates of some centimetres.
 ROUNDING, SINGLE = 1e-12, 2e-6
 
 
@@ -52,12 +52,12 @@ def fcpw(np, nodes, vertices, triangles):
         scene.find_closest_points(asked, squared_radii, found)
         return None
 
-    # The list is turned into an array outside of the time.
+    # The list becomes an array outside the measured time.
     ask.read = lambda: np.array([at.d if at.primitive_index != 2**32 - 1 and at.d >= 0 else np.inf for at in found])
     return ask
 
 
-# name: (package on PyPI, how it is asked, what is said of it)
+# name: (package on PyPI, function that queries it, description)
 PEERS = {
     "libigl": ("libigl", libigl, "double, no bound"),
     "point-cloud-utils": ("point-cloud-utils", point_cloud_utils, "double, no bound"),
@@ -67,7 +67,7 @@ PEERS = {
 
 
 def compared(np, truth, distance):
-    """As riis_bench_peers compares: nodes that are marked differently, counted by the reason."""
+    """Compares as riis_bench_peers does: counts nodes that are marked differently, by reason."""
     by_peer, marked = distance <= HALF_THICKNESS, truth <= HALF_THICKNESS
     reasons = collections.Counter()
     for i in np.flatnonzero(by_peer != marked):
@@ -103,7 +103,7 @@ def measure(np, folder, kind):
             ask = make(np, nodes, vertices, triangles)
             version = importlib.metadata.version(package)
             answer = ask()
-        except Exception as error:  # whatever a package does wrong is its reason to be left out
+        except Exception as error:  # any error of a package is the reason to leave it out
             out["left_out"][name] = f"not available: {type(error).__name__}: {error}".splitlines()[0]
             continue
         label = f"{name} {version}"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its first half: on a million nodes, both valves, three positions, three half thicknesses, the search
-// over clusters, with every instruction set of the processor and 1 to 4 threads, marks what a loop over triangles marks,
-// with the same distances to the last bit and the same triangles. The loop asks the library's decision kernel in its scalar
-// form about every triangle whose box is near to the node, by a grid of its own; on a sample of nodes about every triangle.
-// Prints a table; fails on any difference. argv[1]: thousands of nodes in the place of a million.
+// ./run bench proof, its first part: the search over clusters marks the same nodes as a loop over triangles, with the same
+// distances to the last bit and the same triangles. It runs on a million nodes, with both valves, three positions, three half
+// thicknesses, every instruction set of the processor and 1 to 4 threads. The loop runs the library's decision kernel in its
+// scalar form on every triangle whose box is near the node, which a grid of its own finds. On a sample of nodes it runs it on
+// every triangle. Prints a table and fails on any difference. argv[1]: thousands of nodes instead of a million.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,10 +20,10 @@ namespace {
 
 using namespace bench;
 
-// Which triangles have boxes near a point: lists by the cells of a grid over the surface.
+// Finds the triangles whose boxes are near a point, by lists in the cells of a grid over the surface.
 class NearTriangles {
  public:
-  // reach: farther boxes do not matter.
+  // Boxes farther than reach do not matter.
   NearTriangles(const riis::TriangleSet &set, double reach) : set_(set), edge_(std::max(reach, 0.05)) {
     boxes_.reserve(set.n_triangles());
     for (std::size_t i = 0; i < set.n_triangles(); ++i) {
@@ -47,7 +47,8 @@ class NearTriangles {
             cells_[i + n_[0] * (j + n_[1] * k)].push_back(t);
   }
 
-  // The closest of the triangles whose boxes are within reach; the lowest of equals. Counts the pairs that it asks about.
+  // Returns the closest of the triangles whose boxes are within reach, the lowest if several are. Counts the pairs that it
+  // measures.
   riis::ClosestTriangle closest(const double *p, std::int64_t &n_pairs) const {
     riis::ClosestTriangle best{INFINITY, -1};
     if (!has(whole_, p)) return best;
@@ -70,7 +71,7 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // Monotone, so that a point in a box is in one of the box's cells.
+  // The function is monotone, so a point in a box is in one of the box's cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);
   }
@@ -138,7 +139,8 @@ Differences compare(const Expected &expected, const Marked &marked) {
   return d;
 }
 
-// The grid has left nothing out: every 997th node, and a thousand of the marked ones, asked about every triangle.
+// Checks that the grid leaves nothing out: every 997th node, and a thousand of the marked ones, are measured against every
+// triangle.
 Differences compare_sample(const CylinderNodes &nodes, const riis::TriangleSet &set, double half_thickness,
                            const Expected &expected) {
   Differences d;
@@ -166,7 +168,7 @@ Differences compare_sample(const CylinderNodes &nodes, const riis::TriangleSet &
   return d;
 }
 
-// One row of the table; how many differences there are.
+// Prints one row of the table and returns the number of differences.
 std::int64_t prove(const CylinderNodes &nodes, riis_mesh *mesh, StepOptions options, double position) {
   TimeSteps expected_steps(mesh, options);
   expected_steps.move_to(position);
@@ -198,7 +200,7 @@ std::int64_t prove(const CylinderNodes &nodes, riis_mesh *mesh, StepOptions opti
               static_cast<long long>(sum.distances), static_cast<long long>(sum.triangles),
               static_cast<long long>(sample.all()));
   std::fflush(stdout);
-  // Nothing marked, or no instruction set at all, would prove nothing.
+  // The row proves nothing if no node is marked or no instruction set ran.
   if (expected.node_id.empty() || n_markings < 4) {
     std::fprintf(stderr, "nothing was compared\n");
     std::exit(1);

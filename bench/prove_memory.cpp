@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its second half: 10,000 time steps of a valve that opens and closes, both valves, 100,000 nodes, 2
-// threads: the process' memory is that of step 100 at the end, to 1 MB. A marking asks malloc for nothing once the valve has
-// been through all its positions: with one thread. Prints a table; fails otherwise. argv[1]: another number of steps, a
-// multiple of 100.
+// ./run bench proof, its second part: 10,000 time steps of a valve that opens and closes, for both valves, with 100,000 nodes and
+// 2 threads. At the end, the memory of the process is that of step 100, to 1 MB. With one thread, a marking requests nothing from
+// malloc once the valve has been through all its positions. Prints a table and fails if this does not hold. argv[1]: another
+// number of steps, a multiple of 100.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -25,8 +25,8 @@ void count() {
 
 }  // namespace
 
-// An executable's functions go before those of the libraries: all that the process allocates comes by here, operator new
-// included.
+// An executable's functions take precedence over those of the libraries. So all allocations of the process pass through these,
+// also those of operator new.
 extern "C" {
 void *__libc_malloc(std::size_t size);
 void *__libc_calloc(std::size_t n, std::size_t size);
@@ -59,7 +59,7 @@ std::int64_t allocations_of(const Work &work) {
   return n_allocations;
 }
 
-constexpr int period = 50;  // steps from closed to open and back: what is compared are steps in the same position
+constexpr int period = 50;         // steps from closed to open and back; steps in the same position are compared
 constexpr int n_warm_steps = 100;  // two periods
 constexpr double most_growth = 1e6;
 
@@ -68,12 +68,12 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // Of all markings after the warm steps. Threads share the work as it comes: the room of one that gets more than ever
-  // before doubles, which is a matter of chance, and over soon.
+  // The limit for all markings after the warm steps. Threads share the work as it comes. If a thread gets more than ever before,
+  // its room doubles, which is a matter of chance and soon over.
   std::int64_t most_allocations;
 };
 
-// Whether memory stays.
+// Returns true if memory stays.
 bool prove(const Case &of) {
   const CylinderNodes nodes(of.cylinder, 100000);
   const Mesh mesh = mesh_over(nodes);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its third part: the memory of the process stays while a small mesh is marked again and again, by every
-// search, with 1, 2 and 4 threads, on processors that other processes keep busy. There threads come late to a search of less
-// than a millisecond, and TBB keeps what it made for them. Prints a table; fails where memory grows.
-// argv[1]: another number of markings.
-// OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or all takes many times as long.
+// search, with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then come late to a search of less than
+// a millisecond, and TBB keeps the memory that it made for them. Prints a table and fails if memory grows. argv[1]: another
+// number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or all takes many times as long.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -22,8 +21,8 @@ namespace {
 
 using namespace bench;
 
-// Processes that compute, one for each processor that this process may use. They end with this object, and the system kills them
-// where this process ends without it (exit, a signal).
+// Processes that compute, one for each processor that this process may use. They end with this object. If this process ends
+// before it (exit, a signal), the system kills them.
 class BusyProcessors {
  public:
   BusyProcessors() {
@@ -48,7 +47,7 @@ class BusyProcessors {
  private:
   [[noreturn]] static void compute_for(pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(0);  // it ended before the system was told
+    if (getppid() != parent) _exit(0);  // the parent ended before the system was told
     for (volatile unsigned step = 0;; step = step + 1) {
     }
   }
@@ -62,8 +61,8 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// When the handles of a marking are made: a solver keeps them, a solver whose mesh moves may make the mesh each time, and a
-// subroutine that keeps nothing between its calls makes all of them.
+// The time at which the handles of a marking are made. A solver keeps them, a solver whose mesh moves may make the mesh each
+// time, and a subroutine that keeps nothing between its calls makes all of them each time.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {
@@ -121,11 +120,11 @@ class Marking {
   Result result_;
 };
 
-// What so many markings may add to the memory of the process: a thread's stack and its allocator's first pages, should the thread
-// first come now. In the short form (300 markings) it is 1 kB a marking. TBB's arena of two threads is 7 kB.
+// The bytes that the markings may add to the memory of the process: a thread's stack and its allocator's first pages, if the
+// thread first comes now. In the short form (300 markings) this is 1 kB per marking. TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
-// A leak grows in every round, and what comes once does not.
+// A leak grows in every round. Memory that is made once does not.
 bool stays(const Case &of, int n_threads, int n_markings) {
   Marking marking(of, n_threads);
   for (int i = 0; i < 60; ++i) marking.mark();
@@ -148,7 +147,7 @@ int main(int argc, char **argv) {
     std::fprintf(stderr, "%s: not a number of markings, 300 or more: %s\n", argv[0], argv[1]);
     return 2;
   }
-  const BusyProcessors busy;  // forks, and so comes before the first thread
+  const BusyProcessors busy;  // it forks, so it comes before the first thread
   std::printf("| search | threads | round of %d markings | growth, MB | bytes a marking |\n|---|---|---|---|---|\n",
               n_markings);
   bool all_stay = true;

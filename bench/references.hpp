@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library's marking is compared with, written plainly and compiled with the same flags: the paper's neighbour search, over a
-// distance of one's choice, and a pass over the coordinates.
+// Competitors of the library's marking, written plainly and compiled with the same flags: the paper's neighbour search, over a
+// chosen way to measure distances, and a pass over the coordinates.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,7 +20,7 @@ struct Triangles {
   std::int64_t n() const { return static_cast<std::int64_t>(leaflet_id.size()); }
 };
 
-// The least distance to any triangle, by asking all of them (paper, 4.1).
+// Computes the least distance to any triangle by measuring all of them (paper, 4.1).
 class EveryTriangle {
  public:
   explicit EveryTriangle(const Triangles &triangles) : triangles_(triangles) {}
@@ -30,8 +30,8 @@ class EveryTriangle {
   const Triangles &triangles_;
 };
 
-// The same by an Embree point query of a radius: a primitive a triangle, distances in double precision. More than the limit where no
-// triangle is within it.
+// Computes the same by an Embree point query with a radius. Each triangle is a primitive, and distances are in double precision.
+// The result is above the limit if no triangle is within it.
 class PointQuery {
  public:
   explicit PointQuery(const Triangles &triangles);
@@ -43,16 +43,16 @@ class PointQuery {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// The paper's neighbour search (4.2.2): breadth first through marked nodes, begun for every leaflet at the node nearest to it. Its queue
-// is taken level by level, so that threads can share it.
+// The paper's neighbour search (4.2.2). It goes breadth first through marked nodes, and begins for every leaflet at the node
+// nearest to it. It takes its queue level by level, so that threads can share it.
 class PaperSearch {
  public:
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
       : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
-  // Finds where to begin; not part of a search, which has the last marking.
+  // Finds the nodes to begin at. This is not part of a search, which has the last marking.
   void begin_at(const Triangles &triangles);
-  // How many nodes are marked; how many were asked is in n_asked().
+  // Returns the number of marked nodes. n_asked() returns the number of queried nodes.
   template <class Distance>
   std::int64_t run(const Distance &distance, double half_thickness, int n_threads);
   std::int64_t n_asked() const { return n_asked_; }
@@ -66,7 +66,7 @@ class PaperSearch {
   std::int64_t n_asked_ = 0;
 };
 
-// The least distance of a node from the origin, squared: reads every coordinate once.
+// Returns the least squared distance of a node from the origin. It reads every coordinate once.
 double pass_over_coordinates(std::int64_t n_nodes, const double *xyz, int n_threads);
 
 }  // namespace bench

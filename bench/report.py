@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes docs/performance.md from the JSON in out/bench: every number of the page comes from there, the prose is here.
+"""Makes docs/performance.md from the JSON in out/bench. Every number of the page comes from there, the prose is here.
 
-A file that is not there is said to be missing, and how to get it; a ratio is always of two times of the same run."""
+The page names missing files and the way to get them. A ratio is always of two times of the same run."""
 
 import argparse
 import json
@@ -20,7 +20,7 @@ METHODS = ("triangles", "sampling", "minimisation")
 
 
 class Data:
-    """What there is in the folder; None for what there is not."""
+    """The content of the folder. A missing file is None."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -50,7 +50,7 @@ class Data:
         return times
 
     def run(self, name):
-        """When, by which command and under which load it was measured; None if that is not known."""
+        """The time, command and load of a measurement, or None if these are not known."""
         return ((self.machine or {}).get("runs") or {}).get(name)
 
     def when(self, name):
@@ -81,7 +81,7 @@ def search(data, name, valve, size, threads):
 
 
 def paper_rows(data, valve):
-    """Every row of the paper's table with this run's searches of that size and number of threads."""
+    """Every row of the paper's table, with this run's searches of the same size and number of threads."""
     for block, size in zip(data.paper[valve], SIZES):
         for threads, exhaustive, neighbor in block["rows"]:
             runs = {
@@ -127,7 +127,7 @@ def table_of_paper(data, valve):
 
 
 def table_of_threads(data, valve):
-    """How many times faster than on one thread."""
+    """The speed-up over one thread."""
     names = ("paper_exhaustive", "paper_neighbor", "exhaustive", "neighbor_warm", "clusters")
     first, rows = {}, []
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
@@ -320,20 +320,20 @@ def stages_section(data):
 
 
 def pair_ns(data):
-    """What the plain loop of the reference takes for a node and a triangle."""
+    """The time of the reference's plain loop for a node and a triangle."""
     counts = data.marking["counts"]
     least = data.marking["times"]["the paper's search, every triangle, 1 thread"]["least_ms"]
     return 1e6 * least / counts["asked_by_paper"] / counts["triangles"]
 
 
 def query_ns(data):
-    """What a point query of the reference takes."""
+    """The time of a point query of the reference."""
     least = data.marking["times"]["the paper's search, point queries, 1 thread"]["least_ms"]
     return 1e6 * least / data.marking["counts"]["asked_by_paper"]
 
 
 def floor_text(data):
-    """What of a step the bars that are not met would leave, and what its parts take: by the shares of design_steps.json."""
+    """The time of a step that missed bars would leave, and the times of its parts, by the shares of design_steps.json."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
     queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
@@ -352,7 +352,7 @@ def floor_text(data):
 
 
 def design_section(data):
-    """What changes of the design bought, and where the time of a step is: measured once, kept in design_steps.json."""
+    """The gains of design changes, and the parts of a step's time. They were measured once and kept in design_steps.json."""
     if not data.marking:
         return ""
     design = data.design
@@ -502,7 +502,7 @@ SEARCH_LINES = (
 
 
 def plot_searches(data, path):
-    """Seconds by nodes, on one thread; False if it cannot be drawn."""
+    """Plots seconds by nodes, on one thread. Returns False if it cannot be drawn."""
     panels = []
     for valve in VALVES:
         rows = [row for row in paper_rows(data, valve) if row[1] == 1]
@@ -516,7 +516,7 @@ def plot_searches(data, path):
 
 
 def plot_threads(data, path):
-    """How many times faster than one thread, a million nodes; False if it cannot be drawn."""
+    """Plots the speed-up over one thread, for a million nodes. Returns False if it cannot be drawn."""
     if not data.searches or not data.machine:
         return False
     panels, ticks = [], [row[0] for row in data.paper[VALVES[0]][0]["rows"]]
@@ -541,7 +541,7 @@ def plot_threads(data, path):
 
 
 def plot_peers(data, path):
-    """Milliseconds of each; False if it cannot be drawn."""
+    """Plots the milliseconds of each. Returns False if it cannot be drawn."""
     panels = []
     for valve in VALVES:
         bars = {name: t["least_ms"] for part in (data.peers, data.python_peers) if part for name, t in part[valve]["times"].items()}
@@ -557,14 +557,14 @@ PLOTS = (
 
 
 def images_for_page(data, folder):
-    """Draws what there is; the markdown of each by its name."""
+    """Draws all plots that it can. Returns the markdown of each by its name."""
     return {
         name: f"![{title}](performance-{name}.png)\n" for name, plot, title in PLOTS if plot(data, os.path.join(folder, f"performance-{name}.png"))
     }
 
 
 def measured_text(data, name):
-    """As Data.when, in HTML, with the machine, which has no table there."""
+    """Like Data.when, but in HTML and with the machine, which has no table there."""
     run = data.run(name)
     if not run:
         return ""
@@ -573,7 +573,7 @@ def measured_text(data, name):
 
 
 def plot_left_out(data, name, title):
-    """Which plot is not drawn, why, and the command that gets it."""
+    """A text on a plot that is not drawn: its name, the reason, and the command that gets it."""
     measured = data.peers if name == "peers" else data.searches
     if not measured:
         file, command = ("peers", "./run bench peers") if name == "peers" else ("searches", "./run bench search")
@@ -586,7 +586,7 @@ def plot_left_out(data, name, title):
 
 
 def write_figures(data, folder):
-    """The plots for the page that riis-figures makes, and plots.json: its texts for them, and which plots are left out and why."""
+    """Writes the plots for riis-figures' page, and plots.json with their texts and the left-out plots with reasons."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}
     figures = []

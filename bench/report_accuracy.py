@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The section on accuracy of docs/performance.md, from what ./run bench accuracy leaves in out/bench/accuracy.json.
+"""The section on accuracy of docs/performance.md, from out/bench/accuracy.json, which ./run bench accuracy writes.
 
-accuracy_section(data) returns it as markdown; as a program it prints it: bench/report_accuracy.py [FILE.json]
+accuracy_section(data) returns it as markdown. As a program this file prints it: bench/report_accuracy.py [FILE.json]
 """
 
 import json
@@ -37,7 +37,7 @@ def _row(cells):
 
 
 def _paragraph(text, **indents):
-    # No line begins with a per cent sign.
+    # No line may begin with a per cent sign.
     return textwrap.fill(" ".join(text.split()).replace(" %", "~%"), width=100, **indents).replace("~%", " %")
 
 
@@ -70,7 +70,7 @@ def _results(runs):
 
 
 def _findings(data):
-    """What the numbers say; each sentence is made of them."""
+    """The findings. Each sentence is made from the numbers."""
     used = [run[where]["max"] / run["tolerance"] for run in _runs(data, "triangulation")
             for where in ("on_surface", "off_surface")]
     sampled = [run["on_surface"]["max"] / run["tolerance"] for run in _runs(data, "sampling")]
@@ -98,7 +98,7 @@ def _findings(data):
 
 
 def accuracy_section(data: dict) -> str:
-    """Markdown, from its heading to its last table, for the content of accuracy.json."""
+    """Returns markdown, from the heading to the last table, for the content of accuracy.json."""
     machine, first = data["machine"], data["leaflets"][0]["truth"]
     offsets = ", ".join(f"{offset:g}" for offset in first["offsets_half_thicknesses"])
     parts = [

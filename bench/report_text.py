@@ -5,12 +5,12 @@ import textwrap
 
 
 def paragraph(text):
-    """Wrapped as all pages are. Code in backticks and links may be cut at spaces only."""
+    """Wraps text like all pages. Code in backticks and links may be cut only at spaces."""
     return textwrap.fill(text, width=100, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
 def number(value):
-    """Three digits that count."""
+    """Formats with three significant digits."""
     if value >= 999.5:
         return grouped(value)
     digits = 0 if value >= 99.95 else 1 if value >= 9.995 else 2 if value >= 0.9995 else 3
@@ -35,7 +35,7 @@ def table(heads, rows):
 
 
 class figure:
-    """Plots with logarithmic axes, if there is matplotlib; without it there are none, and a line says so."""
+    """Plots with logarithmic axes. Without matplotlib there are none, and a line says so."""
 
     @staticmethod
     def _pyplot():
@@ -56,15 +56,15 @@ class figure:
 
     @staticmethod
     def _save(pyplot, plot, path):
-        # Without the program's version in it the same data gives the same bytes.
+        # The program's version is left out, so that the same data gives the same bytes.
         plot.savefig(path, dpi=110, metadata={"Software": None})
         pyplot.close(plot)
         return True
 
     @staticmethod
     def lines(panels, across, up, path, ticks=None, limit=None):
-        """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those across,
-        in place of powers of ten. limit: (at, text), what lies beyond is shaded and has that text in it."""
+        """panels: titles and lines. A line is a label, points and a style, and has the same colour in all panels. ticks: the
+        horizontal ones, in place of powers of ten. limit: (at, text), with the area beyond shaded and labelled with the text."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a solver does in a time step: the valve moves, its surface is made again, nodes are marked, their list is read.
+// A solver's time step: the valve moves, its surface is made again, nodes are marked, and their list is read.
 #pragma once
 
 #include <string>
@@ -49,14 +49,14 @@ class TimeSteps {
     marking_.instructions = options.instructions;
   }
 
-  // From 0 to 1: the mitral valve opens; the free edges of the aortic valve's cusps turn by 30 degrees.
+  // From position 0 to 1 the mitral valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees.
   void move_to(double position) {
     if (is_mitral_)
       check(riis_valve_set_scalar(valve_.get(), "opening", position));
     else
       check(riis_valve_set_scalar(valve_.get(), "leaflet_angle", 30 + 30 * position));
   }
-  // A sixtieth of that, there and back within a twelfth.
+  // Moves by a sixtieth of that range, there and back within a twelfth of it.
   void move() {
     step_ = (step_ + 1) % 10;
     move_to(0.5 + (step_ < 5 ? step_ : 10 - step_) / 60.0);
@@ -69,7 +69,7 @@ class TimeSteps {
     return marked_in(result_.get());
   }
 
-  // Whether the processor has the instructions that are asked for.
+  // Tells whether the processor has the requested instructions.
   bool can_mark() const {
     const riis_status status = riis_mark_nodes(surface_.get(), mesh_, &marking_, make_result().get());
     if (status != RIIS_UNAVAILABLE) check(status);

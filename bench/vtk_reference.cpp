@@ -17,7 +17,7 @@
 namespace bench {
 namespace {
 
-// Corners that triangles share become one point: the signed distance looks at neighbours.
+// Corners that triangles share become one point, because the signed distance uses neighbours.
 void fill(vtkPolyData *mesh, const Triangles &triangles) {
   const vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();

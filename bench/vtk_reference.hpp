@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library's marking is compared with, if VTK is there: its tree of cells with a bounded query
-// (vtkStaticCellLocator), and its signed distance (vtkImplicitPolyDataDistance), which has no bound. One thread.
+// Competitors of the library's marking, if VTK is there: its tree of cells with a bounded query (vtkStaticCellLocator), and its
+// signed distance (vtkImplicitPolyDataDistance), which has no bound. They run on one thread.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class VtkDistance {
  public:
   explicit VtkDistance(const Triangles &triangles);
   ~VtkDistance();
-  // Without its sign.
+  // Writes the distance without its sign.
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
 
  private:

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# What is installed and how others find it: headers, libraries, program, Fortran module, CMake package,
-# pkg-config files. Everything can be moved afterwards, since nothing installed says where it stands, except where
-# CMAKE_INSTALL_LIBDIR or CMAKE_INSTALL_INCLUDEDIR is an absolute path, which is meant to stay.
+# The installed files and the ways to find them: headers, libraries, program, Fortran module, CMake package, pkg-config files.
+# They can be moved afterwards, since no installed file holds its own path. The exception is an absolute CMAKE_INSTALL_LIBDIR or
+# CMAKE_INSTALL_INCLUDEDIR, which is meant to stay.
 include(CMakePackageConfigHelpers)
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Files
 # ---------------------------------------------------------------------------------------------------------------------
 
-# One export a component, so that a package may ship without some of them.
+# There is one export per component, so that a package may ship without some of them.
 set(riis_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/riis)
 function(riis_install_library target)
   install(TARGETS ${target} EXPORT ${target}-targets
@@ -17,8 +17,8 @@ function(riis_install_library target)
   install(EXPORT ${target}-targets NAMESPACE riis:: DESTINATION ${riis_cmake_dir})
 endfunction()
 
-# What is installed finds its neighbours from where it stands itself. Embree and VTK it finds where they were when it was
-# built, should the system not look there.
+# An installed file finds its neighbours relative to its own place. It finds Embree and VTK where they were when it was built, if
+# the system does not look there.
 function(riis_set_rpath target from)
   if(NOT DEFINED CMAKE_INSTALL_RPATH)
     file(RELATIVE_PATH to_libraries ${from} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -40,7 +40,7 @@ endif()
 
 if(RIIS_WITH_FORTRAN)
   riis_install_library(riis_fortran)
-  # The sources go beside the modules, for those whose Fortran compiler is another one: they are all they have to compile.
+  # The sources go beside the modules. Users of another Fortran compiler have to compile only these.
   get_target_property(riis_fortran_sources riis_fortran SOURCES)
   list(TRANSFORM riis_fortran_sources PREPEND ${PROJECT_SOURCE_DIR}/fortran/ OUTPUT_VARIABLE riis_fortran_files)
   list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # external subroutines
@@ -58,10 +58,10 @@ endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
 
 # ---------------------------------------------------------------------------------------------------------------------
-# What a static library asks of those who link it
+# Requirements of a static library on its users
 # ---------------------------------------------------------------------------------------------------------------------
 
-# The imported targets that a target links, by the prefix of their names: "VTK::" gives "CommonCore;IOXML".
+# Gets the imported targets that a target links and whose names have a prefix: "VTK::" gives "CommonCore;IOXML".
 function(riis_linked_components target prefix result)
   get_target_property(linked ${target} LINK_LIBRARIES)
   list(FILTER linked INCLUDE REGEX "^${prefix}")
@@ -78,7 +78,7 @@ if(RIIS_WITH_VTK)
   riis_linked_components(riis_vtk X11:: riis_x11_components)
 endif()
 
-# -L and -l of a library, from its full path; -L only where the linker does not look by itself.
+# Gets -L and -l of a library from its full path. There is no -L for folders where the linker looks by itself.
 function(riis_link_flags path result)
   cmake_path(GET path PARENT_PATH directory)
   cmake_path(GET path STEM name)
@@ -95,7 +95,7 @@ endfunction()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/riis-config.cmake.in ${PROJECT_BINARY_DIR}/riis-config.cmake
   INSTALL_DESTINATION ${riis_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-# As the SONAME: fields and functions are only appended while the major version lasts.
+# This is like the SONAME: within a major version, fields and functions are only appended.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/riis-config-version.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/riis-config.cmake ${PROJECT_BINARY_DIR}/riis-config-version.cmake
   DESTINATION ${riis_cmake_dir})
@@ -104,7 +104,7 @@ install(FILES ${PROJECT_BINARY_DIR}/riis-config.cmake ${PROJECT_BINARY_DIR}/riis
 # pkg-config
 # ---------------------------------------------------------------------------------------------------------------------
 
-# The prefix is found from the .pc file's own place, unless that was given as an absolute path.
+# The prefix is relative to the .pc file's own place, unless the library folder was given as an absolute path.
 if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
   set(riis_pc_prefix ${CMAKE_INSTALL_PREFIX})
 else()
@@ -118,8 +118,8 @@ set(riis_pc_includedir "\${prefix}")
 cmake_path(APPEND riis_pc_libdir ${CMAKE_INSTALL_LIBDIR})
 cmake_path(APPEND riis_pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
 
-# A shared library brings what it needs. Where there is only the static one, what it needs stands in Libs and not in
-# Libs.private, so that a link without --static works too.
+# A shared library brings its requirements. If there is only the static one, its requirements are in Libs and not in Libs.private,
+# so that a link without --static also works.
 set(riis_pc_static_libs "")
 set(riis_pc_requires "")
 if(NOT BUILD_SHARED_LIBS)
@@ -128,7 +128,7 @@ if(NOT BUILD_SHARED_LIBS)
   foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
     string(APPEND riis_pc_static_libs " -l${name}")
   endforeach()
-  # The C++ runtime; the compiler driver of any language adds the C runtime itself.
+  # This is the C++ runtime. The compiler driver of any language adds the C runtime itself.
   set(riis_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
   list(FILTER riis_runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
   list(REMOVE_DUPLICATES riis_runtime)
@@ -144,7 +144,7 @@ set(riis_pc_names riis)
 if(RIIS_WITH_FORTRAN)
   list(APPEND riis_pc_names riis-fortran)
 endif()
-# VTK has no pkg-config files that a static riis_vtk could point to: that one is for CMake only.
+# VTK has no pkg-config files that a static riis_vtk could refer to, so that one is for CMake only.
 if(RIIS_WITH_VTK AND BUILD_SHARED_LIBS)
   list(APPEND riis_pc_names riis-vtk)
 endif()

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search for a code of finite elements: from tetrahedra, numbered from 1 in 32 bits, to an adjacency, to
- * marked nodes; and the same nodes by the exhaustive search, which needs no adjacency. Lengths are in cm. */
+ * The neighbour search for a finite element code: makes an adjacency from tetrahedra, which are numbered from 1 in 32 bits,
+ * then marks nodes. The exhaustive search, which needs no adjacency, finds the same nodes. Lengths are in cm. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { n = 27, n_nodes = n * n * n, n_cells = 6 * (n - 1) * (n - 1) * (n - 1) };
 static double xyz[3 * n_nodes];      /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
-static int32_t node_ids[n_cells][4]; /* four nodes a tetrahedron; in Fortran node_ids(4, n_cells) */
+static int32_t node_ids[n_cells][4]; /* four nodes per tetrahedron; in Fortran node_ids(4, n_cells) */
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
@@ -15,7 +15,7 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-/* Each cube of the grid in six: along three edges from its first node to its last, in every order of the axes. */
+/* Cuts each cube of the grid into six: along three edges from its first node to its last, in every order of the axes. */
 static void make_tetrahedra(void) {
   static const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, n, n * n};
@@ -47,7 +47,7 @@ int main(void) {
   riis_cells cells;
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
-  check(riis_cells_init(&cells, sizeof cells)); /* 4 nodes a cell and 32 bits are the defaults */
+  check(riis_cells_init(&cells, sizeof cells)); /* 4 nodes per cell and 32 bits are the defaults */
   cells.n_nodes = n_nodes;
   cells.n_cells = n_cells;
   cells.node_ids = node_ids;

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The neighbour search for a code of finite elements: from tetrahedra, numbered from 1 in 32 bits, to an adjacency, to
-! marked nodes; and the same nodes by the exhaustive search, which needs no adjacency. Lengths are in cm.
+! The neighbour search for a finite element code: makes an adjacency from tetrahedra, which are numbered from 1 in 32
+! bits, then marks nodes. The exhaustive search, which needs no adjacency, finds the same nodes. Lengths are in cm.
 program csr_from_elements
   use riis
   implicit none
   integer, parameter :: n = 27, n_nodes = n**3, n_cells = 6 * (n - 1)**3
   double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm
-  integer :: node_ids(4, n_cells)     ! the four nodes of tetrahedron after tetrahedron
+  integer :: node_ids(4, n_cells)     ! the four nodes of each tetrahedron
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
@@ -60,7 +60,7 @@ contains
       trim(merge('complete            ', 'perhaps not complete', stats%complete /= 0))
   end subroutine mark
 
-  ! Each cube of the grid in six: along three edges from its first node to its last, in every order of the axes.
+  ! Cuts each cube of the grid into six: along three edges from its first node to its last, in every order of the axes.
   subroutine make_tetrahedra()
     integer, parameter :: step(3) = [1, n, n**2]
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])

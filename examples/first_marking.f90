@@ -18,7 +18,7 @@ program first_marking
     xyz(:, i + 1) = -1.625d0 + 0.125d0 * [mod(i, n), mod(i / n, n), i / n**2]
   end do
 
-  ! No status is asked for, so an error stops the program and says what was wrong.
+  ! Without a status argument an error stops the program with a message.
   call valve%create('aortic')
   call surface%create(valve) ! half thickness 0.1 cm, tolerance 5 % of it
   call mesh%create(xyz)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mesh that is partitioned over the ranks of MPI. Each rank marks the nodes that it owns; riis does not communicate. Then
- * rank 0 compares what the ranks found with the marking of the whole mesh. Lengths are in cm.
+ * A mesh that is partitioned over the ranks of MPI. Each rank marks the nodes that it owns, and riis does not communicate.
+ * Then rank 0 compares the ranks' marks with the marking of the whole mesh. Lengths are in cm.
  *   mpirun -n 4 ./mpi_partition */
 #include <mpi.h>
 #include <riis/riis.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum { n = 27, plane = n * n, n_nodes = n * plane };
-static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm; here, all on every rank */
+static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm; here every rank has all */
 static double distance[n_nodes], by_ranks[n_nodes];
 static int32_t offsets[n_nodes + 1], columns[6 * n_nodes];
 
@@ -20,8 +20,9 @@ static void check(riis_status status) {
 
 static int first_node(int rank, int n_ranks) { return n * rank / n_ranks * plane; } /* whole planes of the grid */
 
-/* Compressed sparse rows of the own nodes, n_rows from the first one on. The neighbors in the planes before and behind are
- * other ranks' nodes: ghosts, which are numbered from n_rows on, as in most solvers. Returns the number of all nodes. */
+/* Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbors in the planes before and
+ * behind are other ranks' nodes: ghosts, which are numbered from n_rows on, as in most solvers. Returns the number of own
+ * nodes and ghosts. */
 static int make_rows(int first, int n_rows) {
   int n_before = first > 0 ? plane : 0, n_behind = first + n_rows < n_nodes ? plane : 0, end = 0;
   for (int i = 0; i < n_rows; ++i) {
@@ -56,7 +57,7 @@ int main(int argc, char **argv) {
     distance[i] = RIIS_FAR_DISTANCE;
   }
 
-  /* The surface is small: every rank makes it for itself, the same bit for bit. */
+  /* The surface is small, so every rank makes it for itself. All have the same bits. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
@@ -65,8 +66,9 @@ int main(int argc, char **argv) {
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_mark_result_create(&result));
 
-  /* One thread, for a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by slot:PE=4,
-   * leave n_threads at 0: all cores of the rank. If nothing binds the ranks, 0 is all cores of the machine for each. */
+  /* One thread suits a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by slot:PE=4,
+   * leave n_threads at 0, which means all cores of the rank. If nothing binds the ranks, 0 means all cores of the machine for
+   * each. */
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;

@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A mesh that is partitioned over the ranks of MPI. Each rank marks the nodes that it owns; riis does not communicate. Then
-! rank 0 compares what the ranks found with the marking of the whole mesh. Lengths are in cm.
+! A mesh that is partitioned over the ranks of MPI. Each rank marks the nodes that it owns, and riis does not communicate.
+! Then rank 0 compares the ranks' marks with the marking of the whole mesh. Lengths are in cm.
 !   mpirun -n 4 ./mpi_partition_fortran
 program mpi_partition
   use mpi_f08
   use riis
   implicit none
   integer, parameter :: n = 27, plane = n**2, n_nodes = n * plane
-  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm; here, all on every rank
+  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm; here every rank has all
   double precision :: distance(n_nodes), by_ranks(n_nodes)
   integer :: offsets(n_nodes + 1), columns(6 * n_nodes)
   type(riis_valve) :: valve
@@ -24,7 +24,7 @@ program mpi_partition
     xyz(:, i + 1) = -1.625d0 + 0.125d0 * [mod(i, n), mod(i / n, n), i / plane]
   end do
 
-  ! The surface is small: every rank makes it for itself, the same bit for bit.
+  ! The surface is small, so every rank makes it for itself. All have the same bits.
   call valve%create('aortic')
   call surface%create(valve)
 
@@ -36,8 +36,9 @@ program mpi_partition
     call make_rows(last - first + 1, n_all)
     call mesh%create(xyz(:, first:last))
     call mesh%set_adjacency(offsets(1:last - first + 2), columns, n_all=n_all)
-    ! One thread, for a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by
-    ! slot:PE=4, leave n_threads away: all cores of the rank. If nothing binds the ranks, that is all cores for each.
+    ! One thread suits a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by
+    ! slot:PE=4, leave n_threads out, which means all cores of the rank. If nothing binds the ranks, it means all cores of
+    ! the machine for each.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR, n_threads=1)
     n_marked = int(result%n_marked())
     call result%dense(distance=distance(first:last))
@@ -67,11 +68,11 @@ program mpi_partition
 
 contains
 
-  ! Compressed sparse rows of the own nodes, n_rows from the first one on. The neighbors in the planes before and behind are
-  ! other ranks' nodes: ghosts, which are numbered from n_rows + 1 on, as in most solvers.
+  ! Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbors in the planes before
+  ! and behind are other ranks' nodes: ghosts, which are numbered from n_rows + 1 on, as in most solvers.
   subroutine make_rows(n_rows, n_all)
     integer, intent(in) :: n_rows
-    integer, intent(out) :: n_all ! how many nodes the columns number
+    integer, intent(out) :: n_all ! the number of own nodes and ghosts
     integer :: n_before, n_behind, i
     n_before = merge(plane, 0, first > 1)
     n_behind = merge(plane, 0, last < n_nodes)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mitral valve that opens, time step after time step, and the resistance of every node to the flow through it. The mesh
- * is in metres, the valve's tables are in centimetres: scale 0.01. */
+ * A mitral valve that opens step by step, and the resistance of every node to the flow through it. The mesh is in metres, the
+ * valve's tables are in centimetres, so the scale is 0.01. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 enum { n = 37, n_nodes = n * n * n, n_steps = 5 };
 static double xyz[3 * n_nodes];    /* [m] a cube of 4.5 cm around the valve, a node every 1.25 mm */
-static double resistance[n_nodes]; /* [kg/(m^3 s)] times the flow's velocity relative to the valve: N/m^3 against it */
+static double resistance[n_nodes]; /* [kg/(m^3 s)]; times the flow's velocity relative to the valve: N/m^3 against it */
 static const double R = 1e4;       /* [kg/(m s)] of the model, from its literature or by calibration */
 static const double eps = 1e-3;    /* [m] the half thickness */
 
@@ -30,7 +30,7 @@ int main(void) {
     xyz[3 * i + 2] = -0.02 + 0.00125 * (i / (n * n));
   }
 
-  /* Made once: what they hold is reused by every step. */
+  /* These are made once, and every step reuses their memory. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
@@ -48,11 +48,11 @@ int main(void) {
   const int64_t *node_id = NULL;
   const double *distance = NULL;
   for (int step = 0; step <= n_steps; ++step) {
-    /* What the last step set, and no other node: its list lives until the result is marked with again. */
+    /* Resets only the nodes that the last step set. Their list lives until the next marking into the result. */
     for (int64_t i = 0; i < n_marked; ++i) resistance[node_id[i]] = 0;
 
-    check(riis_valve_set_scalar(valve, "opening", (double)step / n_steps)); /* a solver has a curve of time */
-    check(riis_surface_update(surface, valve, NULL));                       /* NULL: the options that it has */
+    check(riis_valve_set_scalar(valve, "opening", (double)step / n_steps)); /* a solver has a function of time */
+    check(riis_surface_update(surface, valve, NULL));                       /* NULL: the surface keeps its options */
     check(riis_mark_nodes(surface, mesh, NULL, result));
     check(riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL));
     for (int64_t i = 0; i < n_marked; ++i) resistance[node_id[i]] = R / eps * delta(distance[i]);

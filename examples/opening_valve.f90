@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A mitral valve that opens, time step after time step, and the resistance of every node to the flow through it. The mesh
-! is in metres, the valve's tables are in centimetres: scale 0.01.
+! A mitral valve that opens step by step, and the resistance of every node to the flow through it. The mesh is in metres,
+! the valve's tables are in centimetres, so the scale is 0.01.
 program opening_valve
   use riis
   implicit none
@@ -8,7 +8,7 @@ program opening_valve
   double precision, parameter :: R = 1d4    ! [kg/(m s)] of the model, from its literature or by calibration
   double precision, parameter :: eps = 1d-3 ! [m] the half thickness
   double precision :: xyz(3, n_nodes)       ! [m] a cube of 4.5 cm around the valve, a node every 1.25 mm
-  double precision :: resistance(n_nodes)   ! [kg/(m^3 s)] times the flow's velocity relative to the valve: N/m^3 against it
+  double precision :: resistance(n_nodes)   ! [kg/(m^3 s)]; times the flow's velocity relative to the valve: N/m^3 against it
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
@@ -23,18 +23,18 @@ program opening_valve
   end do
   resistance = 0
 
-  ! Made once: what they hold is reused by every step.
+  ! These are made once, and every step reuses their memory.
   call valve%create('mitral')
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! centimetres to metres; eps is in the mesh's unit
   call mesh%create(xyz)
 
   allocate (node_num(0))
   do step = 0, n_steps
-    resistance(node_num) = 0 ! what the last step set, and no other node
+    resistance(node_num) = 0 ! resets only the nodes that the last step set
 
-    opening = dble(step) / n_steps ! a solver has a curve of time
+    opening = dble(step) / n_steps ! a solver has a function of time
     call valve%set('opening', opening)
-    call surface%update(valve) ! with the options that it has
+    call surface%update(valve) ! the surface keeps its options
     call riis_mark_nodes(surface, mesh, result)
     call result%marked_nodes(node_num, distance)
     resistance(node_num) = R / eps * delta(distance)

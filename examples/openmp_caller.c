@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The two ways to mark from a code that is parallel by OpenMP itself: one call between the code's own parallel regions,
- * which starts threads of its own; or a call from each of the code's threads, for its block of the mesh, which starts
- * none. Lengths are in cm. */
+ * Two ways to mark from a code that is itself parallel by OpenMP. The first is one call between the code's own parallel
+ * regions, which starts threads of its own. The second is a call from each of the code's threads for its block of the mesh,
+ * which starts none. Lengths are in cm. */
 #include <omp.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 enum { n = 27, n_nodes = n * n * n, n_blocks = 4 };
 static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
 
-/* Called by the thread whose call failed: the text of the last error is that thread's own. */
+/* The thread whose call failed must call this, because each thread has its own last error. */
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
 #pragma omp critical
@@ -42,8 +42,8 @@ int main(void) {
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface));
 
-  /* One call between parallel regions. Whatever was set of OpenMP, it uses the processors that this thread may run on; for
-   * another number there is n_threads in riis_mark_options. */
+  /* One call between parallel regions. Whatever OpenMP's settings, it uses the processors that this thread may run on. For
+   * another number, set n_threads in riis_mark_options. */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_mark_result_create(&result));
   check(riis_mark_nodes(surface, mesh, NULL, result));
@@ -57,8 +57,8 @@ int main(void) {
   printf("one call, marked: %lld, the farthest at %8.6f cm\n", (long long)n_marked, farthest);
   printf("settings of OpenMP: %s\n", kept ? "as they were" : "changed");
 
-  /* A call from each thread: all read one surface, each has a mesh and a result of its own. While any thread marks, none may
-   * update the surface: do that before the region, or in a single construct, at whose end all threads wait. */
+  /* A call from each thread. All read one surface, and each has a mesh and a result of its own. While any thread marks, none may
+   * update the surface. Do that before the region, or in a single construct, at whose end all threads wait. */
   riis_mark_options options;
   riis_mesh *block_mesh[n_blocks] = {NULL};
   riis_mark_result *block_result[n_blocks] = {NULL};
@@ -72,7 +72,7 @@ int main(void) {
     check(riis_mark_nodes(surface, block_mesh[i], &options, block_result[i]));
   }
 
-  /* The blocks' lists, one after another, are the list of the whole mesh. */
+  /* The blocks' lists, one after the other, are the list of the whole mesh. */
   int64_t n_found = 0;
   int same = 1;
   for (int i = 0; i < n_blocks; ++i) {

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The two ways to mark from a code that is parallel by OpenMP itself: one call between the code's own parallel regions,
-! which starts threads of its own; or a call from each of the code's threads, for its block of the mesh, which starts
-! none. Lengths are in cm.
+! Two ways to mark from a code that is itself parallel by OpenMP. The first is one call between the code's own parallel
+! regions, which starts threads of its own. The second is a call from each of the code's threads for its block of the
+! mesh, which starts none. Lengths are in cm.
 program openmp_caller
   use omp_lib
   use riis
@@ -28,8 +28,8 @@ program openmp_caller
   call valve%create('aortic')
   call surface%create(valve)
 
-  ! One call between parallel regions. Whatever was set of OpenMP, it uses the processors that this thread may run on; for
-  ! another number there is n_threads.
+  ! One call between parallel regions. Whatever OpenMP's settings, it uses the processors that this thread may run on. For
+  ! another number, set n_threads.
   call mesh%create(xyz)
   call riis_mark_nodes(surface, mesh, result)
   call result%marked_nodes(node_num, distance)
@@ -43,15 +43,15 @@ program openmp_caller
   print '(a, i0, a, f8.6, a)', 'one call, marked: ', size(node_num), ', the farthest at ', farthest, ' cm'
   print '(2a)', 'settings of OpenMP: ', trim(merge('as they were', 'changed     ', kept))
 
-  ! A call from each thread: all read one surface, each has a mesh and a result of its own. While any thread marks, none may
-  ! update the surface: do that before the region, or in a single construct, at whose end all threads wait.
+  ! A call from each thread. All read one surface, and each has a mesh and a result of its own. While any thread marks, none
+  ! may update the surface. Do that before the region, or in a single construct, at whose end all threads wait.
   !$omp parallel do num_threads(n_blocks) schedule(static, 1)
   do i = 1, n_blocks
     call block_mesh(i)%create(xyz(:, last_node(i - 1) + 1:last_node(i)))
     call riis_mark_nodes(surface, block_mesh(i), block_result(i), n_threads=1)
   end do
 
-  ! The blocks' lists, one after another, are the list of the whole mesh.
+  ! The blocks' lists, one after the other, are the list of the whole mesh.
   n_found = 0
   same = .true.
   do i = 1, n_blocks

@@ -1,20 +1,20 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! A valve of one's own: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
 !
-! The ring, of radius 1.2, lies at z = 0; blood flows to +z; the tips of the posts, the commissures, are at z = 1.2. A
-! leaflet is two patches, which meet in its middle line, from the ring to the free edge. Each lies between two curves
-! from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at
-! v = 1. The side at the commissure is collapsed to it, so the patch consists of straight lines from the attachment to
-! the free edge. To open, only the free edges and the middle lines move.
+! The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
+! leaflet is two patches, which meet in its middle line from the ring to the free edge. Each patch lies between two
+! curves from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at
+! v = 1. Its side at the commissure is collapsed to a point, so the patch consists of straight lines from the attachment
+! to the free edge. To open, only the free edges and the middle lines move.
 !
 ! Closed, each half of a free edge runs from its commissure to the axis and has the same control points as the half
-! beside it: the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
+! beside it, so the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
 ! opening. A third is convex, so the leaflet also stays in it, and leaflets never cross.
 program prosthesis
   use riis
   implicit none
   integer, parameter :: n = 27, n_nodes = n**3
-  ! Control points of curves 1 to 6, the free edges, and 7 to 9, the middle lines: closed,
+  ! Control points of curves 1 to 6, the free edges, and 7 to 9, the middle lines, of the closed valve.
   double precision, parameter :: closed_moving(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  0.45d0, -0.78d0,  1.00d0,  0.30d0, -0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
       0.60d0,  1.04d0,  1.20d0,  0.45d0,  0.78d0,  1.00d0,  0.30d0,  0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
@@ -25,7 +25,7 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0,  1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0, -1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0]
-  ! and open.
+  ! The same curves of the open valve.
   double precision, parameter :: open_moving(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  0.87d0, -0.80d0,  1.20d0,  1.05d0, -0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
       0.60d0,  1.04d0,  1.20d0,  0.87d0,  0.80d0,  1.20d0,  1.05d0,  0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
@@ -36,7 +36,7 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  1.05d0,  0.00d0,  1.20d0, &
      -0.60d0,  1.04d0,  0.00d0, -0.52d0,  0.91d0,  1.20d0, &
      -0.60d0, -1.04d0,  0.00d0, -0.52d0, -0.91d0,  1.20d0]
-  ! Control points of curves 10 to 15, the attachments, and 16 to 18, the commissures: lines from a point to itself.
+  ! Control points of curves 10 to 15, the attachments, and 16 to 18, the commissures, which are lines from a point to itself.
   double precision, parameter :: fixed(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  1.00d0, -0.81d0,  0.40d0,  1.20d0, -0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
       0.60d0,  1.04d0,  1.20d0,  1.00d0,  0.81d0,  0.40d0,  1.20d0,  0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
@@ -61,7 +61,7 @@ program prosthesis
   call make_valve(valve, closed_moving)
   call make_valve(open, open_moving)
   call valve%set_open_state(open)
-  call open%destroy() ! it was copied
+  call open%destroy() ! the valve has a copy of it
   call surface%create(valve)
   call mesh%create(xyz)
 

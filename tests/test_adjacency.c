@@ -37,7 +37,7 @@ static int compare_pairs(const void *a, const void *b) {
   return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* Ascending, each once: what rows should hold, read from front to back. */
+/* Sorts the pairs and removes repeats. The result is what the rows should hold, read from front to back. */
 static void tidy_pairs(pair_list *list) {
   if (list->n == 0) return;
   qsort(list->ends, (size_t)list->n, 2 * sizeof *list->ends, compare_pairs);
@@ -54,7 +54,7 @@ static riis_csr rows_of(const riis_adjacency *adjacency) {
   return csr;
 }
 
-/* The rows are the pairs, base 0, in 64-bit offsets and 32-bit columns. */
+/* Checks that the rows are the pairs, with base 0, 64-bit offsets and 32-bit columns. */
 static void check_rows(const riis_adjacency *adjacency, int64_t n_nodes, pair_list *expected) {
   const riis_csr csr = rows_of(adjacency);
   tidy_pairs(expected);
@@ -90,13 +90,14 @@ static int same_rows(const riis_adjacency *a, const riis_adjacency *b) {
 
 /* --- Cells ----------------------------------------------------------------------------------------------------------- */
 
-/* Whether two corners of a cell share an edge, by where the corners of the unit shapes are rather than by a table: those of a prism and a
- * hexahedron that differ in one of "which corner of the base" and "which end"; base corners that follow each other round. */
+/* Tells whether two corners of a cell share an edge, by the places of the unit shapes' corners rather than by a table. A corner
+ * of a prism or a hexahedron has a place in the base and an end. Corners share an edge if they have the same place at both ends,
+ * or if their places at one end follow each other round the base. */
 static int on_an_edge(int n_corners, int a, int b) {
   const int n_base = n_corners == 8 || n_corners == 5 ? 4 : 3;
   const int base_a = a % n_base, base_b = b % n_base, floor_a = a / n_base, floor_b = b / n_base;
   if (a == b) return 0;
-  if (n_corners == 4 || n_corners == 5) /* an apex is joined to all */
+  if (n_corners == 4 || n_corners == 5) /* the apex is joined to all */
     if (floor_a != floor_b) return 1;
   if (floor_a != floor_b) return base_a == base_b;
   return (base_a + 1) % n_base == base_b || (base_b + 1) % n_base == base_a;
@@ -118,7 +119,7 @@ static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t
     list.offsets[c + 1] = list.offsets[c] + n;
     for (int k = 0; k < n; ++k) {
       int is_new;
-      do { /* near each other, as in a mesh */
+      do { /* nodes near each other, as in a mesh */
         nodes[k] = (c * n_used / n_cells + (int64_t)(random_bits(&rng) % 40)) % n_used;
         is_new = 1;
         for (int m = 0; m < k && !repeated_nodes; ++m) is_new = is_new && nodes[m] != nodes[k];
@@ -186,7 +187,7 @@ static void cells_of_every_kind(void **state) {
             if (kinds[k] && trial == 0)
               cells.nodes_per_cell = kinds[k];
             else
-              cells.offsets = offsets, cells.nodes_per_cell = 77; /* not looked at */
+              cells.offsets = offsets, cells.nodes_per_cell = 77; /* not used */
             cells.n_threads = 1;
             CHECK_OK(riis_adjacency_create_from_cells(&cells, &one));
             check_rows(one, n_nodes, &expected);
@@ -202,7 +203,7 @@ static void cells_of_every_kind(void **state) {
       }
 }
 
-/* By hand: one cell of each kind, and its edges as anyone would draw them. */
+/* One cell of each kind, with its edges written down by hand. */
 static void one_cell_of_each_kind(void **state) {
   (void)state;
   static const int n_corners[4] = {4, 5, 6, 8}, n_edges[4] = {6, 8, 9, 12};
@@ -275,7 +276,7 @@ static void cells_that_are_refused(void **state) {
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 0 are given from 0 to 7|4, 5, 6 and 8");
   offsets[1] = 4, offsets[2] = 3;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 1 are given from 4 to 3");
-  offsets[1] = 8, offsets[2] = 16; /* beyond what the last one promises: nothing is read there */
+  offsets[1] = 8, offsets[2] = 16; /* beyond the last offset: nothing is read there */
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 2 are given from 16 to 12");
   offsets[1] = 4, offsets[2] = 8, offsets[0] = 1;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cells.offsets begins with 1|begin with 0");
@@ -360,7 +361,7 @@ static void faces_in_every_layout(void **state) {
     pair_list expected = {0};
     for (int64_t f = 0; f < n_faces; ++f) {
       int64_t *face = ends + 2 * f;
-      if (f > 0 && random_bits(&rng) % 10 == 0) { /* again, either way round */
+      if (f > 0 && random_bits(&rng) % 10 == 0) { /* repeat a face, either way round */
         const int64_t *again = ends + 2 * (int64_t)(random_bits(&rng) % (uint64_t)f);
         const int turned = again[1] >= 0 && random_bits(&rng) % 2;
         face[0] = again[turned], face[1] = again[!turned];

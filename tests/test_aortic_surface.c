@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The aortic valve as triangles: the published numbers, its shape, what its triangles carry, its placement. */
+ * The aortic valve as triangles: the published numbers, the shape, the triangles' data, and the placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -8,8 +8,7 @@
 
 static void numbers_of_the_model(void **state) {
   (void)state;
-  /* Area and bounds that the model must have; triangles lie on chords, so both come from below as the tolerance falls.
-   */
+  /* The area and bounds that the model must have. Triangles lie on chords, so both approach from below as the tolerance falls. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -44,7 +43,7 @@ static void default_half_thickness_follows_the_scale(void **state) {
   CHECK_SAME(info_of(surface).half_thickness, 0.0005);
 }
 
-/* Everything the triangles carry, checked one by one. */
+/* Checks all data of the triangles, one by one. */
 static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -93,8 +92,8 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   }
 }
 
-/* Downstream is from the ventricle to the sinus: a point in each sinus, between cusp and wall, is on the side +1, a
- * point below the closed middle on the side -1; flipped, the other way round. */
+/* Downstream is from the ventricle to the sinus. A point in each sinus, between cusp and wall, is on side +1. A point below the
+ * closed middle is on side -1. Flipped normals swap the sides. */
 static void normals_point_downstream(void **state) {
   (void)state;
   const double angle[3] = {0, 119.5, -121.5};
@@ -113,7 +112,7 @@ static void normals_point_downstream(void **state) {
       assert_int_equal(below.leaflet_id, cusp);
       assert_int_equal(below.side, -downstream);
     }
-    /* And of every triangle: the area vector of each cusp points outwards and upwards. */
+    /* This holds for whole cusps: the area vector of each points outwards and upwards. */
     int64_t n;
     const double *xyz;
     const int64_t *id;
@@ -138,7 +137,7 @@ static void normals_point_downstream(void **state) {
   }
 }
 
-/* scale, then rotation, then translation, of the same triangles. */
+/* The same triangles are scaled, then rotated, then moved. */
 static void placement_is_applied_last(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -188,8 +187,8 @@ static void three_cusps_are_three_pieces(void **state) {
 
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
-/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved: every edge
- * there (u = 0 at both ends) is of exactly two triangles. Sides depend on it where the cusp is folded. */
+/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge there
+ * (u = 0 at both ends) belongs to exactly two triangles. Sides depend on this where the cusp is folded. */
 static void halves_meet_to_the_last_bit(void **state) {
   (void)state;
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
@@ -258,7 +257,7 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
   CHECK_OK(riis_surface_update(surface, valve, NULL));
   CHECK_NEAR(info_of(surface).lower[2], 8, 1e-12);
   CHECK_NEAR(info_of(surface).upper[2], 13, 1e-12);
-  /* A refused update leaves all as it was. */
+  /* A refused update changes nothing. */
   const riis_surface_info before = info_of(surface);
   CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 1.5));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "bending_height", riis_surface_update(surface, valve, NULL));
@@ -270,7 +269,7 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
   assert_null(valve);
 }
 
-/* Every parameter but root_height changes the triangles; every name and default of the paper's table is there. */
+/* Every parameter but root_height changes the triangles. All names and defaults of the paper's table exist. */
 static void every_parameter_by_name(void **state) {
   (void)state;
   static const struct {

@@ -45,7 +45,7 @@ static void callers_at_once_have_one_each(void **state) {
   (void)state;
   assert_true(walk_at_once(2, 1));
   assert_int_equal(arenas_made(), 2);
-  /* All five callers had an arena of two threads at once, and at most five had one of three. */
+  /* Arenas of two threads exist for all five callers at once, and of three threads for at most five. */
   assert_true(walk_at_once(5, 200));
   assert_in_range(arenas_made(), 6, 10);
 }
@@ -56,7 +56,7 @@ static void the_callers_limit_is_kept(void **state) {
   for (int repeat = 0; repeat < 20; ++repeat)
     for (int i = 0; i < 6; ++i) {
       expect_walk(walk_under_limit(limits[i], 4), limits[i]);
-      expect_walk(walk_once(4), 4); /* as many as are asked for, also where there are fewer processors */
+      expect_walk(walk_once(4), 4); /* as many threads as asked for, also on fewer processors */
     }
   assert_int_equal(arenas_made(), 4); /* of 1, 2, 3 and 4 threads */
 }
@@ -108,7 +108,7 @@ static void a_child_of_fork_walks_alone_and_ends(void **state) {
   assert_int_equal(arenas_made(), 1);
 }
 
-/* Runs after all that was registered later: a caller's static object may walk in its destructor. */
+/* Runs after every handler that was registered later. A caller's static object may walk in its destructor. */
 static pid_t process;
 static void walk_at_exit(void) {
   if (getpid() != process) return; /* a child of fork */

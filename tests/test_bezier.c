@@ -61,7 +61,7 @@ static void arc_length_of_known_curves(void **state) {
   /* y = x^2 on [0,1]: (2 sqrt 5 + asinh 2) / 4. */
   const double parabola[9] = {0, 0, 0, 0.5, 0, 0, 1, 1, 0};
   CHECK_NEAR(bezier_arc_length(2, parabola, 0, 1), (2 * sqrt(5.0) + asinh(2.0)) / 4, 1e-12);
-  /* There and back: speed is zero at the turning point, length twice the reach. */
+  /* A curve that goes there and back: the speed is zero at the turning point, the length is twice the reach. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   CHECK_NEAR(bezier_arc_length(2, there_and_back, 0, 1), 1, 1e-11);
   const double point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
@@ -82,7 +82,7 @@ static void arc_length_is_the_limit_of_chords(void **state) {
         memcpy(previous, next, sizeof next);
       }
     }
-    /* Chords err by h^2: extrapolated. */
+    /* The chords' error is in proportion to h^2, so it can be extrapolated away. */
     const double expected = sum[1] + (sum[1] - sum[0]) / 3;
     CHECK_NEAR(bezier_arc_length(3, control, 0, 1), expected, 1e-9 * expected);
     CHECK_NEAR(bezier_arc_length(3, control, 0, 0.3) + bezier_arc_length(3, control, 0.3, 1), expected,
@@ -118,8 +118,8 @@ static void flatness_is_measured_to_the_segment(void **state) {
   CHECK_NEAR(bezier_flatness(3, arch), 2, 1e-15);
 }
 
-/* Every point of the curve against the point of its chord at the same share of the length: the promised bound holds for every
- * piece, and is not much too large on the average; shares are binary fractions. */
+/* Compares every point of the curve with the point of its chord at the same share of the length. The promised bound holds for
+ * every piece and is not much too large on average. Shares are binary fractions. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;
@@ -163,7 +163,7 @@ static void flattening_stays_within_its_bound(void **state) {
     CHECK_SAME(t[0], 0.0);
     CHECK_SAME(t[n - 1], 1.0);
     for (int64_t i = 0; i + 1 < n; ++i) {
-      assert_true(t[i + 1] > t[i]); /* shared middles once */
+      assert_true(t[i + 1] > t[i]); /* a shared middle appears once */
       CHECK_AT_MOST(errors[i], max_error);
       CHECK_SAME(t[i] * 0x1p20, floor(t[i] * 0x1p20));
     }
@@ -187,11 +187,11 @@ static void flattening_takes_few_points(void **state) {
   const double line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   assert_int_equal(n_flattened(2, line, 1e-9), 2);
   assert_int_equal(n_flattened(2, point, 1e-9), 1);
-  /* A quarter of a unit circle: n equal pieces are off by (pi / (2 n))^2 / 8; halving takes the next power of two. */
+  /* A quarter of a unit circle: n equal pieces are off by (pi / (2 n))^2 / 8. Halving takes the next power of two for n. */
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);
-  /* There and back: turns on the spot, where curvature is no bound. */
+  /* This curve turns on the spot, where curvature gives no bound. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   assert_true(n_flattened(2, there_and_back, 1e-3) < 100);
   double *points, *t, *errors;

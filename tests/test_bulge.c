@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * O(u) of patches of arcs: its value, and the bound on how far it is from linear between two u. */
+ * O(u) of patches of arcs: its value, and the bound on its deviation from linear between two u. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -17,7 +17,7 @@ static void make_base(void) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* Below a circle hangs a cylinder: W = (0, 0, -2), T along the circle, so O = factor * 2 outwards. */
+/* A cylinder hangs below a circle: W = (0, 0, -2) and T is along the circle, so O = factor * 2 outwards. */
 static void of_a_cylinder(void **state) {
   (void)state;
   double edge[12 * n_base];
@@ -31,7 +31,7 @@ static void of_a_cylinder(void **state) {
     CHECK_NEAR(offset[1], -0.5 * tangent[0], 1e-12);
     CHECK_NEAR(offset[2], 0, 1e-12);
   }
-  /* The other way round for a negative factor. */
+  /* A negative factor turns O round. */
   double offset[3];
   bulge_at(n_base, base, n_base, edge, -0.25, 0.5, offset);
   CHECK_NEAR(offset[1], -0.5, 1e-12);
@@ -45,8 +45,8 @@ static void is_nothing_where_base_and_edge_touch(void **state) {
   for (int c = 0; c < 3; ++c) CHECK_NEAR(offset[c], 0, 0);
 }
 
-/* Edges of any shape, single points among them, and bases with joints: on no range does O leave the line by more than the bound,
- * which is not much too large where it is looked at closely. */
+/* Edges have any shape, also single points, and bases have joints. On no range does O leave the line by more than the bound. On
+ * short ranges the bound is not much too large. */
 static void stays_within_the_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;
@@ -55,7 +55,7 @@ static void stays_within_the_bound(void **state) {
     double edge[12], bent[12 * n_base];
     const double factor = random_between(&rng, -1, 1);
     memcpy(bent, base, sizeof bent);
-    /* The second piece curves otherwise than the first, and both leave the plane. */
+    /* The second piece curves unlike the first, and both leave the plane. */
     for (int i = 2; i < 8; ++i) {
       if (i < 5) continue;
       for (int c = 0; c < 3; ++c)
@@ -84,12 +84,12 @@ static void stays_within_the_bound(void **state) {
   assert_true(sum_of_ratios > 0.5 * n_ranges);
 }
 
-/* Where W is parallel to T there is no direction: the bound does not pretend to one. */
+/* Where W is parallel to T, O has no direction. The bound allows for any direction. */
 static void has_no_direction_along_the_base(void **state) {
   (void)state;
   const double straight[12] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, ahead[12] = {5, 0, 0, 6, 0, 0, 7, 0, 0, 8, 0, 0};
   const double bound = bulge_linear_error(1, straight, 1, ahead, 0.5, 0.25, 0.5, 0);
-  CHECK_AT_MOST(2 * 0.5 * 5 * 0.999, bound); /* twice the largest |O| that there could be */
+  CHECK_AT_MOST(2 * 0.5 * 5 * 0.999, bound); /* twice the largest possible |O| */
 }
 
 int main(void) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Closest points through the Embree scene against the independent oracle and against plain loops: every triangle, every
- * place, every limit. */
+ * Closest points through the Embree scene, compared with the independent oracle and with plain loops, for every triangle, place
+ * and limit. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -66,7 +66,7 @@ static void random_soups_equal_the_oracle(void **state) {
   }
 }
 
-/* Far beyond where single precision separates triangles. */
+/* Points so far away that single precision does not separate the triangles. */
 static void far_points_equal_the_oracle(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -82,8 +82,7 @@ static void far_points_equal_the_oracle(void **state) {
   }
 }
 
-/* Equal distances: a grid of coplanar, repeated and mirrored triangles has ties everywhere; the lowest id wins,
- * whatever the order. */
+/* A grid of coplanar, repeated and mirrored triangles has equal distances everywhere. The lowest id wins, whatever the order. */
 static void ties_go_to_the_lowest_id(void **state) {
   (void)state;
   enum { copies = 50 };
@@ -104,8 +103,7 @@ static void ties_go_to_the_lowest_id(void **state) {
   assert_int_equal(closest_to(surface, -5, -5, 0).triangle_id, 0);
 }
 
-/* Batches: every output equal to the single query's, bit by bit, for any number of threads, layout and choice of
- * arrays. */
+/* Every output of a batch equals the single query's bit by bit, for any number of threads, layout and choice of arrays. */
 static void batches_equal_single_queries(void **state) {
   (void)state;
   enum { n = 3000 };
@@ -140,7 +138,7 @@ static void batches_equal_single_queries(void **state) {
       assert_int_equal(side[i], one.side);
     }
   }
-  /* A limit: near points unchanged, far points marked as such. */
+  /* With a limit, near points are unchanged and far points are marked as far. */
   options.distance_limit = 0.3;
   options.far_distance = -5;
   static double limited[n];
@@ -156,7 +154,7 @@ static void batches_equal_single_queries(void **state) {
     assert_int_equal(limited_triangle[i], far ? -1 : triangle_id[i]);
   }
   assert_true(n_far > 100 && n_far < n - 100);
-  /* An infinite limit is none. */
+  /* An infinite limit counts as none. */
   options.distance_limit = INFINITY;
   options.far_distance = RIIS_FAR_DISTANCE;
   CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
@@ -164,8 +162,8 @@ static void batches_equal_single_queries(void **state) {
   CHECK_OK(riis_closest_points(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
 }
 
-/* What single queries report fits together: the point on the triangle, at the distance, the normal its own, the side
- * the sign of the height. */
+/* The results of a single query fit together: the point is on the triangle and at the distance, the normal is the triangle's, and
+ * the side is the sign of the height. */
 static void closest_is_consistent(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -192,7 +190,7 @@ static void closest_is_consistent(void **state) {
     }
     CHECK_NEAR(c.distance, sqrt(distance_sq), 1e-15);
     CHECK_NEAR(unit, 1, 1e-14);
-    /* Above the inside of a triangle the line to the closest point is the normal's. */
+    /* Above the inside of a triangle, the line to the closest point runs along the normal. */
     if (c.barycentric[0] > 1e-6 && c.barycentric[1] > 1e-6 && c.barycentric[2] > 1e-6 && c.distance > 1e-6) {
       CHECK_NEAR(fabs(height), c.distance, 1e-9);
       assert_int_equal(c.side, height > 0 ? 1 : -1);

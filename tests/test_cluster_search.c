@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds what the exhaustive one finds, to the last bit, whatever mesh, surface, limit, mask, instructions and
- * number of threads; where it cannot be used the exhaustive one runs and is named. */
+ * The search over clusters finds the same nodes as the exhaustive search, to the last bit, whatever the mesh, surface, limit,
+ * mask, instructions and number of threads. Where it cannot be used, the exhaustive search runs and is named. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -42,7 +42,7 @@ static void meshes_of_few_nodes(void **state) {
   assert_true(most_within > 20);
 }
 
-/* All in one place, in few places, on a line, in a plane; counts around those of leaves, clusters and regions. */
+/* Nodes in one place, in few places, on a line or in a plane. Their numbers are near those of a leaf, a cluster and a region. */
 static void nodes_without_extent(void **state) {
   (void)state;
   static const int counts[] = {1, 2, 31, 33, 100, 511, 513, 1025, 8191, 8193, 20000};
@@ -67,7 +67,7 @@ static void nodes_without_extent(void **state) {
     }
 }
 
-/* Differences of coordinates that have no inverse, or are the smallest that there are. */
+/* The coordinates differ by numbers that have no inverse, or by the smallest number. */
 static void nodes_that_differ_by_next_to_nothing(void **state) {
   (void)state;
   const double soup[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
@@ -92,8 +92,8 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
   }
 }
 
-/* Both valves; spacings that grow to one side, and cells a hundred times as long as they are high; limits from next to nothing to beyond
- * the mesh. */
+/* Both valves, with spacings that grow to one side or cells a hundred times as long as they are high. Limits reach from nearly 0
+ * to beyond the mesh. */
 static void graded_and_anisotropic_meshes(void **state) {
   (void)state;
   static const double limits[] = {0, 1e-3, 0.05, 0.4, 50};
@@ -119,7 +119,7 @@ static void graded_and_anisotropic_meshes(void **state) {
       }
       free_owned_after(owned_before);
     }
-  /* Threads are as many as were asked for, if OpenMP gives them: more than one ran. */
+  /* If OpenMP gives as many threads as asked for, more than one ran. */
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
 }
 
@@ -143,7 +143,8 @@ static void masked_nodes_are_left_out(void **state) {
   }
 }
 
-/* A node alone, so that nothing but what is allowed for single precision makes its box large: the limit is its distance, or a bit less. */
+/* Each mesh is one node, so only the allowance for single precision makes its box large. The limit is the node's distance, or a
+ * bit less. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -153,7 +154,7 @@ static void nodes_at_the_limit_are_found(void **state) {
   const double square[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
   const int32_t ids[6] = {0, 1, 2, 0, 2, 3};
   const riis_surface_arrays arrays = triangle_arrays(4, square, 2, ids);
-  /* Of the square's box the distance is that of the square. */
+  /* The square's box has the same distance as the square. */
   riis_surface *surfaces[2] = {valve_surface("aortic", options), surface_from(&arrays, &options)};
   for (int k = 0; k < 2; ++k) {
     int n_tried = 0;
@@ -175,7 +176,7 @@ static void nodes_at_the_limit_are_found(void **state) {
 
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
 
-/* A sphere about the origin, (2 n) times n quads, two triangles each but at the poles. */
+/* A sphere about the origin of (2 n) times n quads, each of two triangles except at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
   double *at = own(malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at));
   int32_t *ids = own(malloc((size_t)(4 * n * n) * 3 * sizeof *ids));
@@ -200,8 +201,8 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* The surface's middle is as far from all of it: far more pairs than there is room for. How many pairs must be left for the decision is
- * counted here: triangles whose distance is no more than what single precision may be off by beyond the smallest. */
+/* All of the surface is equally far from its middle, so the filter leaves far more pairs than there is room for. The test counts
+ * the pairs that the filter must leave: triangles whose distance is within single precision's error of the smallest. */
 static void more_pairs_than_room(void **state) {
   (void)state;
   enum { n = 40, room = 4096 };
@@ -215,19 +216,19 @@ static void more_pairs_than_room(void **state) {
     n_equal += oracle_point_triangle(middle, abc) <= smallest + error;
   }
   printf("%lld of %lld triangles are as near\n", (long long)n_equal, (long long)all.n_triangles);
-  assert_true(32 * n_equal > 2 * room); /* a leaf's alone */
+  assert_true(32 * n_equal > 2 * room); /* one leaf has so many */
   for (int spread = 0; spread < 3; ++spread) {
     for (int i = 0; i < 3 * n; ++i)
       xyz[i] = spread == 0 ? 0 : (spread == 1 ? 1e-7 : 1e-3) * random_between(&rng, -1, 1);
     most_within = 0;
     check(surface, n, xyz, 1);
     assert_int_equal(most_within, n);
-    check(surface, n, xyz, smallest); /* only what is there exactly, or nearer */
+    check(surface, n, xyz, smallest); /* only triangles at exactly this distance, or nearer */
   }
 }
 
-/* Triangles by arrays: any, needles down to 1e-11, sizes over many powers of ten, levels, pieces apart; in units from 1e-50 to 1e50 and far
- * from the origin, where coordinates round. */
+/* Triangles from arrays: arbitrary ones, needles down to 1e-11, sizes over many powers of ten, level ones, and separate pieces.
+ * Units go from 1e-50 to 1e50, and some surfaces are far from the origin, where coordinates round. */
 static void surfaces_from_arrays(void **state) {
   (void)state;
   enum { max_triangles = 600, n = 1500 };
@@ -266,7 +267,7 @@ static void surfaces_from_arrays(void **state) {
     own(surface);
     const double off = unit * power_of_ten(-6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
-    for (int i = 0; i < n; i += 50) /* some far away: the mesh is larger than the surface, or the same */
+    for (int i = 0; i < n; i += 50) /* some far away, so that the mesh is larger than the surface or as large */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
     check(surface, n, xyz, fmax(options.half_thickness, off * power_of_ten(-1, 1)));
@@ -275,7 +276,7 @@ static void surfaces_from_arrays(void **state) {
   assert_int_equal(most_within, n);
 }
 
-/* Needles along a diagonal whose heights are lost where the surface's middle is taken off their corners. */
+/* Needles along a diagonal. Subtracting the surface's middle from their corners rounds their heights away. */
 static void needles_that_are_lines_in_the_frame(void **state) {
   (void)state;
   enum { n_triangles = 64, n = 2000 };
@@ -292,7 +293,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
       p[6] = p[7] = p[8];
       p[6] += size * 1e-11, p[7] -= size * 1e-11;
     }
-    /* One that makes the frame. */
+    /* This triangle determines the frame. */
     const double large[9] = {0.7, 0.7, 0.7, -0.1, 0.7, 0.7, 0.7, -0.1, -0.1};
     memcpy(corners, large, sizeof large);
     const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);
@@ -307,7 +308,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
   }
 }
 
-/* The whole valve where a scanner has its origin, and where coordinates round. */
+/* The valve lies far from the origin: as in a scanner's coordinates, or where coordinates round. */
 static void valves_far_from_the_origin(void **state) {
   (void)state;
   static const double far[] = {300, 1e4, 1e6};
@@ -377,7 +378,7 @@ static void what_options_say(void **state) {
     options.instructions = wrong[k];
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result));
   }
-  /* Those beyond the best are not there. */
+  /* The processor lacks the instruction sets beyond the best. */
   for (int32_t set = RIIS_INSTRUCTIONS_BASELINE; set <= RIIS_INSTRUCTIONS_AVX512; ++set) {
     options.instructions = set;
     assert_int_equal(is_refused(riis_mark_nodes(surface, mesh, &options, result), set), set > best);

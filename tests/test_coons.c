@@ -46,7 +46,7 @@ static void boundary_is_the_polylines_to_the_last_bit(void **state) {
   assert_int_equal(different, 0);
 }
 
-/* The Coons formula from the polylines themselves, at any (u,v): the grid is bilinear between its lines and loses
+/* Compares with the Coons formula of the polylines themselves, at any (u,v). The grid is bilinear between its lines and loses
  * nothing. */
 static void surface_equals_the_coons_formula_everywhere(void **state) {
   (void)state;
@@ -79,7 +79,7 @@ static void nearly_equal_parameters_share_a_line(void **state) {
   const double *const points[4] = {v0, v1, u0, u1};
   quad_grid apart = coons_grid(n, points, 1e-6), together = coons_grid(n, points, 1e-3);
   const int64_t n_apart = apart.n_u, n_together = together.n_u;
-  /* Both vertices are still there, to the last bit: a neighbour that shares a side has them, too. */
+  /* Both vertices are still there, to the last bit, because a neighbour that shares a side also has them. */
   const int kept = memcmp(together.points + 3, v0 + 3, 3 * sizeof(double)) == 0 &&
                    memcmp(together.points + 3 * (n_together + 1), v1 + 3, 3 * sizeof(double)) == 0;
   quad_grid_free(&apart);
@@ -120,7 +120,7 @@ static void bilinear(const double (*q)[3], double s, double t, double *point) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* Where t is fixed the bilinear quad is a segment. Its distance from p, exactly. */
+/* For a fixed t the bilinear quad is a segment. Returns its exact distance from p. */
 static double distance_to_line_of_quad(const double (*q)[3], double t, const double *p) {
   double along = 0, length_sq = 0, a[3], b[3], at[3];
   bilinear(q, 0, t, a);
@@ -130,9 +130,10 @@ static double distance_to_line_of_quad(const double (*q)[3], double t, const dou
   return distance(at, p);
 }
 
-/* Distance to the bilinear quad: at most 2e-7 more than the truth, and no less. From t to t' no point of a segment moves by more than
- * |t - t'| times the longer of the sides along t, so that the middle of an interval tells which intervals cannot have the nearest
- * point. All others are halved. (A search that follows its best point alone can end in another minimum.) */
+/* Returns the distance to the bilinear quad, at most 2e-7 above the truth and never below it. From t to t' no point of a segment
+ * moves by more than |t - t'| times the longer of the sides along t. So the middle of an interval tells whether the interval can
+ * have the nearest point. Intervals that can are halved. (A search that follows only its best point can end in another
+ * minimum.) */
 static double distance_to_bilinear(const double (*q)[3], const double *p) {
   const double speed = fmax(distance(q[0], q[3]), distance(q[1], q[2]));
   double best = INFINITY, from[64], width[64];
@@ -148,7 +149,7 @@ static double distance_to_bilinear(const double (*q)[3], const double *p) {
   return best;
 }
 
-/* Neither surface has a point farther than the bound from the other: quads of all shapes, from flat to folded. */
+/* Neither surface has a point farther from the other than the bound. Quads have all shapes from flat to folded. */
 static void triangles_stay_within_the_split_error(void **state) {
   (void)state;
   random_source rng = random_start("test_coons split");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Whether a segment meets a triangle, against whole numbers: in general position, through corners, sides and planes, off them by
- * less than doubles resolve, in planes, in every unit. */
+ * Whether a segment meets a triangle, compared with whole numbers. Segments are in general position, pass through corners,
+ * sides and planes, miss these by less than doubles resolve, or lie in planes. Units vary. */
 #include "crossing_oracle.h"
 #include "internals.h"
 #include "test_support.h"
@@ -13,7 +13,7 @@ typedef struct {
   int64_t a[3], b[3], abc[9];
 } sample;
 
-/* The answer for one order of ends and corners, in a unit of 2^exponent. */
+/* Returns the answer for one order of ends and corners, in units of 2^exponent. */
 static int answer(const sample *s, int exponent, int swapped, int turned) {
   double a[3], b[3], abc[9];
   for (int i = 0; i < 3; ++i) {
@@ -27,7 +27,7 @@ static int answer(const sample *s, int exponent, int swapped, int turned) {
   return swapped ? segment_triangle_meet(b, a, abc) : segment_triangle_meet(a, b, abc);
 }
 
-/* Every order of ends and corners gives the oracle's answer. */
+/* Checks that every order of ends and corners gives the oracle's answer. */
 static int check(const sample *s, int exponent) {
   const int expected = oracle_segment_meets_triangle(s->a, s->b, s->abc);
   for (int i = 0; i < 12; ++i)
@@ -42,7 +42,7 @@ static void random_triangle(sample *s, int64_t largest) {
   while (!has_area(s->abc));
 }
 
-/* From units in which coordinates are barely above what counts as 0 to those in which they reach 1e60. */
+/* In the smallest unit coordinates are barely above the numbers that count as 0. In the largest they reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
 static void small_numbers_meet_in_every_way(void **state) {
@@ -63,7 +63,8 @@ static void small_numbers_meet_in_every_way(void **state) {
   assert_true(n_met > n / 10 && n_met < n * 9 / 10 && n_in_plane > n / 10);
 }
 
-/* A point of the triangle, to whole numbers, at a corner, on a side or inside; then a segment through it, off by 0 or 1. */
+/* A segment passes through a point at a corner, on a side or inside of a triangle. The point is rounded to whole
+ * numbers, and one end is off by at most 1. */
 static void numbers_of_38_bits_are_told_apart(void **state) {
   (void)state;
   int n_met = 0;
@@ -88,7 +89,7 @@ static void numbers_of_38_bits_are_told_apart(void **state) {
   assert_true(n_met > n / 5 && n_met < n * 4 / 5);
 }
 
-/* A fan round a corner has no hole: what is through a point of its inside meets one triangle or more. */
+/* A fan of triangles round a corner has no hole: a segment through an inner point meets at least one triangle. */
 static void a_fan_has_no_hole(void **state) {
   (void)state;
   enum { n_sides = 7 };
@@ -99,7 +100,7 @@ static void a_fan_has_no_hole(void **state) {
       corners[k][0] = cos(angle), corners[k][1] = sin(angle), corners[k][2] = random_between(&rng, -0.1, 0.1);
     }
     for (int i = 0; i < 3; ++i) centre[i] = random_between(&rng, -0.01, 0.01);
-    /* Above and below the centre, or a point of a spoke, to rounding. */
+    /* The ends are above and below the centre or a point of a spoke, up to rounding. */
     const int spoke = trial % n_sides;
     const double share = trial % 3 ? 0 : random_between(&rng, 0, 0.3), tilt = random_between(&rng, -0.1, 0.1);
     for (int i = 0; i < 3; ++i) {
@@ -119,7 +120,7 @@ static void a_fan_has_no_hole(void **state) {
   }
 }
 
-/* As the header says of coordinates below 1e-90. */
+/* riis.h says that coordinates below 1e-90 count as 0. */
 static void negligible_coordinates_count_as_0(void **state) {
   (void)state;
   const double abc[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};

@@ -29,7 +29,7 @@ static int64_t random_chain(double *control) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* The whole chain in small steps. */
+/* The number of small steps along the whole chain. */
 enum { n_steps = 20000 };
 static double (*walk(int64_t n, const double *control, double *length))[3] {
   double(*points)[3] = malloc((n_steps * (size_t)n + 1) * sizeof *points);
@@ -87,7 +87,7 @@ static void parts_are_parts(void **state) {
       CHECK_AT_MOST(distance(of_part, of_whole), 1e-10);
     }
   }
-  /* A cut at a joint leaves no rest of the neighbour. */
+  /* A cut at a joint leaves no part of the neighbour. */
   double control[12 * max_pieces], part[12 * max_pieces], first = 0;
   int64_t n = 0;
   while (n < 3) n = random_chain(control);
@@ -96,8 +96,8 @@ static void parts_are_parts(void **state) {
   assert_int_equal(chain_between(n, control, first, 1, 0, part), n - 1);
 }
 
-/* As for one piece (test_bezier): points are on the curve at binary fractions of its length, and no chord is farther than its
- * bound from it at equal shares, also across joints. */
+/* As for one piece (test_bezier), points are on the curve at binary fractions of its length. At equal shares no chord is farther
+ * from the curve than its bound, also across joints. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;

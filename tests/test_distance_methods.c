@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Distances by sampling and by minimisation: against flat and cylindrical patches of which the distance is known, against
- * triangles fifty times as fine, and against each other. */
+ * Distances by sampling and by minimisation, compared with known distances of flat and cylindrical patches, with triangles
+ * fifty times as fine, and with each other. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -13,7 +13,8 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Patches by the control points of their curves v = 0 and v = 1, patch after patch; u = 0 and u = 1 are straight. */
+/* Makes patches from the control points of their curves v = 0 and v = 1, patch after patch. Their curves u = 0 and u = 1 are
+ * straight. */
 static riis_valve *patches_between(int32_t n_patches, int32_t degree, const double *v0_and_v1) {
   enum { most = 2 };
   int32_t degrees[4 * most], sides[4 * most], leaflet_ids[most];
@@ -71,7 +72,7 @@ static double distance_to_profile(const double *p, double t) {
   return hypot(x, z);
 }
 
-/* All minima of a fine net are followed: near the middle between two, the net's least need not be the true one. */
+/* Follows every minimum of a fine net: near the middle between two, the net's least need not lead to the true one. */
 static double distance_to_cylinder(const double *p) {
   enum { n = 400 };
   double at[n + 1], nearest = INFINITY;
@@ -100,7 +101,7 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
   return new_surface(valve, &options);
 }
 
-/* A hairpin that leans as v grows: in the middle of v the arm at x = 1 is nearest to the point, at v = 1 the other. */
+/* A hairpin that leans as v grows. At the middle of v the arm at x = 1 is nearest to the point, at v = 1 the other arm is. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
   const double sides[24] = {-1.95, 0, 1, -1.95, 0, -2, 1, 0, -2, 1, 0, 1, -0.05, 1, 1, -0.05, 1, -2, 1, 1, -2, 1, 1, 1};
@@ -122,7 +123,7 @@ static void random_point_on(random_source *rng, const riis_surface *surface, dou
     p[c] = (1 - a - b) * all.xyz[3 * id[0] + c] + a * all.xyz[3 * id[1] + c] + b * all.xyz[3 * id[2] + c];
 }
 
-/* What holds of an answer by either method, whatever the surface. */
+/* Checks properties of an answer that hold for both methods and any surface. */
 static void check_answer(const riis_closest *answer, const double *p) {
   CHECK_NEAR(answer->distance, distance_between(p, answer->point), 1e-14 * (1 + answer->distance));
   assert_int_equal(answer->triangle_id, -1);
@@ -132,11 +133,12 @@ static void check_answer(const riis_closest *answer, const double *p) {
   if (size != 0) CHECK_NEAR(size, 1, 1e-14);
 }
 
-/* Distances that are known to `known_to`, of points in a box and of points at the surface, where samples are farthest off. */
+/* Distances that are known up to an error of `known_to`. The points are in a box or at the surface, where samples are farthest
+ * off. */
 typedef struct reference {
   const char *name;
   riis_valve *valve;
-  double (*distance)(const double *p); /* NULL: that of `fine` */
+  double (*distance)(const double *p); /* NULL: the distance to `fine` */
   riis_surface *fine;
   double known_to;
 } reference;
@@ -193,8 +195,8 @@ static void sampling_is_within_its_bound(void **state) {
     }
 }
 
-/* The rule says how many: on a rectangle squares of which half the diagonal is the bound. No more are made, so that the bound is
- * met between them. */
+/* The rule gives the number of samples: on a rectangle they form squares with half the diagonal equal to the bound. No more
+ * samples are made, so points between them reach the bound. */
 static char last_message[512];
 static void keep_message(void *user_data, int32_t level, const char *message) {
   (void)user_data, (void)level;
@@ -218,7 +220,7 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   assert_int_equal(answer.leaflet_id, 7);
 }
 
-/* The tree of boxes leaves out nothing: the nearest of all samples, the first of equally near ones. */
+/* The tree of boxes leaves out no sample: the nearest of all is found, and the first of equally near ones. */
 static void nearest_samples_are_found(void **state) {
   (void)state;
   random_source rng = random_start("nearest_samples_are_found");
@@ -232,7 +234,7 @@ static void nearest_samples_are_found(void **state) {
       double p[3];
       random_point(&rng, surface, pow(10, random_between(&rng, -2, 4)), p);
       if (n % 10 == 0) memcpy(p, xyz + 3 * (random_bits(&rng) % (uint64_t)n_samples), sizeof p);
-      /* Samples of the rectangle are 1/16 apart: as near to four of them. */
+      /* Samples of the rectangle are 1/16 apart, so this point is equally near to four. */
       for (int c = 0; c < 2 && of == 0; ++c) p[c] = (double)(2 * (random_bits(&rng) % 16) + 1) / 32;
       double least = INFINITY;
       int64_t nearest = -1;
@@ -249,7 +251,7 @@ static void nearest_samples_are_found(void **state) {
   }
 }
 
-/* Distances to points differ by no more than the points that ask: what the neighbour search's proof is built on. */
+/* The distances of two points differ by at most the distance between them. The neighbour search's proof rests on this. */
 static void sampling_is_lipschitz(void **state) {
   (void)state;
   random_source rng = random_start("sampling_is_lipschitz");
@@ -273,7 +275,7 @@ static double outside(double u, double v) { return (u + 1) * (u + 1) + (v - 2) *
 static double on_a_side(double u, double v) { return 1 + (u - 2) * (u - 2) + 3 * (v - u / 4) * (v - u / 4); }
 static double flat(double u, double v) { return u * 0 + v * 0 + 2; }
 
-/* Minima inside, where the directions have to turn, at a corner and on a side, exactly. */
+/* Minima inside, where the directions have to turn, at a corner and on a side are found exactly. */
 static void powell_finds_minima(void **state) {
   (void)state;
   const struct {
@@ -294,8 +296,8 @@ static void powell_finds_minima(void **state) {
   }
 }
 
-/* Never too near. On a rectangle, where the square of the distance has one minimum, right. Elsewhere it may end in a local
- * minimum: most answers are right, and how many are not is said. */
+/* Minimisation never gives too small a distance. It is right on a rectangle, where the square of the distance has one minimum.
+ * Elsewhere it may end in a local minimum: most answers are right, and the test prints how many are not. */
 static void minimisation_is_never_below(void **state) {
   (void)state;
   random_source rng = random_start("minimisation_is_never_below");
@@ -330,7 +332,7 @@ static void minimisation_is_never_below(void **state) {
     }
 }
 
-/* The known failure: from the middle the search goes to the wrong arm, and stays. Distance and mark are wrong. */
+/* The known failure: from the middle the search goes to the wrong arm and stays there. Distance and mark are wrong. */
 static void minimisation_ends_in_local_minima(void **state) {
   (void)state;
   riis_valve *valve = hairpin();
@@ -358,7 +360,7 @@ static void minimisation_ends_in_local_minima(void **state) {
   assert_int_equal(n_marked[RIIS_DISTANCE_MINIMIZATION], 0);
 }
 
-/* The patch whose box is nearest, here around the point, need not have the nearest point. */
+/* The patch whose box is nearest need not have the nearest point. Here that box holds the query's point. */
 static void all_near_patches_are_asked(void **state) {
   (void)state;
   /* A slope through [0,1]^3, and a floor below it. */
@@ -372,7 +374,7 @@ static void all_near_patches_are_asked(void **state) {
   assert_int_equal(above.leaflet_id, 7);
 }
 
-/* Placed, turned over, mirrored: the normals are the triangles', and distances go with the scale. */
+/* Surfaces are placed, turned over or mirrored. The normals are the triangles', and distances are in proportion to the scale. */
 static void placement_and_normals(void **state) {
   (void)state;
   random_source rng = random_start("placement_and_normals");
@@ -414,7 +416,8 @@ static void mark(const riis_surface *surface, const riis_mesh *mesh, int32_t sea
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
 }
 
-/* All searches that are complete find what asking every node finds, for any number of threads; the paper's a part of it. */
+/* All complete searches find the same nodes as a query of every node, for any number of threads. The paper's search finds a part
+ * of them. */
 static void searches_agree(void **state) {
   (void)state;
   random_source rng = random_start("searches_agree");
@@ -436,7 +439,7 @@ static void searches_agree(void **state) {
         riis_mark_result *expected = new_result(), *result = new_result();
         mark(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, limit, which, expected);
         assert_int_equal(stats_of(expected).instructions, RIIS_INSTRUCTIONS_BASELINE);
-        /* By one question a node. */
+        /* One query per node gives the expected result. */
         const found_nodes within = within_in(expected);
         const double farthest = limit < 0 ? half_thickness : limit;
         int64_t n = 0;
@@ -453,7 +456,7 @@ static void searches_agree(void **state) {
         assert_int_equal(n, within.n);
         assert_true(marked_in(expected).n > 50 && marked_in(expected).n < nodes.n / 2);
         for (int32_t n_threads = 1; n_threads <= 3; ++n_threads) {
-          /* The first anew, the second from what was marked last, the third as the library likes. */
+          /* The first marking starts anew, the second from the last marked nodes. The third leaves the search to the library. */
           for (int repeat = 0; repeat < 2; ++repeat) {
             mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, n_threads, limit, which, result);
             assert_true(same_results(expected, result));
@@ -480,8 +483,8 @@ static void searches_agree(void **state) {
     }
 }
 
-/* Two nodes in a ball from whose middle minimisation goes to the wrong arm, twice as far as the ball reaches: that must not
- * dismiss the node that it finds near. */
+/* Two nodes lie in a ball. From the ball's middle minimisation goes to the wrong arm, twice as far away as the ball's radius.
+ * This must not dismiss the node that minimisation finds near. */
 static void local_minima_dismiss_no_group(void **state) {
   (void)state;
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
@@ -501,7 +504,7 @@ static void local_minima_dismiss_no_group(void **state) {
   assert_true(marked.n == 1 && marked.node_id[0] == 0);
 }
 
-/* Batches answer as single points do, for any number of threads, and know what is far. */
+/* Batches answer like single points, for any number of threads, and tell far points. */
 static void batches_agree(void **state) {
   (void)state;
   random_source rng = random_start("batches_agree");
@@ -558,7 +561,7 @@ static void what_has_no_meaning_is_refused(void **state) {
 
   riis_valve *valve = rectangle();
   surface = measured(valve, RIIS_DISTANCE_SAMPLING, 0.1);
-  /* The options that it has, which are refused for arrays, leave it as it was. */
+  /* The surface's own options are refused for arrays, and leave the surface as it was. */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.distance is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();
@@ -598,7 +601,7 @@ static void what_has_no_meaning_is_refused(void **state) {
                 riis_mark_nodes(surface, mesh, &marking, result));
 }
 
-/* A surface keeps its method when its valve moves; a caller who knows nothing of methods has triangles. */
+/* A surface keeps its method when its valve moves. A caller whose header lacks methods gets triangles. */
 static void options_stay_and_default(void **state) {
   (void)state;
   riis_valve *valve = valve_of("mitral");
@@ -616,11 +619,11 @@ static void options_stay_and_default(void **state) {
   }
   riis_surface_options options;
   memset(&options, 0x5a, sizeof options);
-  CHECK_OK(riis_surface_options_init(&options, 96)); /* of the first release */
+  CHECK_OK(riis_surface_options_init(&options, 96)); /* the size of the first release */
   assert_int_equal(options.distance, 0x5a5a5a5a);
   CHECK_OK(riis_surface_update(surface, valve, &options));
   assert_true(closest_to(surface, 0, 0, 0).triangle_id >= 0);
-  /* RIIS_AUTO is the tolerance. */
+  /* RIIS_AUTO stands for the tolerance. */
   options = surface_options();
   assert_true(options.distance == RIIS_DISTANCE_TRIANGLES && options.distance_tolerance == RIIS_AUTO);
   options.distance = RIIS_DISTANCE_SAMPLING;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero;
- * OpenMP settings and parallel regions; errors and logs of several threads; standard output and error. */
+ * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero, OpenMP
+ * settings, parallel regions, errors and logs of several threads, standard output and error. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* feenableexcept */
 #endif
@@ -20,7 +20,7 @@
 enum { n = 20000 };
 static double nodes[3 * n];
 
-/* Everything a step does, as one number that depends on every bit. */
+/* Returns a number that depends on every bit of a step's results. */
 static uint64_t digest_of_a_step(int threads) {
   const int owned_before = n_owned();
   riis_surface *surface = aortic_surface(NULL);
@@ -96,7 +96,7 @@ static void openmp_settings_stay(void **state) {
   assert_int_equal(chunk, 7);
 }
 
-/* Each of the caller's threads marks on its own; one surface and mesh are read by all. */
+/* Each of the caller's threads marks on its own. All read one surface and one mesh. */
 static void works_inside_a_parallel_region(void **state) {
   (void)state;
   int n_wrong = 0;
@@ -114,7 +114,7 @@ static void works_inside_a_parallel_region(void **state) {
     if (riis_mark_result_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
       riis_mark_result_marked(result, &counts[i], NULL, NULL, NULL, NULL);
     riis_mark_result_destroy(&result);
-    /* The first side asked for makes what sides need, in whichever thread. */
+    /* The first query of a side, in any thread, makes the data that sides need. */
     riis_closest closest;
     if (riis_closest_point(surface, nodes + 3 * i, &closest, sizeof closest) != RIIS_OK) counts[i] = -2;
   }
@@ -137,7 +137,7 @@ static void errors_belong_to_their_thread(void **state) {
     snprintf(part, sizeof part, "n_nodes is %d;", -1 - t);
     assert_non_null(strstr(texts[t], part));
   }
-  /* Success leaves the text alone. */
+  /* Success leaves the message alone. */
   riis_valve *valve = NULL;
   assert_true(riis_valve_create("none", &valve) != RIIS_OK);
   valve = new_valve("aortic");
@@ -165,7 +165,7 @@ static void log_goes_to_the_callers_function_only(void **state) {
   assert_string_equal(line, "");
 }
 
-/* A step and a refusal with both standard streams led into a file: it stays empty. */
+/* A step and a refusal run with both standard streams redirected into a file, which stays empty. */
 static void nothing_is_printed(void **state) {
   (void)state;
   FILE *file = tmpfile();

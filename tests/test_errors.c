@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Every refusal of the public interface by code and text. */
+ * Every refusal of the public interface, by code and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -122,7 +122,7 @@ static void null_arguments_are_named(void **state) {
   }
 }
 
-/* Fortran's handles are all of one type: swapped ones compile. */
+/* All of Fortran's handles have one type, so swapped ones compile. */
 static void swapped_handles_are_refused(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -192,12 +192,12 @@ static void parameters_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 40", riis_valve_parameter(valve, -1, NULL, 72));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 41", riis_valve_parameter(valve, 41, NULL, 72));
-  /* Nothing of all this stuck. */
+  /* No refused call changed the valve. */
   CHECK_OK(riis_valve_get(valve, "root_radius", 1, values));
   CHECK_SAME(values[0], 1.29);
   CHECK_OK(riis_valve_get(valve, "right.translation", 3, values));
   CHECK_SAME(values[2], -1.0);
-  /* A name longer than any text. */
+  /* A name longer than any message. */
   char long_name[5000];
   memset(long_name, 'x', sizeof long_name - 1);
   long_name[sizeof long_name - 1] = 0;
@@ -239,12 +239,12 @@ static void surface_options_are_refused_by_name(void **state) {
   OPTION_IS_REFUSED(distance_tolerance, 0, "distance_tolerance is 0|1e-06 to 1");
   OPTION_IS_REFUSED(distance_tolerance, 1.5, "distance_tolerance is 1.5");
   OPTION_IS_REFUSED(distance_tolerance, NAN, "distance_tolerance is nan");
-  /* So far away that the valve would be flattened by rounding. */
+  /* So far away, rounding would flatten the valve. */
   OPTION_IS_REFUSED(translation[1], 1e14, "translation moves the valve by 1e+14|tolerance * half_thickness, 0.005");
   options = surface_options();
   options.tolerance = 1e-6;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
-  options.half_thickness = 1e-50; /* absurd together, each in range */
+  options.half_thickness = 1e-50; /* both in range, but absurd together */
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
 }
 
@@ -280,13 +280,13 @@ static void surface_arrays_are_refused_by_name(void **state) {
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.index_base = 1, "corner 0 of face 0 is 0|1 to 4");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.leaflet_id = negative, "leaflet_id of face 0 is -3");
   memcpy(bad, xyz, sizeof bad);
-  bad[11] = INFINITY; /* not even used by a face */
+  bad[11] = INFINITY; /* refused although no face uses it */
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
                      "z of vertex 3 is inf");
   bad[11] = 1e61;
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
                      "z of vertex 3 is 1e+61");
-  /* In range before its placement, beyond after it. */
+  /* The coordinate is in range before its placement and out of range after it. */
   bad[11] = 1e59;
   riis_surface_options options = surface_options();
   options.scale = 100;
@@ -371,7 +371,7 @@ static void marking_options_are_refused_by_name(void **state) {
   MARK_OPTION_IS_REFUSED(n_threads, 4096, "n_threads is 4096");
 }
 
-/* A caller of an older header gets and gives less; one of a newer header is told. */
+/* A caller with an older header gets and gives less. A caller with a newer header is refused. */
 static void struct_sizes_are_checked(void **state) {
   (void)state;
   riis_surface_options options;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What cannot be asked for through the public interface: failures from inside become a status and a text, and memory
- * that runs out leaves everything as it was. */
+ * Failures that the public interface cannot provoke: failures from inside become a status and a message, and memory that runs
+ * out leaves everything as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,8 +21,8 @@ static void every_exception_becomes_a_status(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "error of block 0", wall_meets("workers"));
 }
 
-/* In a child process with little address space left: an update that needs much more is refused, the surface stays.
- * Returns 0 if so. */
+/* Runs in a child process with little address space left. An update that needs much more is refused and the surface stays.
+ * Returns 0 if this holds. */
 static int update_without_memory(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -43,7 +43,7 @@ static int update_without_memory(void) {
   setrlimit(RLIMIT_AS, &limit);
   if (riis_surface_update(surface, valve, &options) != RIIS_OUT_OF_MEMORY) return 4;
   if (strcmp(riis_last_error(), "out of memory") != 0) return 5;
-  limit.rlim_cur = unlimited; /* what comes now may need memory, and other threads may have taken what was left */
+  limit.rlim_cur = unlimited; /* the checks may need memory, and other threads may have taken the rest */
   setrlimit(RLIMIT_AS, &limit);
   riis_surface_get_info(surface, &after, sizeof after);
   if (memcmp(&before, &after, sizeof before) != 0) return 6;
@@ -55,8 +55,8 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* In a child process again: many patches, each of so many quads that the first is too many. Curves of a few are made before they are
- * counted, not of all, which take a gigabyte. Returns 0 if so. */
+/* Runs in a child process again. There are many patches, and already the first has too many quads. The curves of a few patches
+ * are made before the quads are counted, but not all curves, which would take a gigabyte. Returns 0 if this holds. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };
   static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};

@@ -53,8 +53,9 @@ static double largest_of(const double *x, int n) {
   return largest;
 }
 
-/* In the surface's frame, coordinates at most 1: any, needles of heights down to 1e-12 of their length and all angles at their tips, tiny
- * ones, ones that corners coincide of. As a (first, second, third) or in another order. */
+/* Random triangles in the surface's frame, with coordinates of at most 1. Some are needles with heights down to 1e-12 of their
+ * length and any angle at their tips, some are tiny, some have coinciding corners. The corners are in the order (first, second,
+ * third) or another. */
 enum { n_kinds = 6 };
 static void random_triangle(int kind, double *abc) {
   double q[3][3], axis[3][3], origin[3];
@@ -65,7 +66,7 @@ static void random_triangle(int kind, double *abc) {
   if (kind == 0)
     for (int i = 0; i < 3; ++i) random_point(1, q[i]);
   else {
-    /* Its third corner above an end of the first edge, far beyond it, or anywhere. */
+    /* The third corner is above an end of the first edge, far beyond it, or anywhere. */
     const double along = kind == 2   ? random_between(&rng, 0, 1)
                          : kind == 1 ? (double)(random_bits(&rng) % 2)
                                      : random_between(&rng, -1, 2);
@@ -73,14 +74,14 @@ static void random_triangle(int kind, double *abc) {
     place(origin, axis, size, 0, 0, q[1]);
     place(origin, axis, size * along, size * height, 0, q[2]);
     if (kind == 4) memcpy(q[random_bits(&rng) % 3], q[random_bits(&rng) % 3], sizeof q[0]);
-    if (kind == 5) /* a lattice's, axis by axis, where distances tie */
+    if (kind == 5) /* corners on a lattice, where distances tie */
       for (int i = 0; i < 9; ++i) q[i / 3][i % 3] = (double)((int)(random_bits(&rng) % 5) - 2) / 4;
   }
   const int first = (int)(random_bits(&rng) % 3), turn = random_bits(&rng) & 1 ? 1 : 2;
   for (int i = 0; i < 3; ++i) memcpy(abc + 3 * i, q[(first + turn * i) % 3], sizeof q[0]);
 }
 
-/* Near a triangle: on it or off it by a power of ten, over corners, edges, inside, beyond its tips, and anywhere. */
+/* A point on a triangle or off it by a power of ten. It is over a corner, an edge or the inside, beyond a tip, or anywhere. */
 static void random_point_near(const double *abc, double reach, double *p) {
   const int kind = (int)(random_bits(&rng) % 8), from = (int)(random_bits(&rng) % 3), to = (from + 1) % 3;
   double offset[3], w[3] = {0, 0, 0};
@@ -100,7 +101,7 @@ static void random_point_near(const double *abc, double reach, double *p) {
     if (length > 1e-100)
       for (int c = 0; c < 3; ++c) offset[c] = n[c] / length;
   }
-  if (kind == 7) { /* in its plane, beyond a tip, along the middle of its edges there */
+  if (kind == 7) { /* in the triangle's plane, beyond a tip, along the median from there */
     const double beyond = power_of_ten(-6, 0.5);
     w[from] = 1 + 2 * beyond, w[to] = w[(from + 2) % 3] = -beyond;
   }
@@ -118,7 +119,7 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
   static int32_t point[max_pairs], triangle[max_pairs];
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    /* In other units and far from the origin, too, where coordinates round. */
+    /* Some trials are in other units, some far from the origin, where coordinates round. */
     const double unit = trial % 3 ? 1 : power_of_ten(-50, 50), far = trial % 2 ? 0 : power_of_ten(0, 9);
     double origin[3];
     random_point(far, origin);
@@ -212,7 +213,7 @@ static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
 
 /* --- Single precision ------------------------------------------------------------------------------------------------ */
 
-/* A point of the mesh's frame, as it is stored, and where it really is in the surface's. */
+/* The mesh's frame relative to the surface's: points are stored in the first and compared in the second. */
 typedef struct framed {
   double ratio, shift[3], largest_shift;
 } framed;
@@ -225,8 +226,8 @@ static framed random_framed(void) {
   return f;
 }
 
-/* What the mesh stores for a point p of the surface's frame; 0 if it is not in the mesh. p becomes the point that was rounded, where an
- * exact sum goes by. */
+/* Makes the numbers that the mesh stores for a point p of the surface's frame. as_float becomes that point in the surface's
+ * frame, in single precision. Returns 0 if p is not in the mesh. */
 static int store(const framed *f, const double *p, float *stored, float *as_float) {
   for (int c = 0; c < 3; ++c) {
     const double x = (p[c] - f->shift[c]) / f->ratio;
@@ -237,8 +238,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Filtered distances against decided ones: how much of what is allowed for they use. What is said to be nearer than it is goes wrong in
- * another way than what is said to be farther, which the margin makes most of. */
+/* Compares filtered distances with decided ones, as shares of the allowed error. Filtered distances that are too small and too
+ * large are judged apart: the margin accounts for most of the second kind. */
 static void single_precision_is_right_to_its_error(void **state) {
   (void)state;
   enum { n_lanes = 16 };
@@ -284,7 +285,7 @@ static void single_precision_is_right_to_its_error(void **state) {
     assert_true(n_compared > 100000);
     /* The proof's E2 is at most half of the error. */
     CHECK_AT_MOST(nearer, 0.5);
-    /* It does come near the margin: a smaller one than the library's would be seen above. */
+    /* The errors come near the margin, so the check above would notice if the library's margin were smaller. */
     CHECK_AT_MOST(0.4, farther);
   }
 }
@@ -301,7 +302,8 @@ typedef struct leaf_case {
   double error;
 } leaf_case;
 
-/* Triangles whose first has an edge across the others, which are level: what a group's axes are chosen by goes nearly to nothing. */
+/* The first triangle has an edge across the others, which are level. The quantity that chooses a group's axes is nearly 0
+ * there. */
 static void first_edge_across(int n, double *corners) {
   double axis[3][3], origin[3];
   random_frame(axis);
@@ -320,7 +322,7 @@ static void first_edge_across(int n, double *corners) {
   }
 }
 
-/* Small ones, as far from the middle as each other. */
+/* Small triangles, all equally far from the middle. */
 static void on_a_sphere(int n, double *corners) {
   for (int i = 0; i < n; ++i) {
     double axis[3][3];
@@ -423,14 +425,14 @@ static void first_bounds_and_boxes_lose_nothing(void **state) {
           ++n_near;
           const double share = (sqrt(lower_sq[32 * g + node]) - distance) / c.error;
           below = fmax(below, share);
-          if (!(share <= 0.25)) /* half of it is allowed for */
+          if (!(share <= 0.25)) /* half of the error is allowed for */
             fail_msg("%s, trial %d: a bound from below of %.9g, the distance is %.17g", kernels_name(set), trial,
                      sqrt(lower_sq[32 * g + node]), distance);
         }
         if (!(nearest <= c.filter.limit)) continue;
         const double share = (nearest - sqrt(upper_sq[node])) / c.error;
         above = fmax(above, share);
-        if (!(share <= 0.25)) /* half of it is allowed for */
+        if (!(share <= 0.25)) /* half of the error is allowed for */
           fail_msg("%s, trial %d: a bound from above of %.9g, the distance is %.17g", kernels_name(set), trial,
                    sqrt(upper_sq[node]), nearest);
       }
@@ -445,8 +447,8 @@ static void first_bounds_and_boxes_lose_nothing(void **state) {
   }
 }
 
-/* The closest triangles of every node within the limit, all of them where they tie, are among the pairs: with room for all at once, and
- * with so little that the filter stops and goes on. */
+/* The pairs contain the closest triangle of every node within the limit, and all closest ones where several tie. This holds with
+ * room for all pairs at once, and with so little room that the filter stops and goes on. */
 static void no_pair_that_matters_is_lost(void **state) {
   (void)state;
   static const int32_t rooms[] = {100000, 64, 65, 79, 200};
@@ -465,7 +467,7 @@ static void no_pair_that_matters_is_lost(void **state) {
           fail_msg("%s, trial %d: writes beyond its room, or names other nodes than it has pairs of", kernels_name(set),
                    trial);
         n_resumed += n_calls > 1;
-        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200); /* it stops for want of its own room, too */
+        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200); /* it also stops when its own room is full */
         memset(has, 0, sizeof has);
         for (int64_t i = 0; i < n; ++i) {
           if (!(c.filter.wanted >> pairs[i].node & 1)) fail_msg("a pair of a node that is not wanted");

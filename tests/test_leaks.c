@@ -36,7 +36,7 @@ typedef struct whole_case {
 
 static int64_t whole(int64_t largest) { return random_integer(-largest, largest); }
 
-/* Triangles by themselves, or a sheet of them that share corners. */
+/* Separate triangles, or a sheet of triangles that share corners. */
 static void random_triangles(whole_case *c, int64_t largest) {
   int64_t m = 0;
   const int is_sheet = one_in(2), side = (int)random_integer(1, 4);
@@ -78,7 +78,7 @@ static void random_rows(whole_case *c) {
   int64_t n = 0;
   for (int64_t i = 0; i < c->n_nodes; ++i) {
     c->offsets[i] = n;
-    for (int64_t k = random_integer(0, 11); k > 0; --k) /* itself, repetitions and ghosts among them */
+    for (int64_t k = random_integer(0, 11); k > 0; --k) /* the node itself, repeats and ghosts are among them */
       c->columns[n++] = one_in(12) ? c->n_nodes + 3 : random_integer(0, c->n_nodes - 1);
   }
   c->offsets[c->n_nodes] = n;
@@ -91,7 +91,7 @@ static void make_case(whole_case *c) {
     random_triangles(c, largest);
     drop_flat_triangles(c);
   } while (c->n_triangles == 0);
-  /* Now and then a mesh that is millions of times as large as the surface. */
+  /* Some meshes are millions of times as large as the surface. */
   const int is_huge = largest == 3 && one_in(4);
   c->n_nodes = random_integer(2, max_nodes);
   for (int64_t i = 0; i < 3 * c->n_nodes; ++i)
@@ -127,7 +127,7 @@ static int crosses(const whole_case *c, int64_t a, int64_t b) {
   return 0;
 }
 
-/* leaks[a * n + b] for a < b; the number of them. */
+/* Sets leaks[a * n + b] for a < b and returns the number of leaks. */
 static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t *leaks) {
   int64_t n = 0;
   memset(leaks, 0, (size_t)(c->n_nodes * c->n_nodes));
@@ -141,7 +141,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
   return n;
 }
 
-/* Marks as the oracle has them; where rounding decides, as the result. */
+/* The oracle's marks. Where rounding decides, the result's marks. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_mark_result *result, uint8_t *marks) {
   const surface_content all = surface_content_of(surface);
@@ -186,7 +186,7 @@ static void check_list(const whole_case *c, const double *xyz, const riis_surfac
   }
 }
 
-/* How many leaks there are with another half thickness. */
+/* The number of leaks with another half thickness. */
 static int64_t n_leaks_with(const whole_case *c, const riis_mesh *mesh, double half_thickness) {
   const int owned_before = n_owned();
   riis_surface *surface = surface_of_case(c, half_thickness);
@@ -242,7 +242,7 @@ static void random_meshes_leak_where_the_loop_says(void **state) {
 
 /* --- What must not matter ---------------------------------------------------------------------------------------------- */
 
-/* Turned by whole quarters, mirrored and moved, with its nodes in another order: the same edges. */
+/* A case that is turned by quarters, mirrored, moved and renumbered has the same leaking edges. */
 static void motion_and_order_do_not_matter(void **state) {
   (void)state;
   static whole_case c, moved;

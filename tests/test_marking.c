@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marked nodes against the independent oracle and analytic shapes; lists, dense arrays, limits, masks, threads, reuse.
- */
+ * Marked nodes, compared with the independent oracle and with analytic shapes: lists, dense arrays, limits, masks, threads,
+ * reuse. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -65,8 +65,8 @@ static void aortic_marks_equal_the_oracle(void **state) {
   assert_true(stats.seconds > 0);
 }
 
-/* A rectangle [0,4] x [0,2] in z = 0 on a lattice: the count of nodes within 1/2 is arithmetic, nodes exactly at 1/2
- * included. */
+/* A rectangle [0,4] x [0,2] in z = 0 on a lattice. Arithmetic gives the number of nodes within 1/2, including nodes exactly at
+ * 1/2. */
 static void lattice_around_a_rectangle_is_counted(void **state) {
   (void)state;
   const double corners[12] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
@@ -120,7 +120,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   assert_int_equal(n_marked, b.n);
   assert_int_equal(stats_of(wide).n_within_limit, c.n);
 
-  /* Dense: every entry written, the far value where nothing is near. */
+  /* Dense arrays: every entry is written. Nodes beyond the limit get the far value. */
   static uint8_t mark[n];
   static double distance[n];
   static int64_t triangle_id[n];
@@ -135,7 +135,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
     assert_int_equal(mark[i], listed && c.distance[at] <= 0.1);
     at += listed;
   }
-  /* Any of the arrays alone; any far value that cannot be mistaken. */
+  /* Any of the arrays may be given alone. Any far value that cannot be taken for a near distance is accepted. */
   CHECK_OK(riis_mark_result_dense(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
   CHECK_OK(riis_mark_result_dense(wide, n, -1, mark, NULL, NULL, NULL));
@@ -168,7 +168,7 @@ static void mask_leaves_nodes_out(void **state) {
   }
   assert_int_equal(b.n, at);
   assert_true(at > 0 && at < a.n);
-  memset(mask, 0, sizeof mask); /* no fluid here: nothing to find, no error */
+  memset(mask, 0, sizeof mask); /* an empty mask finds nothing and is no error */
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
   const int64_t *node_id = (const int64_t *)&options;
   int64_t n_marked = -1;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The mitral valve through the public interface: the numbers of docs/theory.md, section 4, and what must hold at any opening. */
+ * The mitral valve through the public interface: the numbers of docs/theory.md, section 4, and properties that hold at any
+ * opening. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -30,7 +31,7 @@ static const struct {
              {"opening", 1}};
 enum { n_scalars = sizeof table / sizeof *table };
 
-/* Before the translation, as the numbers are given. */
+/* The valve before its translation, because the expected numbers are given without it. */
 static riis_valve *mitral_valve(double opening) {
   const double no_shift[3] = {0, 0, 0};
   riis_valve *valve = new_valve("mitral");
@@ -56,7 +57,7 @@ static void parameters_are_the_papers(void **state) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_n_parameters(valve, &n));
-  assert_int_equal(n, n_scalars + 1); /* 18, as the paper says: its table, its t, the translation */
+  assert_int_equal(n, n_scalars + 1); /* 18, as the paper says: its table's parameters, its t and the translation */
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
     CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
@@ -69,7 +70,7 @@ static void parameters_are_the_papers(void **state) {
   assert_true(values[0] == 0 && values[1] == 0 && values[2] == 1);
 }
 
-/* Each parameter changes the surface closed, open or half open; put back, it is the same again. */
+/* Each parameter changes the closed, open or half open surface. The old value gives the old surface again. */
 static void every_parameter_matters(void **state) {
   (void)state;
   for (int i = 0; i <= n_scalars; ++i) {
@@ -102,7 +103,7 @@ static double annulus_length(const surface_content *c) {
   return sum;
 }
 
-/* Of a surface fine enough for the digits that are given; more digits from the oracle. */
+/* The surface is fine enough for the digits that are given. The oracle gives more digits. */
 static void numbers_of_the_model(void **state) {
   (void)state;
   const struct {
@@ -120,7 +121,7 @@ static void numbers_of_the_model(void **state) {
     CHECK_NEAR(info.upper[2], expected[i].z_high, 5e-3);
     free_owned_after(owned_before);
   }
-  /* The tip of the open anterior leaflet: control points do not depend on the tolerance. */
+  /* The tip of the open anterior leaflet does not depend on the tolerance, because it is a control point. */
   riis_surface *surface = mitral_surface(1, 0.5);
   const riis_closest tip = closest_to(surface, 0, 0.951, -2.048);
   CHECK_NEAR(tip.point[1], 0.951, 5e-4);
@@ -191,8 +192,8 @@ static void leaflets_and_patches(void **state) {
   }
 }
 
-/* Edges that one triangle alone has: on the annulus, on the free edge of an open valve, or else, where quads of different
- * levels or polylines of different patches meet, inside another triangle's edge, to rounding. */
+/* An edge that only one triangle has lies on the annulus or on the free edge of an open valve. Other such edges lie inside
+ * another triangle's edge, to rounding. There quads of different levels or polylines of different patches meet. */
 static void has_no_cracks(void **state) {
   (void)state;
   for (int i = 0; i <= 2; ++i) {
@@ -240,7 +241,7 @@ static void has_no_cracks(void **state) {
   }
 }
 
-/* Closed leaflets meet in one polyline: both have its vertices, to the last bit. */
+/* Closed leaflets meet in one polyline. Both have its vertices to the last bit. */
 static void closed_leaflets_share_their_edge(void **state) {
   (void)state;
   riis_surface *surface = mitral_surface(0, 0.05);
@@ -258,12 +259,12 @@ static void closed_leaflets_share_their_edge(void **state) {
           break;
         }
     }
-  /* The others are where a line of one leaflet ends inside a chord. */
+  /* At the other corners, a line of one leaflet ends inside a chord of the other. */
   printf("closed edge: %d of %d corners are the other leaflet's, too\n", n_shared, n_of_edge);
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* The least distance of two neighbouring lines of a patch, as a share of the longer of the sides that they join. */
+/* The least distance between two neighbouring lines of a patch, as a share of the longer of the sides that they join. */
 static double least_step(const surface_content *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
@@ -272,7 +273,7 @@ static double least_step(const surface_content *c, int32_t patch, double *longer
       const int64_t p = c->vertex_id[3 * t + k], q = c->vertex_id[3 * t + (k + 1) % 3];
       const double v = c->uv[2 * p + 1];
       if (c->patch_id[t] != patch || c->uv[2 * q + 1] != v || (v != 0 && v != 1)) continue;
-      /* One edge of a triangle at most is on a side. */
+      /* At most one edge of a triangle is on a side. */
       length_of[(int)v] += distance(c->xyz + 3 * p, c->xyz + 3 * q);
       u[n++] = c->uv[2 * p];
       u[n++] = c->uv[2 * q];
@@ -286,10 +287,10 @@ static double least_step(const surface_content *c, int32_t patch, double *longer
   return least;
 }
 
-/* No lines of a grid nearly coincide, for valves of many shapes: lines that two sides ask for are one if they are within 0.02 of the
- * tolerance (docs/theory.md, section 2), and a line beside a joint of the annulus, where O has a kink, is only there if the tolerance
- * asks for it. The least of 3,840 valves was 0.4. (The triangles can be flat all the same: where a leaflet's arcs meet its free edge
- * at a small angle, the quads are sheared.) */
+/* No lines of a grid nearly coincide, for valves of many shapes. Lines that two sides need are one if they are within 0.02 of the
+ * tolerance (docs/theory.md, section 2). There is a line beside a joint of the annulus, where O has a kink, only if the tolerance
+ * needs it. The least of 3,840 valves was 0.4. (The triangles can be flat all the same: the quads are sheared where a leaflet's
+ * arcs meet its free edge at a small angle.) */
 static void has_no_slivers(void **state) {
   (void)state;
   random_source rng = random_start("test_mitral_surface");
@@ -316,7 +317,7 @@ static void has_no_slivers(void **state) {
   CHECK_AT_MOST(0.1, least);
 }
 
-/* Downstream is the ventricle: below the closed valve, and around the open one. */
+/* Downstream is the ventricle, which is below the closed valve and around the open one. */
 static void normals_point_downstream(void **state) {
   (void)state;
   riis_surface *closed = mitral_surface(0, 0.05), *open = mitral_surface(1, 0.05);
@@ -329,8 +330,8 @@ static void normals_point_downstream(void **state) {
   assert_int_equal(closest_to(open, 2.4, 0, -0.5).side, 1);
 }
 
-/* No point of the valve moves faster than about 2.6 an opening (the oracle's figure): the surface at 1e-9 from either end is,
- * vertex by vertex, the one at the end. */
+/* No point of the valve moves by more than about 2.6 times a change of the opening (the oracle's figure). So the surface at 1e-9
+ * from either end has nearly the vertices of the surface at that end. */
 static void opens_continuously(void **state) {
   (void)state;
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
@@ -347,7 +348,7 @@ static void opens_continuously(void **state) {
   }
 }
 
-/* An update at a new opening is what a new surface at it is, to the last bit. */
+/* An update to a new opening gives the same surface as a new one, to the last bit. */
 static void an_update_moves_the_valve(void **state) {
   (void)state;
   riis_valve *valve = mitral_valve(0);
@@ -372,7 +373,7 @@ static double area_of(const riis_valve *valve) {
   return area;
 }
 
-/* With a second state the closed end is the first state's and the open end the second's. */
+/* With a second state, opening 0 is the first state and opening 1 the second. */
 static void opens_from_one_state_to_another(void **state) {
   (void)state;
   const char *kinds[2] = {"aortic", "mitral"}, *names[2] = {"leaflet_radius_in", "AP_diameter"};
@@ -381,7 +382,7 @@ static void opens_from_one_state_to_another(void **state) {
     const int owned_before = n_owned();
     riis_valve *valve = new_valve(kinds[i]), *first = new_valve(kinds[i]), *second = new_valve(kinds[i]);
     CHECK_OK(riis_valve_set_scalar(second, names[i], values[i]));
-    const double shift[3] = {0.25, 0, 1}; /* blended, too */
+    const double shift[3] = {0.25, 0, 1}; /* also blended */
     CHECK_OK(riis_valve_set(second, "translation", 3, shift));
     CHECK_OK(riis_valve_set_open_state(valve, second));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
@@ -451,7 +452,7 @@ static void refusals(void **state) {
                 riis_surface_create(aortic, NULL, &surface));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, mitral", riis_valve_create("tricuspid", &aortic));
-  /* Which of two states it is. */
+  /* The message names which of the two states it is. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));
   CHECK_OK(riis_valve_set_open_state(valve, open));

@@ -40,20 +40,20 @@ static void three_separate_cusps(void **state) {
   test_mesh nodes = lattice_around(surface, 0.08, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
   const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
-  assert_int_equal(stats.n_unreached, 0); /* a start in every near group reaches all of a connected band */
+  assert_int_equal(stats.n_unreached, 0); /* starts in every near ball reach all of a connected band */
   /* One start finds one cusp. */
   const int64_t missed = missed_by_the_paper(surface, mesh, NULL);
   assert_true(missed > stats.n_marked / 2 && missed < stats.n_marked);
   riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i) assert_int_equal(found.leaflet_id[i], found.leaflet_id[0]);
-  /* Started from there, the others are found by the proof. */
+  /* A walk that starts at these nodes leaves the others to the proof. */
   riis_mark_options options = mark_options();
   assert_true(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached == missed);
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* Slabs that no neighbours join, and the same region twice: the second time half a spacing away. */
+/* Slabs that no edge joins, and the same region twice, the second time half a spacing away. */
 static void mesh_of_several_components(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -107,7 +107,7 @@ static void valve_that_sticks_out_of_the_mesh(void **state) {
       const double b = random_between(&rng, info.lower[c] - 0.3, info.upper[c] + 0.3);
       lower[c] = fmin(a, b), upper[c] = fmax(a, b);
     }
-    if (trial == 0) /* half of the valve, certainly */
+    if (trial == 0) /* this box surely holds half of the valve */
       for (int c = 0; c < 3; ++c) lower[c] = info.lower[c], upper[c] = c ? info.upper[c] : 0;
     test_mesh nodes = lattice(counts, lower, upper);
     riis_mesh *mesh = mesh_from(&nodes);
@@ -129,12 +129,12 @@ static void isolated_nodes(void **state) {
   riis_mark_result *result = new_result();
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
-  assert_true(first.n_unreached > first.n_marked / 2); /* a walk of one step from each start */
+  assert_true(first.n_unreached > first.n_marked / 2); /* each start's walk has one step */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0); /* all are starts */
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
 }
 
-/* Adjacency is only where to look first. */
+/* The adjacency only says where to look first, so the result does not depend on it. */
 static void any_adjacency_is_right(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -149,7 +149,7 @@ static void any_adjacency_is_right(void **state) {
     options.n_threads = 1 + trial % 4;
     check_same_as_exhaustive(surface, mesh, options, NULL);
   }
-  /* One way only, to the next node, round and round; and every node its own neighbour, many times. */
+  /* First each node has only the next one as a neighbour, in a ring. Then every node is its own neighbour many times. */
   for (int self = 0; self < 2; ++self) {
     nodes.columns = own(malloc((size_t)nodes.n * 5 * sizeof *nodes.columns));
     for (int64_t i = 0; i < nodes.n; ++i) {
@@ -161,7 +161,7 @@ static void any_adjacency_is_right(void **state) {
   }
 }
 
-/* The other ranks' nodes, and widths and bases of the rows. */
+/* Rows with the other ranks' nodes, in every width and base. */
 static void ghosts_are_passed_over(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -218,7 +218,7 @@ static void mesh_of_one_node(void **state) {
     }
 }
 
-/* Nodes at the same place, on a line, in a plane, and far apart from each other. */
+/* Nodes at the same place, on a line, in a plane, or far apart from each other. */
 static void degenerate_meshes(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -241,8 +241,8 @@ static void degenerate_meshes(void **state) {
   }
 }
 
-/* The limit is what the library itself says of the first of a column of nodes over a triangle, of any size. All other distances of the
- * proof are equal to it up to rounding, which must not lose the node. */
+/* The limit is the library's own distance of the first node of a column over a triangle, which has any size. All other distances
+ * in the proof equal it up to rounding, which must not lose the node. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -278,8 +278,8 @@ static void nodes_at_the_limit_are_found(void **state) {
   }
 }
 
-/* Triangles nearly without a height, nodes as close to them as that, the limit where the first node is: what a needle's rounding does
- * to the kernel's distances must not lose a node either. */
+/* Triangles have nearly no height, nodes are as close to them as that height, and the limit is the first node's distance. The
+ * rounding of a needle's distances in the kernel must not lose a node. */
 static void needles_lose_no_node(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -336,12 +336,12 @@ static void masked_nodes_are_left_out(void **state) {
     riis_mark_result *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        check_same_as_exhaustive(surface, mesh, options, reused); /* from another mask's marking */
+        check_same_as_exhaustive(surface, mesh, options, reused); /* starts from the marking with another mask */
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);
     if (trial == 8) {
       assert_int_equal(stats.n_within_limit, 0);
-      missed_by_the_paper(surface, mesh, mask); /* nowhere to start */
+      missed_by_the_paper(surface, mesh, mask); /* there is no node to start from */
     } else {
       assert_true(stats.n_within_limit > 100);
     }
@@ -349,7 +349,7 @@ static void masked_nodes_are_left_out(void **state) {
   }
 }
 
-/* A wall of one layer of masked nodes across a connected band: no walk passes it. */
+/* No walk passes a wall of one layer of masked nodes across a connected band. */
 static void mask_that_cuts_the_band(void **state) {
   (void)state;
   const double corners[9] = {-1, -1, 0, 1, -1, 0, 0, 2, 0};
@@ -373,7 +373,7 @@ static void mask_that_cuts_the_band(void **state) {
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i)
     assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the first vertex's side */
-  /* From the one side's marking the walk does not get to the other: the proof does. */
+  /* From one side's marking the walk does not reach the other side, but the proof does. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, missed);
 }
 
@@ -395,7 +395,7 @@ static void limits_wider_than_the_half_thickness(void **state) {
 
 /* --- The paper's algorithm ------------------------------------------------------------------------------------------- */
 
-/* What it must find: from the node nearest to the first vertex, over neighbours, the marked ones. */
+/* The paper's algorithm must find the marked nodes that neighbours connect to the node nearest to the first vertex. */
 static void paper_finds_the_piece_that_it_starts_in(void **state) {
   (void)state;
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
@@ -404,7 +404,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
     riis_surface *surface = aortic_band(half_thickness[k]);
     test_mesh nodes = lattice_around(surface, 0.1, 0.3);
     for (int64_t i = 0; i < 3 * nodes.n; ++i)
-      nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* no equally near nodes */
+      nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* so no two nodes are equally near */
     riis_mesh *mesh = mesh_from(&nodes);
     riis_mark_result *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
     riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
@@ -434,7 +434,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
   }
 }
 
-/* The default is the library's choice: complete, with an adjacency and without. */
+/* The default search is the library's choice, which is complete with or without an adjacency. */
 static void auto_is_never_incomplete(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Memory that runs out at every single allocation of the library's own code, and at everything that Embree asks its memory monitor
- * for: the call says RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. */
+ * Memory runs out at every single allocation of the library's own code, and at every request of Embree to its memory monitor.
+ * The call then returns RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -14,9 +14,9 @@
 
 /* --- One failure ----------------------------------------------------------------------------------------------------- */
 
-static int64_t n_injected[4], n_calls_failed[4]; /* by whose memory it was */
+static int64_t n_injected[4], n_calls_failed[4]; /* by the owner of the memory */
 
-/* What the world is before and after the call. */
+/* The state of the world before and after the call. */
 typedef struct reference {
   uint64_t before, after;
 } reference;
@@ -38,15 +38,15 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* how often more was left than before, in a scenario that is the first of its kind */
+static int n_grown; /* how often memory remained after a scenario that is the first of its kind */
 
-/* Allocation n fails in a fresh world. Returns how many allocations failed: 0 if there are fewer. */
+/* Makes allocation n fail in a fresh world. Returns how many allocations failed, or 0 if there are fewer than n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,
                        int attempt) {
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  assert_int_equal(riis_mark_result_create(NULL), RIIS_INVALID_ARGUMENT); /* leaves a text of its own */
+  assert_int_equal(riis_mark_result_create(NULL), RIIS_INVALID_ARGUMENT); /* leaves a message of its own */
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);
   const int64_t n_failed = memory_stop_failing();
@@ -54,7 +54,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
     n_injected[whose] += n_failed;
     ++n_calls_failed[whose];
     check_status(s, status, n);
-    /* Of the two ways to fail at n, the one looks at everything before it calls again, the other does not. */
+    /* There are two ways to fail at n. One checks everything before it calls again, the other does not. */
     if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
       check_digest(s, &w, expected->before, "after the failure", n);
     if (!(s->flags & IS_FIRST)) status = s->call(&w);
@@ -65,13 +65,13 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   }
   destroy(&w);
   const live after = live_now();
-  /* Embree keeps something for each thread that works for it, from that thread's first time on, which with TBB's threads may be any
-   * time. What is there again after each of several attempts is a leak. */
+  /* Embree keeps memory for each thread that works for it, from that thread's first work on. With TBB's threads that may be at
+   * any time. Memory that remains after each of several attempts is a leak. */
   if (after.embree == before.embree + 1 && after.library == before.library &&
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0)) /* what is made once stays, but only once */
+  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0)) /* memory that is made once stays, but only once */
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),
              (long long)(after.embree_bytes - before.embree_bytes));
@@ -85,7 +85,7 @@ static reference reference_of(const scenario *s) {
   made.before = digest_of(&w);
   destroy(&w);
   made.after = 0;
-  if (s->flags & IS_FIRST) return made; /* the call would no longer be the first */
+  if (s->flags & IS_FIRST) return made; /* a second call would no longer be the first */
   s->make(&w);
   CHECK_OK(s->call(&w));
   made.after = digest_of(&w);
@@ -93,7 +93,7 @@ static reference reference_of(const scenario *s) {
   return made;
 }
 
-/* Fails at 1, 2, ... until the call has no more allocations. Returns how many it had. */
+/* Makes allocations 1, 2, ... fail until the call has no more. Returns how many it had. */
 static int64_t try_all(const scenario *s, int whose) {
   const reference expected = reference_of(s);
   n_grown = 0;
@@ -123,7 +123,8 @@ static void embrees_memory_runs_out(void **state) {
   assert_int_equal(memory_live_bytes_of_embree(), 0);
 }
 
-/* Which thread does what is chance: again until some did. A larger mesh, so that there is something for all to do. */
+/* It is chance which thread does what, so the test repeats until another thread allocates. The mesh is large enough to give all
+ * threads work. */
 static void memory_of_other_threads_runs_out(void **state) {
   (void)state;
   set_nodes(45);
@@ -135,12 +136,12 @@ static void memory_of_other_threads_runs_out(void **state) {
     for (; n_failed < 3 && n_tries < 2000; ++n_tries)
       n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0, 1);
     printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
-    /* A walk is short, and on a busy machine TBB's other threads may come too late every time. */
+    /* A walk is short, so on a busy machine TBB's other threads may come too late every time. */
     if (n_failed < 1 && s->search != RIIS_SEARCH_PAPER) fail_msg("%s: no other thread allocated", s->name);
   }
 }
 
-/* No memory at all, also not for what the C++ library needs to throw, and to say so. */
+/* There is no memory at all, also not for the C++ library's exceptions or for the message. */
 static void all_memory_runs_out(void **state) {
   (void)state;
   if (!memory_of_all_can_fail()) skip();
@@ -159,7 +160,7 @@ static void all_memory_runs_out(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* Sound, and of sizes that no machine has. */
+/* The requests are sound, but no machine has so much memory. */
 static void requests_beyond_any_memory_are_refused(void **state) {
   (void)state;
   const int64_t n = INT64_C(1) << 56;

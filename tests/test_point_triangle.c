@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The decision kernel against an independent one in extended precision, on triangles of every shape, size and place. */
+ * The decision kernel, compared with an independent one in extended precision on triangles of every shape, size and place. */
 #include "internals.h"
 #include "oracle.h"
 #include "test_support.h"
@@ -51,7 +51,7 @@ static void check_sample(const sample *s, double *worst) {
   for (int i = 0; i < 9; ++i) largest = fmax(largest, fabs(s->abc[i]));
   for (int c = 0; c < 3; ++c) largest = fmax(largest, fabs(s->p[c]));
   *worst = fmax(*worst, fabs(distance - expected) / largest);
-  /* The point is where the weights say, at the distance said; the weights are weights. */
+  /* The weights are at least 0 and sum to 1. The point is at their place and at the returned distance. */
   CHECK_NEAR(w[0] + w[1] + w[2], 1, 1e-15);
   double sum = 0;
   for (int c = 0; c < 3; ++c) {
@@ -79,7 +79,7 @@ static void agrees_on_needles(void **state) {
   int n = 0;
   for (int trial = 0; trial < 200000; ++trial) {
     const sample s = random_sample(pow(10, random_between(&rng, -3, 1)), pow(10, random_between(&rng, -11, -2)), 1);
-    if (height_over_longest(s.abc) <= 2e-12) continue; /* zero area: never gets here */
+    if (height_over_longest(s.abc) <= 2e-12) continue; /* such triangles count as zero area and never get here */
     check_sample(&s, &worst);
     ++n;
   }

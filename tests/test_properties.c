@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What must not matter: where the whole stands, how it is turned, in which unit it is measured, in which order nodes
- * and triangles come. */
+ * Results must not depend on the place, rotation or unit of the whole, or on the order of nodes and triangles. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,7 +12,7 @@ static random_source rng;
 enum { n = 8000 };
 static double nodes[3 * n];
 
-/* Distances of all nodes to the surface, up to a limit; far nodes get 1e30. */
+/* Computes the distances of all nodes to the surface, up to a limit. Far nodes get 1e30. */
 static void distances(const riis_surface *surface, const double *xyz, double limit, double *distance,
                       int32_t *leaflet_id) {
   const int owned_before = n_owned();
@@ -26,7 +25,7 @@ static void distances(const riis_surface *surface, const double *xyz, double lim
   free_owned_after(owned_before);
 }
 
-/* The same distances times the scale; near the limit either side is right. */
+/* Checks that b holds the distances a times the scale. Near the limit a node may be within or far. */
 static void check_scaled(const double *a, const double *b, double scale, double limit, double tolerance) {
   int n_near = 0;
   for (int i = 0; i < n; ++i) {
@@ -83,7 +82,7 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
     free_one_owned(surface);
     /* Coordinates of 300 leave 300 times the rounding. */
     check_scaled(plain, moved, options.scale, 0.3, 1e-12 * options.scale);
-    int n_other_leaflet = 0; /* only where two leaflets are equally near */
+    int n_other_leaflet = 0; /* nodes where two leaflets are equally near */
     for (int i = 0; i < n; ++i) n_other_leaflet += leaflet[i] != moved_leaflet[i];
     assert_true(n_other_leaflet <= 2);
   }
@@ -127,7 +126,7 @@ static void order_of_triangles_does_not_matter(void **state) {
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[i]);
 }
 
-/* Each cusp of the valve is a mirror image of itself: so are the distances. */
+/* Each cusp of the valve is a mirror image of itself, and so are the distances. */
 static void cusps_are_symmetric(void **state) {
   (void)state;
   static double plain[n], mirrored[n], mirrored_nodes[3 * n];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning of a mesh, a surface and a half thickness that can hardly be in one unit: it comes once, and not for a part of
- * a mesh that is elsewhere. It goes by the box of the nodes, which is tested for every layout of the coordinates. */
+ * The warning about a mesh, a surface and a half thickness that can hardly be in one unit. It comes once, and not for a part of
+ * a mesh that is elsewhere. It depends on the box of the nodes, which is tested for every layout of the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -79,7 +79,7 @@ static void sizes_that_fit_are_no_news(void **state) {
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, 0, 0.04), 0);
   assert_int_equal(n_warnings(10, RIIS_AUTO, 0, 400), 0);
-  /* Parts of a mesh that other processes hold the rest of. */
+  /* Parts of a mesh: other processes hold the rest. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 100, 4), 0);
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 0.2), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, -3, 1), 0);
@@ -94,7 +94,7 @@ static void expect_text(const char *a, const char *b, const char *c) {
 
 static void sizes_that_do_not_fit_are_told(void **state) {
   (void)state;
-  /* A mesh in metres, the valve in centimetres; a mesh in micrometres. */
+  /* The valve in centimetres and the mesh in metres or micrometres. */
   assert_int_equal(n_warnings(1, 0.001, 0, 0.04), 1);
   expect_text("the surface is more than 50 times as large as the mesh", "0.04 (mesh of 1331 nodes)",
               "half thickness is 0.001");
@@ -105,7 +105,7 @@ static void sizes_that_do_not_fit_are_told(void **state) {
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
   expect_text("the half thickness is larger than the mesh", "0.4 (mesh", "half thickness is 0.5");
-  /* Without translation a disjoint box is out of proportion all the same. */
+  /* A box far from the valve is also out of proportion if its size is. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 4e4), 1);
 }
 
@@ -123,7 +123,8 @@ static void one_warning_a_mesh_and_surface(void **state) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces that come and go: each is another one, though it may lie where the last one did; and an end to it. */
+  /* Surfaces come and go. Each is a new one, even at the address of the last one. The list of warned surfaces fills up at some
+   * point. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);
@@ -132,7 +133,7 @@ static void one_warning_a_mesh_and_surface(void **state) {
   }
 }
 
-/* Nobody has been told as long as nobody listens. */
+/* A warning without a listener does not count as given. */
 static void a_late_listener_is_told(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -200,8 +201,8 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
                           lies->stride, mesh);
 }
 
-/* All nodes but one are within a hundredth of the surface: no warning only if the one is in the box. Every place that a node may
- * have in the registers, every axis, both directions. */
+/* All nodes but one are within a hundredth of the surface, so there is no warning only if the box holds that one. The test tries
+ * every place of a node in the registers, every axis and both directions. */
 static void the_box_holds_every_node(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -225,7 +226,7 @@ static void the_box_holds_every_node(void **state) {
           }
 }
 
-/* The first is named, wherever it and a second one are. */
+/* The message names the first bad coordinate, wherever it and a second one are. */
 static void the_first_bad_coordinate_is_named(void **state) {
   (void)state;
   const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e60, -1.1e60};
@@ -243,7 +244,7 @@ static void the_first_bad_coordinate_is_named(void **state) {
             CHECK_REFUSED(RIIS_INVALID_MESH, text, create(&layouts[l], n, &mesh));
             assert_null(mesh);
           }
-  /* Large ones are good. */
+  /* Large coordinates are accepted. */
   for (int i = 0; i < n_doubles; ++i) coordinates[i] = i % 2 ? 1e60 : -1e60;
   riis_mesh *mesh = NULL;
   CHECK_OK(create(&layouts[0], most_nodes, &mesh));

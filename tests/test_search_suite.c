@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Random meshes, surfaces, placements, half thicknesses, limits, masks, threads: the neighbour search against the exhaustive one, bit by
- * bit, and nodes of both against brute force in extended precision. RIIS_TEST_LONG=1 goes on until ten million pairs of a node and a
- * surface have been compared with brute force.
- */
+ * The neighbour search is compared with the exhaustive search bit by bit, and nodes of both with brute force in extended
+ * precision. Meshes, surfaces, placements, half thicknesses, limits, masks and threads are random. RIIS_TEST_LONG=1 goes on
+ * until ten million pairs of a node and a surface have been compared with brute force. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -15,8 +14,8 @@
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
-/* Triangles in blocks, with boxes: those whose box is farther than the closest so far, by more than any rounding, need not be asked. All
- * that are asked are asked in extended precision. */
+/* Triangles in blocks with boxes. A triangle whose box is farther than the closest so far, by more than any rounding, is left
+ * out. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;
@@ -66,7 +65,7 @@ static double to_box_sq(const double *p, const double *box) {
   return sum;
 }
 
-/* The distance to the closest triangle, if it is at most reach; something above reach otherwise. */
+/* Returns the distance to the closest triangle if it is at most reach, and any number above reach otherwise. */
 static long double brute_force_distance(const brute_force *b, const double *p, double reach) {
   long double least = INFINITY;
   double least_sq = reach * reach * (1 + 1e-9);
@@ -112,7 +111,7 @@ static void place(const placement *p, test_mesh *mesh) {
   }
 }
 
-/* A valve or triangles that can be made again, moved. */
+/* A valve, or triangles, from which surfaces can be made again at other places. */
 typedef struct shape {
   riis_valve *valve; /* or NULL */
   int is_mitral;
@@ -167,7 +166,7 @@ static struct totals {
   double largest;                                        /* error, relative to the coordinates */
 } totals;
 
-/* A share of the nodes against brute force. */
+/* Compares a share of the nodes with brute force. */
 static void compare_with_brute_force(const riis_surface *surface, const test_mesh *nodes, const uint8_t *mask,
                                      const riis_mark_result *result, double limit, int64_t n_wanted) {
   const int owned_before = n_owned();
@@ -183,7 +182,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   double largest = 0;
 #pragma omp parallel for num_threads(2) schedule(dynamic, 64) reduction(+ : pairs, within, undecided, bad_distances, bad_marks) reduction(max : largest)
   for (int64_t i = first; i < nodes->n; i += stride) {
-    if (mask && !mask[i]) { /* left out, wherever it is */
+    if (mask && !mask[i]) { /* must be left out, wherever it is */
       bad_marks += mark[i] != 0 || distance[i] != 1e30;
       continue;
     }
@@ -213,7 +212,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   free_owned_after(owned_before);
 }
 
-/* The clusters by every instruction set that there is: the exhaustive search's result, bit by bit. */
+/* Checks that clusters with every instruction set give the exhaustive search's result, bit by bit. */
 static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *asked,
                              const riis_mark_result *exhaustive, riis_mark_result *clustered) {
   riis_mark_options options = *asked;
@@ -241,7 +240,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   shape s = random_shape();
   riis_surface *surface = NULL;
   update_surface(&surface, &s, NULL);
-  /* A box around the surface, or one that it sticks out of. */
+  /* The box is around the surface, or the surface sticks out of it. */
   riis_surface_info info = info_of(surface);
   double lower[3], upper[3], spacing;
   for (int c = 0; c < 3; ++c) {
@@ -263,7 +262,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   uint8_t *mask = NULL;
   for (int64_t step = 0, n_steps = random_integer(1, 4); step < n_steps; ++step) {
     update_surface(&surface, &s, &options);
-    if (step > 0 && one_in(4)) { /* the mesh moves, too */
+    if (step > 0 && one_in(4)) { /* the mesh also moves */
       for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += random_between(&rng, -0.1, 0.1) * spacing;
       CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
     }
@@ -337,13 +336,13 @@ static void random_cases_equal_brute_force(void **state) {
   assert_int_equal(totals.incomplete, 0);
   assert_int_equal(totals.different_distances, 0);
   assert_int_equal(totals.different_marks, 0);
-  /* The cases are worth something. */
+  /* The cases are not trivial. */
   assert_true(totals.pairs >= (is_long ? n_pairs : 50000));
   assert_true(totals.pairs_within > totals.pairs / 50);
   assert_true(totals.undecided < totals.pairs / 1000);
 }
 
-/* Brute force as fast as above is the plain loop. */
+/* Brute force with boxes equals the plain loop. */
 static void boxes_leave_nothing_out(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A surface that is updated, in the memory of what it was, is the surface that would be made anew: in every bit of its content, of
- * closest points and of marks, whatever it was before, by any number of threads. An update that is refused leaves no trace and says
- * what one thread says. */
+ * A surface that is updated in its old memory equals a new surface, in every bit of its content, of closest points and of
+ * marks. This holds whatever it was before, and for any number of threads. A refused update leaves no trace and gives the same
+ * message as with one thread. */
 #include <riis/riis.h>
 #include <stddef.h>
 
@@ -14,7 +14,7 @@ static random_source rng;
 
 static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* Triangles from arrays that move, change places, or are others, as many or not. */
+/* Triangles from arrays. At an update they move, change their order, or are replaced by as many or another number. */
 enum { max_triangles = 600 };
 static double soup[9 * max_triangles];
 static int32_t soup_ids[3 * max_triangles];
@@ -34,7 +34,7 @@ static void change_soup(void) {
   const int64_t kind = n_soup ? any_of(5) : 4;
   const double by = pow(10, random_between(&rng, -6, 0));
   for (int64_t i = 0; i < 9 * n_soup && kind < 2; ++i) soup[i] += by * random_between(&rng, -1, 1);
-  for (int64_t i = n_soup - 1; i > 0 && kind == 2; --i) /* the same triangles by other numbers */
+  for (int64_t i = n_soup - 1; i > 0 && kind == 2; --i) /* the same triangles with other numbers */
     for (int64_t j = any_of(i + 1), k = 0; k < 3; ++k) {
       const int32_t id = soup_ids[3 * i + k];
       soup_ids[3 * i + k] = soup_ids[3 * j + k];
@@ -44,7 +44,7 @@ static void change_soup(void) {
   if (kind == 4) new_soup(1 + any_of(max_triangles), 0);
 }
 
-/* What a surface is to be made of. */
+/* The source of a surface. */
 typedef struct content {
   riis_valve *valve; /* or */
   riis_surface_arrays arrays;
@@ -90,7 +90,7 @@ static content random_content(riis_valve *const *valves) {
   return c;
 }
 
-/* Closest points in all, some at vertices, where sides are those of pseudonormals; the same bits. */
+/* Checks that closest points have the same bits. Some are at vertices, where pseudonormals decide the sides. */
 static void check_closest(const riis_surface *updated, const riis_surface *fresh) {
   const surface_content all = surface_content_of(fresh);
   for (int i = 0; i < 30; ++i) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marking from tasks of the caller's own TBB: the same bits as outside, and the caller's settings stay. */
+ * Marking from tasks of the caller's own TBB gives the same bits as outside, and the caller's settings stay. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -21,7 +21,7 @@ typedef struct work {
   int is_wrong[n_tasks];
 } work;
 
-/* With its own result, cold and then warm. Asserts nothing: any thread runs it. */
+/* Marks with a result of its own, first new and then used. Asserts nothing, because any thread runs it. */
 static void mark(void *data, int task) {
   work *w = data;
   riis_mark_options options = {0};
@@ -95,11 +95,11 @@ int main(void) {
       cmocka_unit_test(in_the_callers_arena_of_one),
       cmocka_unit_test(under_the_callers_limit_of_one),
   };
-  /* Nothing prints: TBB announces on stderr what it is asked for in vain. */
+  /* Nothing may be printed: TBB reports on stderr if it is asked for more than it can give. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;
-  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* which writes there, too */
+  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* cmocka also writes there */
   char line[256];
   dup2(terminal, STDERR_FILENO);
   for (rewind(captured); fgets(line, sizeof line, captured);) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * tolerance * half thickness bounds the distance between the triangles and the smooth surface, measured on
- * independent evaluations of the smooth one: for the aortic valve, Coons patches of its Bézier curves by exact arc length; for
+ * tolerance * half thickness bounds the distance between the triangles and the smooth surface. It is measured on independent
+ * evaluations of the smooth surface. For the aortic valve these are Coons patches of its Bézier curves by exact arc length; for
  * the mitral valve, tests/support/mitral_oracle.h. */
 #include "internals.h"
 #include "test_support.h"
@@ -10,7 +10,7 @@
 
 static patch_set set;
 
-/* Arc length of every curve tabulated: s[i] at t = i / table_size. */
+/* A table of every curve's arc length: s[i] at t = i / table_size. */
 enum { table_size = 4000 };
 static double (*tables)[table_size + 1];
 
@@ -68,7 +68,8 @@ static void aortic_point(int32_t patch_id, double u, double v, double *placed) {
 
 static mitral_oracle *mitral;
 
-/* Where the patches of the mitral valve lie on the annulus: each from one u down to the next, and their mirror images. */
+/* The places of the mitral valve's patches on the annulus: each goes from one u down to the next. The others are mirror
+ * images. */
 static void mitral_point(int32_t patch_id, double u, double v, double *point) {
   double at[MITRAL_ORACLE_BREAKS];
   mitral_oracle_breaks(mitral, at);
@@ -91,7 +92,7 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Steps of Gauss and Newton from a first guess of (u, v): the least distance on the way. */
+/* Makes Gauss-Newton steps from a first guess of (u, v), and returns the least distance on the way. */
 static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, double u, double v, const double *p) {
   double nearest = INFINITY;
   for (int step = 0; step < 4; ++step) {
@@ -113,8 +114,8 @@ static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, doub
   return nearest;
 }
 
-/* How far p is from the patch, no nearer than the truth. The steps can end in another minimum, or leave the patch where it folds.
- * A distance of more than enough is therefore looked for again, from all over the patch. */
+/* Returns the distance of p from the patch, never below the truth. The steps can end in another minimum, or leave the patch where
+ * it folds. So a distance that is too large is searched again, from all over the patch. */
 static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p,
                                  double enough) {
   double nearest = distance_on_way(smooth, patch_id, guess[0], guess[1], p);
@@ -124,7 +125,7 @@ static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, c
 }
 
 typedef struct {
-  double to_triangles, to_smooth; /* over the bound */
+  double to_triangles, to_smooth; /* distances as shares of the bound */
   int64_t n_triangles;
 } deviation;
 
@@ -141,7 +142,7 @@ static deviation measure(const smooth_valve *smooth, const riis_valve *valve, do
       smooth->point(patch, random_between(rng, 0, 1), random_between(rng, 0, 1), p);
       d.to_triangles = fmax(d.to_triangles, closest_to(surface, p[0], p[1], p[2]).distance / bound);
     }
-  /* ... and every triangle's points are near the smooth surface: the middle, and those of edges. */
+  /* ... and every triangle's middle and edges are near the smooth surface. */
   const double *xyz, *uv;
   const int64_t *id;
   const int32_t *patch_id;
@@ -205,7 +206,8 @@ static void mitral_deviation_stays_within_the_bound(void **state) {
   }
 }
 
-/* Each quad against the smooth patch at equal (u, v), all over the quad: within its own bound, and at some quad near it. */
+/* Compares each quad with the smooth patch at equal (u, v), all over the quad. Each is within its own bound, and some quad comes
+ * near its bound. */
 static double largest_share_of_bound(const smooth_valve *smooth, int n_parameters, const char *const *names,
                                      const double *values, double max_error) {
   int64_t n;
@@ -224,7 +226,7 @@ static double largest_share_of_bound(const smooth_valve *smooth, int n_parameter
           bilinear[c] = (1 - t) * ((1 - s) * quad->corners[0][c] + s * quad->corners[1][c]) +
                         t * ((1 - s) * quad->corners[3][c] + s * quad->corners[2][c]);
         const double off = distance_between(exact, bilinear);
-        /* (The aortic evaluation is right to 1e-7.) */
+        /* The aortic evaluation is right to 1e-7. */
         if (!(off <= quad->error + 1e-6))
           fail_msg("patch %d, u %.5f to %.5f, v %.5f to %.5f: off by %.3g, the bound is %.3g", (int)quad->patch_id,
                    quad->u[0], quad->u[1], quad->v[0], quad->v[1], off, quad->error);
@@ -267,7 +269,7 @@ static void every_quad_stays_within_its_own_bound(void **state) {
   assert_true(of_aortic > 0.5 && of_mitral > 0.5);
 }
 
-/* One parameter at a time, a third up or down, of all that have one value: valves of many shapes. */
+/* Valves of many shapes: each parameter with a single value changes by a third up or down, one at a time. */
 static void so_it_does_for_other_aortic_valves(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
@@ -301,7 +303,7 @@ static void so_it_does_for_other_aortic_valves(void **state) {
   assert_true(n_tried > 20);
 }
 
-/* All parameters at once, a quarter up or down, at any opening, between two such states. */
+/* All parameters change at once by up to a quarter, at any opening, between two such states. */
 static void so_it_does_for_other_mitral_valves(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The Embree scene only culls: its answers are those of the loop over all triangles with the same kernel, bit for bit,
- * wherever the surface stands, whatever its shape, near and at the limit. */
+ * The Embree scene only culls. Its answers are those of a loop over all triangles with the same kernel, bit for bit, wherever
+ * the surface is, whatever its shape, near the limit and at it. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -14,7 +14,7 @@ static void equals_the_loop_bit_for_bit(void **state) {
     const int64_t n = 1 + (int64_t)(random_bits(&rng) % max_triangles);
     const double scale = pow(10, random_between(&rng, -40, 40)),
                  offset = pow(10, random_between(&rng, -2, trial % 3 ? 3 : 9));
-    const double size = pow(10, random_between(&rng, -4, 0)), flat = trial % 4 ? 1 : 0; /* also surfaces in a plane */
+    const double size = pow(10, random_between(&rng, -4, 0)), flat = trial % 4 ? 1 : 0; /* some surfaces are flat */
     double centre[3];
     for (int c = 0; c < 3; ++c) centre[c] = offset * random_between(&rng, -1, 1);
     for (int64_t i = 0; i < n; ++i)
@@ -41,7 +41,7 @@ static void equals_the_loop_bit_for_bit(void **state) {
   printf("%lld point-triangle pairs\n", (long long)n_pairs);
 }
 
-/* The limit is inclusive, decided on the distance: exactly at it, one bit below it, one above. */
+/* The limit is inclusive, and the distance decides: limits are equal to it, one bit below it and one bit above. */
 static void limit_is_inclusive_to_the_last_bit(void **state) {
   (void)state;
   const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};

@@ -72,7 +72,7 @@ static void line_of_any_degree_gives_the_same_surface(void **state) {
   (void)state;
   const shape from = wavy();
   const double *a = from.control[3][0], *b = from.control[3][1];
-  /* Degree, and where on the line its inner control points are: evenly, and not. */
+  /* The degree, and the places of the inner control points on the line: even and uneven ones. */
   const struct {
     int32_t degree;
     double at[2];
@@ -98,7 +98,7 @@ static void bezier_point(const shape *from, int64_t curve, double t, double *p) 
 
 enum { n_steps = 4000, n_dense = 120 };
 
-/* Points at shares 0, 1 / n_dense, 2 / n_dense, ... of the curve's length, which is that of n_steps chords. */
+/* Makes points at shares 0, 1 / n_dense, 2 / n_dense, ... of the curve's length, measured along n_steps chords. */
 static void points_by_length(const shape *from, int side, double (*points)[3]) {
   static double fine[n_steps + 1][3], length[n_steps + 1];
   const int64_t curve = from->curve_id[side];
@@ -119,7 +119,7 @@ static void points_by_length(const shape *from, int side, double (*points)[3]) {
   }
 }
 
-/* The first patch of the shape by the formula of Coons, as a surface from arrays. */
+/* Makes a surface from arrays: the first patch of the shape by Coons' formula. */
 static riis_surface *dense_surface(const shape *from) {
   static double side[4][n_dense + 1][3], xyz[(n_dense + 1) * (n_dense + 1)][3];
   static int32_t quads[n_dense * n_dense][4];
@@ -146,7 +146,7 @@ static riis_surface *dense_surface(const shape *from) {
   return surface_from(&arrays, &options);
 }
 
-/* The largest distance to a surface from the vertices and the middles of the other one's triangles. */
+/* The largest distance to a surface from the vertices and middles of another surface's triangles. */
 static double largest_distance(const riis_surface *to, const riis_surface *from) {
   const surface_content all = surface_content_of(from);
   double largest = 0;
@@ -218,8 +218,8 @@ static void random_patches_are_coons_patches(void **state) {
   }
 }
 
-/* Two patches on both sides of a shared curve from (0, 0, 0) to (0, 1, z), which is u = 1 of both: the second, turned
- * by half, runs along it backwards. */
+/* Two patches on both sides of a shared curve from (0, 0, 0) to (0, 1, z), which is u = 1 of both. The second patch is turned by
+ * half a circle, so its v runs backwards along the curve. */
 static shape pair_of_patches(double z) {
   const double shared[4][3] = {{0, 0, 0}, {0.5, 0.25, z}, {-0.25, 0.75, 3 * z}, {0, 1, z}};
   const double far[3][3] = {{2, 1, 0}, {2.5, 0.5, 2 * z}, {2, 0, z}};
@@ -229,7 +229,7 @@ static shape pair_of_patches(double z) {
   add_line(&pair, -1, 1, 0, 0, 1, z);
   add_line(&pair, -1, 0, 0, -1, 1, 0);
   add_line(&pair, 2, 1, 0, 0, 1, z);
-  add_line(&pair, 0, 0, 0, 2, 0, z); /* backwards, too */
+  add_line(&pair, 0, 0, 0, 2, 0, z); /* also backwards */
   add_curve(&pair, 2, far);
   add_patch(&pair, 1, 2, 3, 0);
   add_patch(&pair, 4, 5, 6, 0);
@@ -238,7 +238,7 @@ static shape pair_of_patches(double z) {
   return pair;
 }
 
-/* The vertices at u = 1 of a patch in the order of v, each once; the second patch's v is turned round. */
+/* The vertices at u = 1 of a patch in the order of v, each once. The second patch's v is reversed. */
 typedef struct {
   double v, p[3];
 } boundary_vertex;
@@ -268,7 +268,7 @@ static int boundary(const surface_content *all, int32_t patch, boundary_vertex *
   return n_kept;
 }
 
-/* How far a vertex is from the polyline of the others. */
+/* The distance of a vertex from a polyline. */
 static double distance_to_polyline(const double *p, const boundary_vertex *line, int n) {
   double smallest = INFINITY;
   for (int i = 0; i + 1 < n; ++i) {
@@ -287,8 +287,8 @@ static double distance_to_polyline(const double *p, const boundary_vertex *line,
   return smallest;
 }
 
-/* A patch with the shared curve at u = 1 and the same, moved, at u = 0: its quads are plane and never split, so its
- * vertices at u = 1 are those of the curve's polyline. */
+/* A patch with the shared curve at u = 1 and the same curve, moved, at u = 0. Its quads are plane and never split, so its
+ * vertices at u = 1 are the curve's polyline. */
 static shape strip_along_shared_curve(const shape *pair) {
   shape strip = {0};
   double moved[4][3];
@@ -315,7 +315,7 @@ static void shared_curves_leave_no_cracks(void **state) {
   for (int is_plane = 0; is_plane < 2; ++is_plane) {
     const int owned_before = n_owned();
     shape pair = pair_of_patches(is_plane ? 0 : 0.25);
-    if (is_plane) { /* a straight far side, too: all grid lines there are the shared curve's */
+    if (is_plane) { /* the far side is also straight, so all grid lines come from the shared curve */
       pair.degree[6] = 1;
       memcpy(pair.control[6][1], pair.control[6][2], sizeof pair.control[6][1]);
     }
@@ -333,7 +333,7 @@ static void shared_curves_leave_no_cracks(void **state) {
       check_holds(a, n_a, &of_curve[i]);
       check_holds(b, n_b, &of_curve[i]);
     }
-    /* Vertices that only one of them has lie on the other's edges, to rounding. */
+    /* Vertices that only one patch has lie on the other's edges, to rounding. */
     for (int i = 0; i < n_a; ++i) CHECK_AT_MOST(distance_to_polyline(a[i].p, b, n_b), 1e-15);
     for (int i = 0; i < n_b; ++i) CHECK_AT_MOST(distance_to_polyline(b[i].p, a, n_a), 1e-15);
     /* The normals of both are along S_u x S_v. */
@@ -354,7 +354,7 @@ static void collapsed_sides_leave_no_triangles_without_area(void **state) {
       add_line(&from, 0, 1, 0, 0, 1, 0);
       add_line(&from, 0, 0, 0, 0, 1, 0);
       add_line(&from, 1, 0, 0, 0, 1, 0);
-    } else { /* a chord and an arc: u = 0 and u = 1 are */
+    } else { /* a chord and an arc: u = 0 and u = 1 are collapsed */
       add_curve(&from, 3, up);
       add_line(&from, 0, 0, 0, 0, 0, 0);
       add_line(&from, 1, 0, 0, 1, 0, 0);
@@ -395,7 +395,7 @@ static void opening_blends_control_points(void **state) {
       }
   const shape *expected[3] = {&closed, &middle, &open};
   riis_valve *valve = valve_from(&closed), *other = valve_from(&open);
-  CHECK_OK(riis_valve_set_scalar(other, "opening", 0.25)); /* does not matter */
+  CHECK_OK(riis_valve_set_scalar(other, "opening", 0.25)); /* has no effect */
   CHECK_OK(riis_valve_set_open_state(valve, other));
   free_one_owned(other);
   for (int step = 0; step <= 2; ++step) {
@@ -403,7 +403,7 @@ static void opening_blends_control_points(void **state) {
     riis_surface *surface = new_surface(valve, NULL);
     check_same_surfaces(surface, surface_of(expected[step], NULL));
   }
-  /* The valve's own state serves as the open one, too. */
+  /* The valve may also be its own open state. */
   CHECK_OK(riis_valve_set_open_state(valve, valve));
   riis_surface *surface = new_surface(valve, NULL);
   free_one_owned(valve);

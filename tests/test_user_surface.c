@@ -28,7 +28,7 @@ static void every_layout_gives_the_same_surface(void **state) {
     arrays.leaflet_id = leaflets;
     if (separate) arrays.x = x, arrays.y = y, arrays.z = z, arrays.stride = 1;
     riis_surface *surface = surface_from(&arrays, NULL);
-    memset(ids32, -1, sizeof ids32); /* nothing stays borrowed */
+    memset(ids32, -1, sizeof ids32); /* the library must not keep borrowing the arrays */
     memset(ids64, -1, sizeof ids64);
     CHECK_NEAR(info_of(surface).area, 1.5, 1e-15);
     const riis_closest a = closest_to(surface, 0.9, 0.1, 1), b = closest_to(surface, 0.1, 0.9, -1),
@@ -100,7 +100,7 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   free_one_owned(surface);
 
   arrays.n_faces = 3;
-  arrays.vertex_ids = with_bad + 3; /* only bad ones */
+  arrays.vertex_ids = with_bad + 3; /* only bad triangles */
   CHECK_REFUSED(RIIS_INVALID_SURFACE, "none of the 3 faces",
                 riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
@@ -133,7 +133,7 @@ static void winding_is_the_callers_unless_flipped(void **state) {
   assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
 }
 
-/* Two triangles back to back: their normals cancel at the common edges up to rounding, and each side is the reported triangle's. */
+/* Two triangles back to back. Their normals cancel at the common edges up to rounding, so the side is the reported triangle's. */
 static void side_of_folded_faces_is_the_triangles_own(void **state) {
   (void)state;
   const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
@@ -170,8 +170,8 @@ static void update_replaces_the_content(void **state) {
   CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
 }
 
-/* A closed box of sharp edges: inside is inside, also where the closest point is an edge or a corner; the plain normal
- * of one face would be wrong there. */
+/* A closed body with sharp edges. The inside is also recognised where the closest point is on an edge or a corner. There the
+ * plain normal of one face would be wrong. */
 static void side_at_edges_and_corners_of_a_wedge(void **state) {
   (void)state;
   /* A thin tetrahedron: dihedral angles far below and above 90 degrees. */

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# The time limits of tests, in seconds. A limit is there to end a hang, and a busy machine must not reach it: it is at least ten times
-# what the test needs alone on a machine of two processors.
+# The time limits of tests, in seconds. A limit ends a hang, and a busy machine must not reach it. So it is at least ten times the
+# test's time alone on a machine of two processors.
 #   riis_test_timeout  the limit of a test that names no other
 # With sanitizers each test has at least three times its plain limit, and with the thread sanitizer six times.
-# Tests that are scripts and name no limit have CTest's, 1500.
+# A test that is a script and names no limit has CTest's limit, 1500.
 set(riis_test_timeout 300) # needs at most 30
 set(riis_test_timeout_factor 1)
 if(RIIS_SANITIZE MATCHES "thread")

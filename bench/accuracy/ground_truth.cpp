@@ -20,7 +20,7 @@ struct Place {
   double u, v;
 };
 
-// Places evenly by area, to the tolerance of the triangles that they are drawn from.
+// Draws places evenly by area, up to the tolerance of the triangles that it draws from.
 class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)
@@ -54,7 +54,7 @@ class Places {
  private:
   const SmoothSurface &smooth_;
   TriangleSet triangles_;
-  std::vector<double> areas_;  // of all up to each
+  std::vector<double> areas_;  // sums of the areas up to each triangle
 };
 
 void add(TruePoints &points, Vec3 p, double distance) {
@@ -93,8 +93,8 @@ GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &reque
     const Vec3 p = foot.point + offset * foot.normal;
     const double xyz[3] = {p.x, p.y, p.z};
     const riis_closest closest = fine.closest(xyz);
-    // At r from the foot the surface around it is at least sqrt(height^2 + r^2 / 2) away, for its curvature is bounded.
-    // Triangles that are nearest elsewhere than that allows have found another part of it.
+    // The curvature is bounded, so the surface around the foot is at least sqrt(height^2 + r^2 / 2) away at r from the foot. If
+    // the nearest triangle is farther from the foot than that allows, it belongs to another part of the surface.
     const double reach = 3 * std::sqrt(error * (height + error)) + error;
     if (closest.distance < height - error || norm(closest.point, foot.point) > reach) {
       ++truth.n_nearer;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's three ways to measure a distance, at the settings that are compared, on a single leaflet as in the paper.
-// In: a leaflet, a method, a tolerance. Out: a surface that is asked through the public interface.
+// The paper's three ways to measure a distance, with the compared settings, on a single leaflet as in the paper.
+// In: a leaflet, a method, a tolerance. Out: a surface for queries through the public interface.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,11 +20,11 @@ struct Leaflet {
   const char *name, *valve;
   std::int32_t leaflet_id;
 };
-// With the paper's parameters; the mitral valve open.
+// The leaflets have the paper's parameters. The mitral valve is open.
 inline constexpr std::array<Leaflet, 2> leaflets{
     {{"right cusp", "aortic", RIIS_LEAFLET_RIGHT}, {"anterior leaflet", "mitral", RIIS_LEAFLET_ANTERIOR}}};
 
-// The valve's patches without those of its other leaflets.
+// Returns the valve's patches without those of its other leaflets.
 PatchSet patches_of(const Leaflet &leaflet);
 
 struct Setting {
@@ -33,7 +33,7 @@ struct Setting {
   const char *name;
 };
 const char *name_of(std::int32_t method);
-// The paper's for minimisation; for the others 1, 2, 5, 10 %.
+// Minimisation has the paper's settings, the others have 1, 2, 5 and 10 %.
 inline constexpr std::array<Setting, 10> settings{{{RIIS_DISTANCE_MINIMIZATION, 0.001, "0.001"},
                                                    {RIIS_DISTANCE_MINIMIZATION, 0.01, "0.01"},
                                                    {RIIS_DISTANCE_SAMPLING, 0.01, "1 %"},
@@ -45,14 +45,14 @@ inline constexpr std::array<Setting, 10> settings{{{RIIS_DISTANCE_MINIMIZATION, 
                                                    {RIIS_DISTANCE_TRIANGLES, 0.05, "5 %"},
                                                    {RIIS_DISTANCE_TRIANGLES, 0.1, "10 %"}}};
 
-// The surface of patches; what fails throws std::runtime_error with the library's text.
+// The surface of patches. Failures throw std::runtime_error with the library's message.
 class MeasuredSurface {
  public:
   MeasuredSurface(const PatchSet &patches, std::int32_t method, double tolerance);
 
   riis_closest closest(const double *point) const;
   double distance(const double *point) const { return closest(point).distance; }
-  // What a distance is made of: triangles, samples, or patches.
+  // Returns the number of triangles, samples or patches that distances are measured to.
   std::int64_t size() const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smooth surface that tolerances are measured against (docs/theory.md, section 2): Coons patches and patches of arcs of the
-// Bézier curves themselves, by the share of their exact length. No polylines, no grid, no tolerance.
-// In: curves and patches of a valve. Out: points, normals, curvatures anywhere.
+// The smooth surface that tolerances refer to (docs/theory.md, section 2): Coons patches and patches of arcs of the Bézier curves
+// themselves, by the share of their exact length. It has no polylines, no grid and no tolerance.
+// In: curves and patches of a valve. Out: points, normals and curvatures anywhere.
 #pragma once
 
 #include <cstddef>
@@ -14,40 +14,40 @@
 
 namespace riis::accuracy {
 
-// Of a patch as it is put in place.
+// A point of a placed patch.
 struct SurfacePoint {
-  Vec3 point, normal;  // unit, along S_u x S_v, turned over in mirror images; 0 where there is none
-  double curvature;    // the larger of the principal ones, without sign; infinite where there is no normal
+  Vec3 point, normal;  // unit, along S_u x S_v, turned over in mirror images; 0 if undefined
+  double curvature;    // the larger principal curvature, without sign; infinite if there is no normal
 };
 
 class SmoothSurface {
  public:
   explicit SmoothSurface(const PatchSet &set);
 
-  // Images of patches, numbered; patch_id is theirs.
+  // Images of patches have numbers and a patch_id.
   std::size_t n_images() const { return images_.size(); }
   std::int32_t patch_id(std::size_t image) const { return images_[image].image.patch_id; }
   std::size_t image_of(std::int32_t patch_id) const;
 
-  // Right to the rounding of the curves' lengths, 1e-13 of them.
+  // The result is right up to the rounding of the curves' lengths, 1e-13 of them.
   Vec3 at(std::size_t image, double u, double v) const;
-  // By differences over `step`, which u and v must be away from 0 and 1.
+  // Uses differences over `step`. u and v must be at least that far from 0 and 1.
   static constexpr double step = 1e-4;
   SurfacePoint describe(std::size_t image, double u, double v) const;
-  // All of (u[i], v[j]), u running first: every curve is evaluated once a line.
+  // Returns all points (u[i], v[j]), with u running fastest. Every curve is evaluated once per line.
   std::vector<Vec3> at_lines(std::size_t image, const std::vector<double> &u, const std::vector<double> &v) const;
 
  private:
   struct SmoothPatch {
     Curve v0, v1;
-    std::optional<Curve> u0, u1;  // of a Coons patch
-    std::optional<Bulge> bulge;   // of a patch of arcs
+    std::optional<Curve> u0, u1;  // for a Coons patch
+    std::optional<Bulge> bulge;   // for a patch of arcs
   };
   struct Image {
     std::size_t patch;
     PatchImage image;
   };
-  // What the curves say on a line u = const, and on a line v = const.
+  // The curves' values on a line u = const, and on a line v = const.
   struct AcrossU {
     Vec3 c0, c1, offset;
   };

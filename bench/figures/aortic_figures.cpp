@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic valve, whole and one cusp of it.
+// The whole aortic valve, and one of its cusps.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -40,7 +40,7 @@ void add_controlled(Picture &picture, const NamedCurve &curve, double width, dou
   picture.add_points(control_points(*curve.pieces), curve.colour, diameter);
 }
 
-// The widest of the gaps between the ends of neighbouring cusps' free edges.
+// Returns the widest gap between the ends of neighbouring cusps' free edges.
 double widest_gap(const std::vector<CuspCurves> &cusps) {
   double widest = 0;
   for (std::size_t i = 0; i < cusps.size(); ++i)
@@ -125,7 +125,7 @@ Figure aortic_cusp_figure() {
               smooth = triangles_of(fine_model, cusp);
   Points to_fit = quads.points;
   for (const NamedCurve &curve : curves_of(curves, true)) append(to_fit, control_points(*curve.pieces));
-  // From outside and above.
+  // This view is from outside and above.
   const View view = looking({-1, 0.35, -0.55}, {0, 0, 1});
   const auto picture_of = [&](const std::string &title) {
     Picture picture(cusp_size, view, to_fit);

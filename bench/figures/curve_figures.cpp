@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A curve and what it becomes; a patch and what it becomes.
+// The stages of a curve and of a patch.
 #include <algorithm>
 #include <string>
 
@@ -90,7 +90,7 @@ Panel polyline(double max_error) {
                              number(measured) + "."};
 }
 
-// The upper patch of half a cusp at a tolerance so coarse that every line can be told from the next.
+// A tolerance for the upper patch of half a cusp, so coarse that every line can be told from the next.
 constexpr double coarse = 0.2;
 constexpr std::int32_t cusp = RIIS_LEAFLET_NON_CORONARY;
 constexpr PictureSize patch_size{900, 680};
@@ -121,7 +121,7 @@ class PatchPictures {
         grid_(model_.grids[0]),
         sides_(boundary_polylines(model_.patches, model_.patches.patches[0], grid_)),
         quads_(quads_of(model_, cusp, paler(leaflet_colours, 0.55))),
-        // From outside and above.
+        // This view is from outside and above.
         view_(looking(image_.rotation * Vec3{-1, -0.35, -0.75}, {0, 0, 1})) {}
 
   Panel boundary() const {
@@ -220,7 +220,7 @@ class PatchPictures {
   }
 
  private:
-  // Inner vertices that are far enough from others for a label.
+  // Returns the inner vertices that are far enough from others for a label.
   static std::vector<std::size_t> labelled(const BoundaryPolyline &polyline) {
     std::vector<std::size_t> found;
     double last = 1;

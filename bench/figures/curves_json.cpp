@@ -44,7 +44,7 @@ json json_of(const CuspCurves &curves) {
           {"symmetry", json_of(curves.symmetry)}};
 }
 
-// The same patches before any cusp is turned and moved.
+// Returns the same patches before cusps are turned and moved.
 PatchSet in_own_frames(PatchSet set) {
   for (Patch &patch : set.patches)
     for (PatchImage &image : patch.images) {
@@ -83,8 +83,8 @@ json aortic() {
   return {{"parameters", parameters_of(valve.kind())}, {"cusps", cusps}, {"opening_example", opening_example()}};
 }
 
-// Arcs from the annulus to the free edges on the half x >= 0, at shares u of the annulus' length from its posterior point:
-// ends of many ("lines"), and the curves between two patches ("arcs").
+// Adds arcs from the annulus to the free edges on the half x >= 0, at shares u of the annulus' length from its posterior point.
+// "lines" has the ends of many, "arcs" the curves between two patches.
 void add_arcs(json &state, const PatchSet &set) {
   constexpr int n = 32;
   double whole = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures, each made of pictures and of texts whose numbers are counted on the way.
+// The figures. Each is made of pictures, and of texts with numbers that are counted on the way.
 #pragma once
 
 #include "figures/page.hpp"

@@ -20,7 +20,7 @@ std::vector<unsigned char> bytes_of(const std::string &path) {
   return bytes;
 }
 
-// Width and height are the first thing in a PNG, after its signature.
+// A PNG begins with its signature, then its width and height.
 Png read_png(const std::string &path) {
   constexpr unsigned char start[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
   std::vector<unsigned char> bytes = bytes_of(path);

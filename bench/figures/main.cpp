@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures FILE.html [GIVEN.json...]: draws the geometry, the paper's figures of it first, into one page, and puts the pictures
-// that the JSON files name behind them.
-// riis-figures --curves FILE.json: writes both valves' parameters and curves, for parameters/draw.py.
+// riis-figures FILE.html [GIVEN.json...]: draws the geometry into one page, beginning with the paper's figures. The pictures that
+// the JSON files name follow them. riis-figures --curves FILE.json: writes both valves' parameters and curves, for
+// parameters/draw.py.
 #include <cstdio>
 #include <exception>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mitral valve: curves, surfaces from closed to open, quads and triangles.
+// The mitral valve: its curves, its surfaces from closed to open, its quads and triangles.
 #include <string>
 
 #include "figures/figures.hpp"
@@ -12,7 +12,7 @@ namespace {
 constexpr PictureSize top_size{960, 780}, side_size{960, 620}, surface_size{860, 700}, quads_size{860, 680};
 constexpr Colour annulus_colour = dark, anterior_colour = blue, posterior_colour = vermilion;
 constexpr LeafletColours colours = {blue, orange, green};
-// The anterior point of the annulus is on the right, the ventricle below.
+// In this view the anterior point of the annulus is on the right and the ventricle below.
 const View side_view = looking({-1, 0, 0}, {0, 0, 1});
 
 Valve valve_at(double opening) {
@@ -27,7 +27,7 @@ void add_controlled(Picture &picture, const Pieces &pieces, Colour colour, doubl
   picture.add_points(control_points(pieces), colour, diameter);
 }
 
-// Ends of pieces in the order of the paper's points P0 to P5 of the annulus: counter-clockwise from the posterior point.
+// Names the ends of pieces in the order of the paper's points P0 to P5 of the annulus, anticlockwise from the posterior point.
 void name_annulus_points(Picture &picture, const Pieces &annulus, bool from_top) {
   Vec3 middle{0, 0, 0};
   for (const Bezier &piece : annulus) middle = middle + (1.0 / static_cast<double>(annulus.size())) * piece.first();
@@ -39,7 +39,7 @@ void name_annulus_points(Picture &picture, const Pieces &annulus, bool from_top)
     const std::string name = "A" + std::to_string(of_paper);
     if (from_top)
       picture.add_label_away(annulus[i].first(), middle, name, 34, annulus_colour, 26);
-    else  // where A2 and A3 nearly meet
+    else  // here A2 and A3 nearly meet
       picture.add_label(annulus[i].first(), name,
                         of_paper == 2   ? 30
                         : of_paper == 3 ? -14

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One HTML file that holds everything: pictures as base64, styles inline, no scripts, nothing to load.
-// In: figures, their pictures and texts (HTML). Out: the file.
+// One HTML file that holds everything. Pictures are base64, styles are inline, and there are no scripts and nothing to load.
+// In: figures with their pictures and texts (HTML). Out: the file.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Panel {
   std::string caption;
 };
 
-// A colour and what it stands for.
+// A colour and its meaning.
 struct KeyEntry {
   Colour colour;
   std::string text;
@@ -27,18 +27,18 @@ struct Figure {
   int columns;
   std::vector<KeyEntry> key;
   std::string caption;
-  std::string paper;  // what of the paper it shows
+  std::string paper;  // the part of the paper that the figure shows
   std::string table;  // below the pictures; may be empty
 };
 
-// A table of texts, the first row being its head.
+// Returns a table of texts. The first row is its head.
 std::string html_table(const std::vector<std::vector<std::string>> &rows);
 
-// Makes the file, empty: a path that cannot be written is refused before anything is drawn. Both functions throw
+// Makes an empty file, so that a path that cannot be written is refused before anything is drawn. Both functions throw a
 // std::runtime_error that names the path.
 void begin_page(const std::string &path);
 
-// left_out: which figures the page lacks and how to get them, a text (HTML) each. appendix: HTML after the last figure.
+// left_out has a text (HTML) for each figure that the page lacks, with the way to get it. appendix is HTML after the last figure.
 void write_page(const std::string &path, const std::vector<Figure> &figures, const std::vector<std::string> &left_out,
                 const std::string &appendix);
 

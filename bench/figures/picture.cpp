@@ -61,7 +61,7 @@ void set_colour(vtkActor *actor, Colour colour) {
   actor->GetProperty()->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
-// What stands for a line or a point has its colour from all sides.
+// Lines and points have their colour from all sides.
 void set_unlit(vtkActor *actor) {
   actor->GetProperty()->SetAmbient(1);
   actor->GetProperty()->SetDiffuse(0);
@@ -111,7 +111,7 @@ Vec3 Picture::at_pixel(double x, double y) const {
   return focus_ + pixel_ * (x - 0.5 * size_.width) * right_ + pixel_ * (y - 0.5 * size_.height) * up_;
 }
 
-// Nearer to the eye: without perspective the point stays where it is in the picture.
+// Moves the point towards the eye. Without perspective it keeps its place in the picture.
 Vec3 Picture::raised(Vec3 p, int layer) const { return p - 0.004 * layer * depth_ * direction_; }
 
 vtkSmartPointer<vtkPolyData> Picture::lines(const std::vector<Points> &lines, int layer) const {
@@ -160,7 +160,7 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
   data->GetCellData()->SetScalars(colours);
   vtkSmartPointer<vtkPolyData> shown = data;
   if (shading == Shading::smooth || shading == Shading::ghost) {
-    // Patches have their own points where they meet; one normal for both hides the seam.
+    // Patches have separate points where they meet. One normal for both hides the seam.
     vtkNew<vtkCleanPolyData> clean;
     clean->SetInputData(data);
     clean->ToleranceIsAbsoluteOn();
@@ -173,7 +173,7 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
   const vtkSmartPointer<vtkActor> actor = vtk::coloured_actor_of(shown);
   vtkProperty *property = actor->GetProperty();
   if (shading == Shading::flat) property->SetInterpolationToFlat();
-  // Some light of its own, so that what faces away from the lamps keeps its colour.
+  // The surface has some light of its own, so that parts that face away from the lamps keep their colour.
   property->SetAmbient(0.52);
   property->SetDiffuse(0.55);
   if (shading == Shading::ghost) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture: surfaces, curves, points and texts seen from far away, without perspective, on white.
-// In: what is shown, in centimetres; sizes of lines, points and texts in pixels. Out: a PNG file's bytes.
+// A picture of surfaces, curves, points and texts seen from far away, without perspective, on white.
+// In: the objects in centimetres, and the sizes of lines, points and texts in pixels. Out: the bytes of a PNG file.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline constexpr Colour blue = distinct(0), orange = distinct(1), green = distin
                         vermilion = distinct(4), sky_blue = distinct(5), dark{45, 45, 45}, grey{130, 130, 130},
                         light_grey{205, 205, 205};
 
-// The colour and so much of white.
+// Mixes the colour with this share of white.
 Colour paler(Colour colour, double white);
 
 struct Png {
@@ -51,10 +51,10 @@ struct Faces {
   std::size_t size() const { return colours.size(); }
 };
 
-// A ghost lets what is behind it shine through; what is painted keeps its colours, which say something, from all sides.
+// A ghost is transparent. Painted faces keep their colours from all sides, because these carry data.
 enum class Shading { smooth, flat, ghost, painted };
 
-// Along which way one looks, and what is up.
+// The direction of view and the upward direction.
 struct View {
   Vec3 direction, up;  // unit, perpendicular
 };
@@ -67,25 +67,25 @@ struct PictureSize {
 
 class Picture {
  public:
-  // Everything to_fit is inside, the margin (pixels) away from the edges and from the title.
+  // All points to_fit are inside, at least the margin (pixels) away from the edges and from the title.
   Picture(PictureSize size, const View &view, const Points &to_fit, double margin = 60);
 
-  // What lies in faces is drawn on them: segments above faces, curves above segments, points above curves; and each
-  // above others of a lower rank.
+  // Objects that lie in faces are drawn on them: segments above faces, curves above segments, points above curves. Objects of one
+  // kind are drawn above others of a lower rank.
   void add_faces(const Faces &faces, Shading shading);
   void add_segments(const Segments &segments, Colour colour, double width, int rank = 0);
   void add_curve(const Points &points, Colour colour, double width, int rank = 0);
   void add_dashed(const Points &points, Colour colour, double width);
   void add_points(const Points &points, Colour colour, double diameter);
 
-  // Text with its middle right (+) and above (+) of a point by so many pixels.
+  // Adds a text whose middle is so many pixels to the right (+) of a point and above it (+).
   void add_label(Vec3 at, const std::string &text, double right, double above, Colour colour = dark, int size = 26);
-  // Text with its middle away from `from`, seen by this camera.
+  // Adds a text whose middle is moved away from `from`, as this camera sees it.
   void add_label_away(Vec3 at, Vec3 from, const std::string &text, double distance, Colour colour = dark,
                       int size = 26);
   void add_title(const std::string &text);
 
-  // A line of 1 cm at the lower left, the directions of x, y and z at the lower right.
+  // Adds a line of 1 cm at the lower left, and the directions of x, y and z at the lower right.
   void add_scale_and_axes();
 
   Png png() const;
@@ -100,7 +100,7 @@ class Picture {
   PictureSize size_;
   Vec3 right_, up_, direction_;
   Vec3 focus_;    // in the middle of the picture
-  double depth_;  // half of what is shown
+  double depth_;  // half of the largest extent
   double pixel_;  // its size in centimetres
   vtkSmartPointer<vtkRenderer> renderer_;
 };

@@ -35,7 +35,7 @@ double largest_difference(const Bezier &a, const Bezier &b) {
   return largest;
 }
 
-// The curve whose parts a and b are, by de Casteljau's algorithm run backwards; false where there is none.
+// Finds the curve that has the parts a and b, by de Casteljau's algorithm run backwards. Returns false if there is none.
 bool join(const Bezier &a, const Bezier &b, Bezier &whole) {
   if (a.degree != b.degree) return false;
   const auto n = static_cast<std::size_t>(a.degree);

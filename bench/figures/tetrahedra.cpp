@@ -23,7 +23,7 @@ struct Destroy {
 template <class T, void (*destroy)(T **)>
 using Handle = std::unique_ptr<T, Destroy<T, destroy>>;
 
-// Where a create function writes the handle, which is kept at the end of the statement.
+// A place for a create function to write the handle. The owner takes the handle at the end of the statement.
 template <class Owner>
 class Out {
  public:
@@ -56,7 +56,7 @@ TetrahedralMesh mesh_cylinder(const Cylinder &cylinder, double edge) {
   for (std::int64_t k = 0; k <= n_up; ++k)
     for (std::int64_t j = 0; j <= n_across; ++j)
       for (std::int64_t i = 0; i <= n_across; ++i) {
-        // A square to a disc: its grid lines become parts of ellipses.
+        // Maps a square to a disc: its grid lines become parts of ellipses.
         const double x = from_minus_one(i, n_across), y = from_minus_one(j, n_across);
         const Vec3 on_disc{x * std::sqrt(1 - 0.5 * y * y), y * std::sqrt(1 - 0.5 * x * x), 0};
         const Vec3 p =
@@ -119,7 +119,7 @@ Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double
 }
 
 Faces marked_faces(const TetrahedralMesh &mesh, const Marks &marks) {
-  // A face that two of them have is inside.
+  // A face that two tetrahedra have is inside.
   std::map<std::array<std::int64_t, 3>, std::pair<int, std::int32_t>> faces;
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
     if (!marks.is_whole[i]) continue;
@@ -151,7 +151,7 @@ Faces slice(const TetrahedralMesh &mesh, const Marks &marks, Vec3 normal, Segmen
     for (const std::int64_t node : mesh.tetrahedra[i])
       (dot(mesh.node(node), normal) < 0 ? before : behind).push_back(mesh.node(node));
     if (before.empty() || behind.empty()) continue;
-    // In order around the section: two points before the plane and two behind it make a quad.
+    // Points go round the section in order: two points in front of the plane and two behind it make a quad.
     Points section;
     for (std::size_t a = 0; a < before.size(); ++a)
       for (std::size_t b = 0; b < behind.size(); ++b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tetrahedral mesh of a cylinder about the z axis, and what of it is marked.
-// In: the cylinder, the size of cells, a valve. Out: nodes, tetrahedra, marks; faces to draw.
+// A tetrahedral mesh of a cylinder about the z axis, and its marks.
+// In: the cylinder, the size of cells, a valve. Out: nodes, tetrahedra, marks, and faces to draw.
 #pragma once
 
 #include <array>
@@ -27,23 +27,23 @@ struct TetrahedralMesh {
   }
 };
 
-// Hexahedra, each cut into 6 tetrahedra along the same diagonal, so that neighbours match.
+// Makes hexahedra and cuts each into 6 tetrahedra along the same diagonal, so that neighbours match.
 TetrahedralMesh mesh_cylinder(const Cylinder &cylinder, double edge);
 
 struct Marks {
   std::size_t n_marked;               // nodes
-  std::vector<std::int32_t> leaflet;  // of each tetrahedron: its closest marked node's, -1 without one
+  std::vector<std::int32_t> leaflet;  // for each tetrahedron, its closest marked node's, or -1
   std::vector<bool> is_whole;         // all four nodes are marked
-  std::size_t n_whole, n_touched;     // tetrahedra of which all nodes are marked, or one at least
+  std::size_t n_whole, n_touched;     // tetrahedra with all nodes marked, or at least one
 };
-// By the public interface, as users do it: a valve of that kind with its default parameters, at an opening.
+// Marks by the public interface, as users do, with a valve of the given kind, its default parameters and an opening.
 Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double tolerance);
 
-// The outside of the tetrahedra of which all nodes are marked.
+// Returns the outside of the tetrahedra with all nodes marked.
 Faces marked_faces(const TetrahedralMesh &mesh, const Marks &marks);
 
-// The mesh cut by the plane through the origin with that normal: triangles in the colour of their tetrahedron's leaflet,
-// paler where only some of its nodes are marked, or of nothing.
+// Cuts the mesh by the plane through the origin with the given normal. Faces have the colour of their tetrahedron's leaflet,
+// paler if only some of its nodes are marked, or light grey if none is.
 Faces slice(const TetrahedralMesh &mesh, const Marks &marks, Vec3 normal, Segments &edges);
 
 }  // namespace riis::figures

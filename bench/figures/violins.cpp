@@ -11,7 +11,7 @@ namespace {
 
 constexpr PictureSize size{1120, 760};
 constexpr double least_power = -6, most_power = 0;
-// In pixels, which are the units in space, too.
+// Lengths are in pixels, which are also the units of space.
 constexpr double left = 110, right = 1100, bottom = 70, top = 660, half_width = 0.42;
 
 double height_of(double value) {
@@ -22,7 +22,8 @@ double height_of(double value) {
 
 Vec3 at(double x, double y) { return {x, y, 0}; }
 
-// Half widths from the lower end of the scale to the upper, 1 the widest: counts of bins, smoothed by a Gaussian.
+// Returns half widths from the lower end of the scale to the upper, with 1 for the widest. They are counts of bins, smoothed by a
+// Gaussian.
 std::vector<double> outline_of(const std::vector<double> &ascending) {
   constexpr std::size_t bins_per_power = 20;
   constexpr std::size_t n = static_cast<std::size_t>(most_power - least_power) * bins_per_power;
@@ -48,10 +49,10 @@ void add_outline(Faces &faces, double middle, double step, const Violin &violin)
   const double rise = (top - bottom) / static_cast<double>(widths.size());
   for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
     const double a = half_width * step * widths[i], b = half_width * step * widths[i + 1];
-    // A single point in thousands would be no width at all.
+    // A single point in thousands would have no visible width.
     if (std::max(a, b) < 0.4) continue;
     const double y = bottom + rise * (static_cast<double>(i) + 0.5);
-    // Smoothing widens, but not beyond the values that there are.
+    // Smoothing must not reach beyond the least and the largest value.
     if (y + rise > height_of(violin.values.back()) + 0.5 || y < height_of(violin.values.front()) - 0.5) continue;
     const auto first = static_cast<std::int64_t>(faces.points.size());
     for (const Vec3 &p : {at(middle - a, y), at(middle + a, y), at(middle + b, y + rise), at(middle - b, y + rise)})
@@ -101,7 +102,7 @@ Png violin_plot(const std::string &title, const std::vector<Violin> &violins) {
     const auto mark = across(violin.mark, 0.46);
     picture.add_curve({mark[0], mark[1]}, vermilion, 4);
     picture.add_label(at(middle, bottom), violin.label, 0, -20, dark, 22);
-    // The group's name under the middle of its members.
+    // The group's name is below the middle of its members.
     if (i > 0 && violins[i - 1].group == violin.group) continue;
     std::size_t end = i;
     while (end < violins.size() && violins[end].group == violin.group) ++end;

@@ -11,13 +11,13 @@
 namespace riis::figures {
 
 struct Violin {
-  std::string label, group;  // neighbours of the same group have its name once
+  std::string label, group;  // neighbours of one group share its name
   Colour colour;
-  double mark;                 // a value that a line is drawn at
+  double mark;                 // a line is drawn at this value
   std::vector<double> values;  // ascending, shares, at least one
 };
 
-// Values are drawn from 1e-6 to 1, as per cent; what is less is drawn at the lower end.
+// Values from 1e-6 to 1 are drawn as per cent. Smaller values are drawn at the lower end.
 Png violin_plot(const std::string &title, const std::vector<Violin> &violins);
 
 }  // namespace riis::figures

@@ -17,7 +17,7 @@ using riis::require;
 
 namespace {
 
-// Sizes of the first release.
+// The structs' sizes in the first release.
 constexpr std::size_t closest_size = 96, options_size = 32, arrays_size = 64;
 
 const riis_closest_options default_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};
@@ -31,7 +31,7 @@ void put_vector(double *to, std::int64_t i, double x, double y, double z) {
   to[3 * i + 2] = z;
 }
 
-// Entry i of the arrays that are wanted, for a triangle that was found.
+// Writes entry i of the wanted arrays for a point whose closest triangle was found.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
                    const riis::ClosestTriangle &found) {
   const riis::TriangleSet &set = content.triangles();
@@ -52,7 +52,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
   }
 }
 
-// The same for a point of the patches. There is no triangle to be told of, nor its sides.
+// Writes entry i for a closest point on the patches. There is no triangle id and no side.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
                    const riis::ClosestOnPatches &found) {
   const riis::PlacedPatch &patch = riis::view(method.patches().patches)[found.patch];
@@ -68,7 +68,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Pa
   }
 }
 
-// Whoever asks for these in arrays means to use them.
+// Refuses arrays that need triangles: a caller who gives them means to use them.
 void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
   for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
     if (name)
@@ -86,18 +86,18 @@ void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distanc
   put_vector(to.barycentric, i, 0, 0, 0);
 }
 
-// Infinity where there is none.
+// Returns infinity if the options have no limit.
 double limit_of(const riis_closest_options &options) {
   if (options.distance_limit == RIIS_AUTO) return std::numeric_limits<double>::infinity();
   if (!(options.distance_limit >= 0))
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
-  // Without a limit no point is far, whatever far points get.
+  // Without a limit no point is far, so far_distance does not matter.
   if (std::isfinite(options.distance_limit))
     riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
   return options.distance_limit;
 }
 
-// The points that are wanted: all, those of a mask, or those of a list.
+// The wanted points: all points, a mask's points, or a list's points.
 class WantedPoints {
  public:
   WantedPoints(const riis_closest_options &options, const riis::StridedPoints &points)
@@ -127,7 +127,7 @@ class WantedPoints {
   }
 
   std::int64_t n() const { return n_; }
-  // The number of the k-th point.
+  // Returns the number of the k-th point.
   std::int64_t id(std::int64_t k) const { return ids_ ? ids_[k] : k; }
   bool is_wanted(std::int64_t id) const { return !mask_ || mask_[id] != 0; }
 
@@ -185,9 +185,9 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const WantedPoints wanted(whole, points);
     if (wanted.n() == 0) return;
 
-    // Here, so that memory that runs out leaves the arrays alone.
+    // If memory runs out here, the arrays are still untouched.
     if (to.side) content.prepare_sides();
-    // write_found(i) is false where nothing is within the limit.
+    // write_found(i) returns false where nothing is within the limit.
     const auto for_each_point = [&](const auto &write_found) {
       constexpr std::int64_t points_per_block = 512;
       riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {

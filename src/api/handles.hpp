@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is behind the public handles.
+// The objects behind the public handles.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,7 +20,8 @@
 
 namespace riis {
 
-// The first word of every handle says what it is: Fortran passes all handles as the same type, and swaps them silently.
+// The first word of every handle holds its kind. Fortran passes all handles as one type, so its compiler does not notice swapped
+// ones.
 enum class HandleKind : std::uint64_t {
   valve = 0x7269697376616c76,
   surface = 0x7269697373757266,
@@ -36,7 +37,7 @@ struct Handle {
   HandleKind kind = own_kind;
 };
 
-// A handle that is there and of its kind.
+// Returns the handle, or fails if it is null or of another kind.
 template <class AnyHandle>
 AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   require(handle, argument);
@@ -44,8 +45,7 @@ AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   return handle;
 }
 
-// The body of a destroy function. A handle of another kind is left alone: losing it is better than freeing it as what it is
-// not.
+// The body of a destroy function. A handle of another kind is left alone: a leak is better than freeing it as the wrong type.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
@@ -63,11 +63,11 @@ struct riis_valve : riis::Handle<riis::HandleKind::valve> {
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsArenas keeps_arenas;
   std::unique_ptr<riis::Surface> surface;
-  std::unique_ptr<riis::Surface> before;  // the last content, for its memory
-  riis_surface_options options;           // as completed
+  std::unique_ptr<riis::Surface> before;  // the last content, kept to reuse its memory
+  riis_surface_options options;           // completed by defaults
   double seconds_triangles, seconds_scene;
   std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
-  // Other than that of any surface before: an address may come again.
+  // No earlier surface had this number. An address may be used again, so it does not identify a surface.
   const std::uint64_t number = next_number();
 
  private:

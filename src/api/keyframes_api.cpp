@@ -10,7 +10,7 @@ using riis::require_handle;
 
 namespace {
 
-// Sizes of the first release.
+// The structs' sizes in the first release.
 constexpr std::size_t frames_size = 56, faces_size = 88;
 
 const riis_keyframe_arrays default_frames{

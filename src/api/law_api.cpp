@@ -11,7 +11,7 @@ using riis::require;
 
 namespace {
 
-// Sizes of the first release.
+// The structs' sizes in the first release.
 constexpr std::size_t table_size = 48, times_size = 64, switch_size = 56, switch_state_size = 72, angle_size = 56,
                       angle_state_size = 64;
 

@@ -16,7 +16,7 @@ using riis::require_handle;
 
 namespace {
 
-// Sizes of the first release.
+// The structs' sizes in the first release.
 constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
                       leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
 
@@ -37,7 +37,7 @@ double limit_of(const riis_mark_options &options, double half_thickness) {
   return options.distance_limit;
 }
 
-// Returns their box, which is empty if there are none.
+// Returns the nodes' box, which is empty if there are none.
 riis::Bounds check_nodes(const riis::StridedPoints &nodes) {
   if (nodes.n < 0) riis::fail(RIIS_INVALID_MESH, "n_nodes is ", nodes.n, "; it must be at least 0");
   if (nodes.n > riis::max_nodes)
@@ -91,7 +91,7 @@ riis::Resistance resistance_of(const riis_resistance *resistance, const riis::Ma
       riis::completed<resistance_size>(require(resistance, "resistance"), "resistance", default_resistance), result);
 }
 
-// The surface and the mesh are asked for before the result is, and all of them before the options.
+// Checks the surface first, then the mesh, the result and the options.
 riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *result,
                                     const riis_mark_options *options, std::int32_t &search,
                                     std::int32_t *fields = nullptr) {
@@ -113,7 +113,7 @@ riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh
   return request;
 }
 
-// Leaks are those of a marking with this surface and mesh, as far as can be told.
+// Refuses a result that was not marked with this surface and mesh, as far as its sizes show it.
 void check_is_of_marking(const riis::SearchRequest &request, const riis::MarkResult &result) {
   if (!request.mesh.adjacency().has_value())
     riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges may leak: see riis_mesh_set_adjacency");
@@ -144,7 +144,7 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
                              int64_t stride) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
-    content.forget_places();  // they moved, whether or not what they moved to is accepted
+    content.forget_places();  // the nodes moved, even if the new coordinates are refused
     const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
     content.set_nodes(nodes, check_nodes(nodes));
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that cross the border with their size, so that a caller compiled against an older header keeps working: what
-// it does not know takes its default on the way in and is not written on the way out.
+// Structs that cross the interface with their size, so that a caller compiled against an older header keeps working. A field that
+// the caller does not know takes its default on the way in and is not written on the way out.
 #pragma once
 
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// first_size is the struct's size in the first release that had it; all later sizes are multiples of 8 above it.
+// first_size is the struct's size in the first release that had it. All later sizes are larger multiples of 8.
 template <std::size_t first_size, class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && first_size <= sizeof(Struct) && sizeof(Struct) % 8 == 0);
@@ -30,7 +30,7 @@ void init_struct(Struct *out, std::int64_t size, const char *name, const Struct 
   out->struct_size = size;
 }
 
-// The caller's struct completed by defaults; all defaults for NULL.
+// Returns the caller's struct, completed by defaults. Returns the defaults for NULL.
 template <std::size_t first_size, class Struct>
 Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   Struct whole = defaults;
@@ -42,7 +42,7 @@ Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   return whole;
 }
 
-// As much of value as the caller has room for.
+// Writes as much of the value as the caller has room for.
 template <std::size_t first_size, class Struct>
 void write_struct(Struct *out, std::int64_t size, const char *name, const Struct &value) {
   require(out, name);
@@ -50,20 +50,20 @@ void write_struct(Struct *out, std::int64_t size, const char *name, const Struct
   std::memcpy(out, &value, static_cast<std::size_t>(size));
 }
 
-// *to = value where it is wanted.
+// Writes an output that the caller may leave out by passing null.
 template <class T>
 void put(T *to, T value) {
   if (to) *to = value;
 }
 
-// A far distance must not be mistaken for a near one.
+// Refuses a value for far points that could be mistaken for a near distance.
 inline void check_far_distance(const char *name, double far_distance, double distance_limit) {
   if (far_distance >= 0 && far_distance <= distance_limit)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", far_distance, "; it must not lie between 0 and the distance limit ",
          distance_limit);
 }
 
-// The number of threads that an option asks for, with 0 for the processors that the calling thread may use.
+// Returns the number of threads that an option asks for. 0 stands for the processors that the calling thread may use.
 inline int threads_asked_for(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");

@@ -19,7 +19,7 @@ using riis::require_handle;
 
 namespace {
 
-// Sizes of the first release.
+// The structs' sizes in the first release.
 constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 
 const riis_surface_options default_options{
@@ -39,7 +39,7 @@ void check_flag(const char *name, std::int32_t value) {
     riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
 }
 
-// `name` is the argument's.
+// `name` is the name of the argument.
 void check_placement(const riis_surface_options &options, const char *name) {
   check_range(name, "scale", options.scale, 1e-12, 1e12);
   check_range(name, "rotation_angle", options.rotation_angle, -1e6, 1e6);
@@ -66,7 +66,7 @@ void check_options(const riis_surface_options &options) {
 
 riis::Placement placement_of(const riis_surface_options &options) {
   const double *axis = options.rotation_axis, *t = options.translation;
-  // Scaled before it is squared.
+  // hypot scales before it squares, so very long and very short axes are safe.
   const double size = std::hypot(axis[0], axis[1], axis[2]);
   return {options.scale,
           riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
@@ -77,13 +77,13 @@ double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
 
-// distance_tolerance * half_thickness.
+// Returns distance_tolerance * half_thickness. The tolerance stands in where distance_tolerance is RIIS_AUTO.
 double distance_error_of(const riis_surface_options &options) {
   return half_thickness_of(options) *
          (options.distance_tolerance == RIIS_AUTO ? options.tolerance : options.distance_tolerance);
 }
 
-// A translation so far that coordinates round by what matters would flatten the valve.
+// Refuses a translation so far that the rounding of coordinates would flatten the valve.
 void check_precision(const riis_surface_options &options, const char *name, double wanted) {
   const double *t = options.translation;
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
@@ -92,7 +92,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Where it is not said: so many that starting them pays, going by the last content.
+// Where the options leave the number open, takes as many threads as pay for their start. The last content's size is the guide.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
   if (options.n_threads > 0) return options.n_threads;
   constexpr std::size_t triangles_per_thread = 4096;
@@ -101,14 +101,14 @@ int threads_for(const riis_surface &surface, const riis_surface_options &options
                                                 static_cast<std::size_t>(riis::default_thread_count())));
 }
 
-// Above this many triangles, of some 300 bytes each, memory is worth more than the time to get it again.
+// A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
 constexpr std::size_t max_triangles_kept = 1'000'000;
 
 riis::SurfaceRequest request_of(const riis_surface &surface, const riis_surface_options &options) {
   return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, threads_for(surface, options)};
 }
 
-// Makes the new content aside and puts it in place at the end, so that a failure leaves the surface as it was.
+// Makes the new content aside and puts it in place at the end: a failure leaves the surface as it was.
 template <class Make>
 void fill(riis_surface &surface, const riis_surface_options &options, const Make &make) {
   const riis::SurfaceRequest request = request_of(surface, options);
@@ -133,7 +133,7 @@ struct MotionArguments {
 
 riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
   require_handle(motion.valve_before, "valve_before");
-  // A state that lasts less than that, or longer, is a mistake, and the velocity stays far from overflow.
+  // A shorter or longer time is a mistake. Within these limits the velocity stays far from overflow.
   if (!(std::abs(motion.seconds) >= 1e-30 && std::abs(motion.seconds) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "seconds is ", motion.seconds,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");

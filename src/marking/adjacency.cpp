@@ -22,8 +22,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
 }
 
 constexpr std::int64_t rows_per_block = 4096;
-// Rows from a function that appends the neighbours of a node, in any order and repeatedly. It is asked twice, for the lengths and for
-// the columns: no list of all pairs is ever held.
+// Makes rows from a function that appends the neighbours of a node, in any order and with repeats. The function is called twice
+// for each node: for the row's length, then for its columns. So no list of all pairs is ever held.
 template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;
@@ -63,12 +63,12 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
   return made;
 }
 
-// For every node the items (cells, faces) that it is in, in no particular order.
+// The items (cells or faces) that each node is in, in no particular order.
 struct ItemsOfNodes {
   std::vector<std::int64_t> offsets, items;
 };
 
-// nodes_of(item, visit) calls visit for the nodes of an item.
+// nodes_of(item, visit) calls visit for each node of an item.
 template <class NodesOf>
 ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_threads, const NodesOf &nodes_of) {
   const auto n = static_cast<std::size_t>(n_nodes);
@@ -97,7 +97,7 @@ ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_th
   return made;
 }
 
-// Edges of a cell by its number of nodes, as pairs of positions in its list of nodes.
+// A cell's edges, as pairs of positions in its list of nodes. The number of nodes decides the shape.
 struct CellShape {
   int n_edges;
   std::array<std::array<std::uint8_t, 2>, 12> edges;
@@ -141,7 +141,7 @@ class Cells {
              "; it must begin with 0 or with index_base, ", base_);
     } else if (!shape_of(cells.nodes_per_cell))
       fail(RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is ", cells.nodes_per_cell, "; it must be 4, 5, 6 or 8");
-    // All offsets before any node: only then is it known where the nodes end.
+    // All offsets are checked before any node: only then is it known where the nodes end.
     if (offsets_.data)
       for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_size(cell);
     for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_nodes(cell);
@@ -154,7 +154,7 @@ class Cells {
   std::int64_t node(std::int64_t cell, std::int64_t k) const { return nodes_[begin(cell) + k] - base_; }
 
  private:
-  // On the numbers as they are given: what is subtracted before it is known to be sound may overflow.
+  // Checks the numbers as they are given: subtracting unchecked numbers may overflow.
   void check_size(std::int64_t cell) const {
     const std::int64_t from = offsets_[cell], to = offsets_[cell + 1];
     if (to < from || !shape_of(to - from))
@@ -201,7 +201,7 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
     if (end < begin)
       fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency ends at ", end, ", before it begins, at ", begin);
   }
-  // Now that all rows are in order, none reaches beyond the columns that the last offset promises.
+  // The offsets ascend, so no row reaches beyond the columns that the last offset promises.
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
     const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
     if (end > begin) require(csr.columns, "csr.columns");
@@ -264,7 +264,7 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
   const auto end_of = [&](const IntegerArray &ends, std::int64_t face) { return ends[face * faces.stride] - base; };
-  // As for cells, on the numbers as they are given.
+  // Checks the numbers as they are given, as for cells.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

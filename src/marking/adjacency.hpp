@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes are neighbours: the caller's compressed sparse rows where they lie, checked; and rows that the library makes from
-// cells, faces or a structured grid.
+// The neighbours of each node, as compressed sparse rows. The rows are the caller's, checked and not copied, or the library makes
+// them from cells, faces or a structured grid.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,7 +17,7 @@ struct Adjacency {
   IntegerArray offsets, columns;
   std::int64_t base = 0;
 
-  // Calls visit for every neighbour of node i that is a node of the mesh: ghosts are left out.
+  // Calls visit for every neighbour of node i that is a node of the mesh. Ghosts are left out.
   template <class Visit>
   void for_each_neighbor(std::int64_t i, const Visit &visit) const {
     const std::int64_t begin = offsets[i] - base, end = offsets[i + 1] - base;
@@ -27,7 +27,7 @@ struct Adjacency {
     }
   }
 
-  // Whether node j is in row i.
+  // Tells whether node j is in row i.
   bool has_neighbor(std::int64_t i, std::int64_t j) const {
     const std::int64_t end = offsets[i + 1] - base;
     std::int64_t k = offsets[i] - base;
@@ -36,7 +36,7 @@ struct Adjacency {
   }
 };
 
-// Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_MESH, naming the field or the row, and the value.
+// Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_MESH. The message names the field or the row, and the value.
 Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes);
 
 // Rows that the library owns.

@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// The mesh's frame in the surface's.
+// The mesh's frame relative to the surface's.
 struct Placing {
   double ratio;
   Vec3 shift;
@@ -37,7 +37,7 @@ class ClusterSearch {
     const Frame &frame = groups_.frame;
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
-    // With the rounding of the decision's distances.
+    // The second term covers the rounding of the decision's distances.
     const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
@@ -54,7 +54,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads);
   }
 
-  // The clusters that the surface may be near to, each with the groups that it may be near to and for each of these its leaves.
+  // Finds the clusters that the surface may be near. Each gets the groups that it may be near, and each of these groups gets the
+  // cluster's leaves that it may be near.
   void find_near_clusters() {
     const Bounds &bounds = scene_.bounds();
     const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
@@ -112,13 +113,13 @@ class ClusterSearch {
   }
 
  private:
-  // Adds those of n numbers that have the bit; returns how many.
+  // Appends the numbers whose bits have the given bit, and returns how many these are.
   static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                                 std::vector<std::int32_t> &to) {
     const std::size_t first = to.size();
     to.resize(first + n);
     std::int32_t *next = to.data() + first;
-    // Written whether or not it stays: nobody can guess which do.
+    // Every number is written and only kept ones advance: a branch here could not be predicted.
     for (std::size_t k = 0; k < n; ++k) {
       *next = numbers[k];
       next += bits[k] >> bit & 1;
@@ -143,11 +144,11 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of a cluster that the filter leaves, until they are decided.
+  // The pairs of node and triangle that the filter leaves in a cluster, until they are decided.
   struct Pairs {
     std::int64_t first_leaf;
     std::int32_t n = 0;
-    std::uint32_t nodes[leaves_per_cluster] = {};  // that have, or had, some: a bit a node
+    std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
 
   void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, std::vector<FoundNode> &found) {
@@ -155,7 +156,7 @@ class ClusterSearch {
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
-    std::uint32_t near = 0;  // leaves, a bit each
+    std::uint32_t near = 0;  // a bit for each near leaf
     for (std::size_t k = 0; k < item.n; ++k) near |= leaf_bits[k];
     Pairs pairs{leaves.begin};
     for (; near; near &= near - 1) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search over clusters of nodes, and the memory that it reuses from marking to marking. It filters in single precision, sixteen
-// triangles at a time, and decides in double (docs/theory.md, section 8).
+// The search over clusters of nodes, and the memory that it reuses from marking to marking. It filters in single precision,
+// sixteen triangles at a time, and decides in double (docs/theory.md, section 8).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster, and the thread and places of its near groups.
+  // A near cluster, the thread that holds its near groups, and their places in that thread's lists.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;
@@ -25,10 +25,10 @@ struct ClusterScratch {
   };
   struct alignas(64) Thread {
     std::vector<std::int32_t> candidates;  // groups near a region
-    std::vector<std::uint16_t> bits;       // the clusters of the region that each candidate is near to
+    std::vector<std::uint16_t> bits;       // for each candidate, the region's clusters that it is near
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
-    std::vector<std::uint16_t> leaf_bits;   // the leaves that each near group is near to
+    std::vector<std::uint16_t> leaf_bits;   // for each near group, the leaves that it is near
     std::vector<std::int32_t> leaf_groups;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];
@@ -50,11 +50,11 @@ struct ClusterScratch {
   void prepare(int n_threads);
 };
 
-// False where single precision does not separate near from far: the mesh is a million times as large as the surface, far from it or
-// smaller than it, or the limit is that large.
+// Returns false where single precision does not separate near from far. The limit, the mesh or the mesh's distance from the
+// surface is then about a million times the surface's size, or the mesh is extremely small beside the surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
-// The clusters are those of the request's mesh, and separates_in_single_precision is true of them.
+// The clusters must belong to the request's mesh, and separates_in_single_precision must be true of them.
 SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch,
                              FoundNodes &found);
 

@@ -30,7 +30,7 @@ NodeBox box_of(const Boxes &boxes) {
   return box;
 }
 
-// Unused lanes have empty boxes: their bounds are infinite, so that nothing is near them.
+// Unused lanes have empty boxes: the lower bounds are +infinity and the upper ones -infinity, so nothing is near them.
 Boxes no_boxes() {
   Boxes boxes;
   for (int i = 0; i < 3; ++i)
@@ -40,7 +40,8 @@ Boxes no_boxes() {
 
 std::int64_t n_of(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
 
-// Fills leaves with the nodes node_of(position), then the boxes. Clusters of no nodes stay that if there is no memory.
+// Fills leaves with the nodes node_of(position), then makes the boxes. If memory runs out, clusters that were not made yet still
+// count as not made.
 template <class NodeOf>
 void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NodeOf &node_of) {
   const std::int64_t n_nodes = nodes.n;
@@ -48,7 +49,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   const std::int64_t n_clusters = n_of(n_nodes, nodes_per_cluster);
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
-    // Not filled with zeros: whoever writes a page first should be who has it.
+    // Not filled with zeros: the thread that first writes a page should be the one that uses it.
     clusters.leaves.reset(new Leaf[static_cast<std::size_t>(n_leaves)]);
     clusters.points.reset(new LeafPoints[static_cast<std::size_t>(n_leaves)]);
     clusters.n_leaves = n_leaves;
@@ -116,7 +117,7 @@ void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clu
 
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
   clusters.frame = frame_of(nodes, n_threads, clusters.blocks);
-  // A leaf's nodes are read where they are written: each before its place is.
+  // Each leaf is read and written in place: a node's number is read before it is overwritten.
   const Leaf *leaves = clusters.leaves.get();
   fill(nodes, clusters, n_threads,
        [leaves](std::int64_t i) { return leaves[i / nodes_per_leaf].node[i % nodes_per_leaf]; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh's nodes in leaves of 32 near ones, 16 leaves to a cluster, 16 clusters to a region, each with a box: what a search can dismiss
-// together. Made once for a mesh; when nodes move the order stays and places and boxes are made again.
+// A mesh's nodes in leaves, clusters and regions. A leaf has 32 nodes near each other, a cluster 16 leaves, a region 16 clusters.
+// Each has a box, so that a search can dismiss its nodes together. The order is made once for a mesh. When nodes move, the order
+// stays; places and boxes are made again.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes as they are: the caller's lie anywhere, and what is decided wants them together.
+// The coordinates of a leaf's nodes in double precision, side by side: in the caller's array they lie anywhere, and the decision
+// reads them together.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
 };
@@ -24,29 +26,29 @@ struct Clusters {
   static constexpr std::int64_t clusters_per_region = 16;
 
   std::int64_t n_nodes = 0;
-  NodeFrame frame;  // of the coordinates in leaves and boxes
+  NodeFrame frame;  // the coordinates in leaves and boxes are in this frame
   std::int64_t n_leaves = 0;
   std::unique_ptr<Leaf[]> leaves;
-  std::unique_ptr<LeafPoints[]> points;  // of leaves
-  std::vector<Boxes> clusters;           // the boxes of its leaves
-  std::vector<Boxes> regions;            // the boxes of its clusters
+  std::unique_ptr<LeafPoints[]> points;  // one per leaf
+  std::vector<Boxes> clusters;           // for each cluster, the boxes of its leaves
+  std::vector<Boxes> regions;            // for each region, the boxes of its clusters
   struct Box {
     float lower[3], upper[3];
   };
-  std::vector<Box> boxes;      // of regions
-  std::vector<Bounds> blocks;  // memory of frame_of
+  std::vector<Box> boxes;      // one per region
+  std::vector<Bounds> blocks;  // memory that frame_of reuses
 
   Range leaves_of(std::int64_t cluster) const;
   Range clusters_of(std::int64_t region) const;
   int n_nodes_of(std::int64_t leaf) const;
 };
 
-// More nodes than have numbers in a leaf.
+// A leaf stores node numbers in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// Both fail with RIIS_INVALID_MESH for a coordinate that is not finite. Clusters without nodes have not been made yet.
+// Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. Clusters with n_nodes 0 have not been made yet.
 void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
-// The nodes of the clusters where they are now.
+// Keeps the order and updates places and boxes to the nodes' new coordinates.
 void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What searches ask for distances, whichever way a surface measures them: its triangles, or another method. Searches are
-// compiled for either, so that the triangles pay nothing for there being others.
+// How searches query distances: a surface measures them to its triangles or by another method. Searches are compiled once for
+// each way, so distances to triangles cost no virtual call.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// The closest triangle of a surface.
+// Distances to the triangles of a surface.
 struct TriangleDistances {
   const TriangleScene &scene;
   InstructionSet instructions;
@@ -18,17 +18,17 @@ struct TriangleDistances {
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
   ClosestTriangle closest(Vec3 p, double limit) const { return scene.closest(p, limit, instructions); }
 
-  // A number d such that no point q has a distance below d - |q - p|: what proves that points near p are far. Infinity where
-  // d is above the limit.
+  // Returns a number d such that every point q has a distance of at least d - |q - p|. This proves that points near p are far.
+  // Returns infinity where d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
 
-  // How far a distance may be off, beyond what is in proportion to it and to p.
+  // The absolute part of a distance's error; the rest is in proportion to the distance and to p.
   double rounding() const { return scene.rounding(); }
 };
 
-// By another method. Where a triangle would be said it is the position of a patch.
+// Distances by another method. The position of a patch stands in place of a triangle's.
 struct OtherDistances {
   const PatchDistance &method;
   const TriangleScene &scene;
@@ -40,8 +40,8 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // A method that may end anywhere proves nothing of points nearby. But what it says is the distance of a point of S, so not less
-  // than the distance to the triangles, less what these are off.
+  // A method that may end anywhere on S proves nothing about points nearby. But its result is the distance of some point of S. So
+  // it is at least the distance to the triangles less their error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     const double infinity = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ struct OtherDistances {
   double rounding() const { return scene.rounding(); }
 };
 
-// visit(distances) for those of the surface.
+// Calls visit(distances) with the surface's way of measuring.
 template <class Visit>
 auto with_distances(const Surface &surface, InstructionSet instructions, const Visit &visit) {
   if (const PatchDistance *method = surface.other_distance())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edges of a mesh by blocks of rows: how long they are and where, so that whoever seeks long ones near the surface passes over
-// the others, sixty-four rows at a time.
+// The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
+// surface passes over the other blocks as a whole.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@ struct EdgeBlocks {
   static constexpr std::int64_t rows_per_block = 64;
 
   struct Block {
-    double longest = 0;  // edge of its rows
-    Bounds bounds;       // of its edges
+    double longest = 0;  // length of the longest edge of its rows
+    Bounds bounds;       // box of its edges
   };
   std::vector<Block> blocks;
-  double longest = 0;  // edge of all
+  double longest = 0;  // length of the mesh's longest edge
 };
 
 // Fails with RIIS_INVALID_MESH if a coordinate is not usable.

@@ -13,7 +13,7 @@
 namespace riis {
 namespace {
 
-// Small enough that two threads share a band of a coarse mesh evenly, large enough that handing out costs nothing.
+// Blocks are so small that two threads share a band of a coarse mesh evenly, and so large that handing them out costs nothing.
 constexpr std::int64_t nodes_per_block = 2048;
 
 template <class Distances>

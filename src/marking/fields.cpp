@@ -16,7 +16,7 @@ namespace {
 constexpr std::int32_t all_fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE |
                                     RIIS_FIELD_RIM | RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH;
 
-// Calls visit(array, numbers a node) for the array of every field in `fields`.
+// Calls visit(array, numbers per node) for the array of every field in `fields`.
 template <class Fields, class Visit>
 void for_each_array(std::int32_t fields, Fields &made, const Visit &visit) {
   const auto has = [&](std::int32_t field) { return (fields & field) != 0; };
@@ -36,7 +36,7 @@ void put(std::vector<double> &to, std::size_t i, Vec3 value) {
   to[3 * i + 2] = value.z;
 }
 
-// The position of a triangle in the set. Ids are positions, unless triangles of the caller's arrays were left out.
+// Returns the position of a triangle in the set. It is the id, unless triangles of the caller's arrays were left out.
 std::size_t position_of(const TriangleSet &set, std::int64_t triangle_id) {
   const auto guess = static_cast<std::size_t>(triangle_id);
   if (guess < set.n_triangles() && set.triangle_id[guess] == triangle_id) return guess;
@@ -110,7 +110,7 @@ class TriangleFields {
     return has_normals_ ? surface_.normal(triangle) : triangle_normal(set_.corners(triangle));
   }
 
-  // A field of the vertices, each of which has n components.
+  // Interpolates a field that has n components per vertex.
   template <std::size_t n>
   void interpolate(const std::vector<double> &field, std::size_t triangle, const PointOnTriangle &on, double *to) const {
     const std::int64_t *id = set_.vertex_id.data() + 3 * triangle;
@@ -126,12 +126,12 @@ class TriangleFields {
   const StridedPoints &nodes_;
   void (*locate_)(const PointsAndTriangles &, PointsOnTriangles &);
   std::int32_t fields_;
-  bool has_normals_;  // the surface made them, for the sides
+  bool has_normals_;  // true if the surface made them, for the sides
   const NodeList &list_;
   NodeFields &made_;
 };
 
-// Fields of a node whose distance is by sampling or minimisation: the point is found once more.
+// Writes the fields of a node whose distance is by sampling or minimisation. It finds the point once more.
 void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::int64_t node, std::size_t i,
                         NodeFields &made) {
   const PatchDistance &method = *request.surface.other_distance();
@@ -146,14 +146,14 @@ void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::
 
 void NodeFields::reserve(std::int32_t fields, std::size_t n) {
   for_each_array(fields, *this, [&](auto &array, std::size_t per_node) {
-    // Half as much again: a moving valve must not want more memory with every new largest number.
+    // Reserves half as much again: a moving valve would otherwise need more memory at every new largest number of nodes.
     if (per_node * n > array.capacity()) array.reserve(per_node * (n + n / 2));
   });
 }
 
 void NodeFields::resize(std::int32_t fields, std::size_t n) {
   for_each_array(all_fields & ~fields, *this, [](auto &array, std::size_t) { array.clear(); });
-  // What the last marking left stays: every entry is written.
+  // Old entries need not be cleared, because every entry is written.
   for_each_array(fields, *this, [&](auto &array, std::size_t per_node) { array.resize(per_node * n); });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the closest point of a node knows besides its distance: the fields that a solver's force needs.
-// In: nodes within the limit with their decided triangles. Out: an array for each field that was asked for.
+// Data about a node's closest point besides its distance: the fields that a solver's force needs.
+// In: nodes within the limit with their decided triangles. Out: an array for each requested field.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// Arrays of the fields of one list of nodes, in the list's order. An array that was not asked for is empty.
+// Arrays of the fields of one list of nodes, in the list's order. An array that was not requested is empty.
 struct NodeFields {
   std::vector<double> point, normal, barycentric, velocity;  // (3, n)
   std::vector<double> uv;                                    // (2, n)
@@ -25,10 +25,10 @@ struct NodeFields {
 // Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
 void check_fields(const Surface &surface, std::int32_t fields);
 
-// Writes the fields of the nodes in the list. Both have been reserved, so nothing is thrown.
+// Writes the fields of the nodes in the list. Memory was reserved for both, so this does not throw.
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made);
 
-// Writes the fields of the nodes that are in both lists; `some` is a part of `all`, and both ascend.
+// Writes the fields of the nodes of `some`, which is a part of `all`. Both ascend.
 void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made);
 

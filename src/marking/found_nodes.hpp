@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes that a search finds, listed by the thread that found them. The memory is reused: a steady step allocates nothing of the
-// library's own.
+// The nodes that a search finds, in one list per thread that found them. The memory is reused: in a steady run of steps the
+// library allocates nothing itself.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace riis {
 
-// More than any memory holds the coordinates of.
+// No memory holds the coordinates of so many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
-// A node within the distance limit. The triangle is a position in the surface's set; where triangles do not measure the distances it
-// is the position of a patch.
+// A node within the distance limit. `triangle` is a position in the surface's set of triangles. Where another method measures the
+// distances, it is the position of a patch.
 struct FoundNode {
   std::uint64_t node : 40, triangle : 24;
   double distance;
@@ -30,11 +30,11 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Lists in no particular order, one a thread.
+// One list per thread, each in no particular order.
 struct FoundNodes {
   std::vector<std::vector<FoundNode>> by_thread;
 
-  // Empties the lists. Shares between threads differ from step to step, so each list gets room for twice the longest one.
+  // Empties the lists. The threads' shares differ from step to step, so each list gets room for twice the longest one.
   void prepare(int n_threads) {
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     std::size_t largest = 0;

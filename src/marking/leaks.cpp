@@ -22,15 +22,15 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// An edge up to here that meets the surface has a node within the half thickness, also as distances are computed: half of it is at
-// most its half, and rounding is counted more than once. Where the marks do not follow the distances to the triangles, or some may be
-// missing, no edge is short.
+// An edge of at most this length that meets the surface has a node within the half thickness: its nearer node is at most half its
+// length from the crossing. The margins count rounding more than once, so this also holds for computed distances. Returns -1, so
+// that no edge counts as short, where marks may be missing or do not follow the distances to the triangles.
 double length_that_cannot_leak(const Surface &surface, const MarkResult &result) {
   if (surface.other_distance() || !result.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
 }
 
-// What one thread needs.
+// The search of one thread, and its memory.
 struct alignas(64) Finder {
   const SearchRequest *request = nullptr;
   const std::vector<std::int64_t> *marked = nullptr;
@@ -53,8 +53,8 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // False only where no point of the surface is within the radius of p: one query saves many. Rounding is counted more than once, that
-  // of p, too, which is somewhere near the surface.
+  // Returns false only where no point of the surface is within the radius of p: one query saves many. The margin counts rounding
+  // more than once, also that of p, which is somewhere near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
@@ -80,7 +80,7 @@ struct alignas(64) Finder {
       const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
-      // From the same end whichever row it is in.
+      // The edge is followed from the same end whichever row it is in.
       if (crosses(i < j ? p : q, i < j ? q : p)) found.push_back({std::min(i, j), std::max(i, j), length});
     });
   }
@@ -111,7 +111,7 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const MarkResult &
   return found;
 }
 
-// The distance of the nearer node, with the marking's bits.
+// Returns the distance of the nearer node, equal bit for bit to the marking's.
 double closing_distance(const SearchRequest &request, const Edge &edge) {
   const StridedPoints &nodes = request.mesh.nodes();
   return with_distances(request.surface, request.instructions, [&](const auto &distances) {

@@ -10,14 +10,14 @@
 namespace riis {
 namespace {
 
-// False for a limit so wide that most triangles are near to most nodes, which clusters do not help with.
+// Returns false for a limit so wide that most triangles are near most nodes: there clusters do not help.
 bool has_few_near(const SearchRequest &request) {
   const Bounds &bounds = request.surface.scene().bounds();
   const Vec3 extent = bounds.upper - bounds.lower;
   return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
 }
 
-// The clusters, once they pay for themselves; a single marking asks the nodes one by one.
+// RIIS_SEARCH_AUTO becomes clusters once these pay for themselves: a mesh's first marking queries the nodes one by one.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)
@@ -38,7 +38,7 @@ struct Ran {
   SearchReport report;
 };
 
-// Clusters, or the exhaustive search where clusters are too many or single precision is too coarse for them.
+// Searches clusters, or exhaustively where the mesh has too many nodes for clusters or single precision is too coarse.
 Ran run_clusters(const SearchRequest &request, MarkResult &result) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
@@ -51,13 +51,14 @@ Ran run_clusters(const SearchRequest &request, MarkResult &result) {
 Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
   static const std::vector<std::int64_t> nowhere;
   if (request.mesh.nodes().n == 0) {
-    // A rank without nodes: every search finds all of nothing.
+    // A rank may have no nodes. Then every search is complete and finds nothing.
     result.found.prepare(1);
     return {search, {0, 1, true, 0}};
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // The last marking is where a moving valve is again, nearly; if it was of another mesh, its nodes are as good as any.
+      // A moving valve is near its last place, so the walk starts at the nodes found last. A list from another mesh with as many
+      // nodes does no harm.
       const bool fits = result.stats.n_nodes == request.mesh.nodes().n;
       return {search,
               search_neighbors(request, fits ? result.within.node_id : nowhere, result.neighbor_scratch, result.found)};
@@ -78,7 +79,7 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   check_fields(request.surface, fields);
   const auto [search, report] = run(request, search_for(request, asked_for), result);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
-  // What may fail comes before the first list is overwritten.
+  // Calls that may fail come before the first list is overwritten.
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) request.surface.prepare_sides();

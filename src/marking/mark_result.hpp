@@ -23,8 +23,8 @@ struct LeakingEdges {
 };
 
 struct MarkResult {
-  NodeList within;  // the distance limit
-  NodeList marked;  // only used while the limit is wider than the half thickness; otherwise `within` is it
+  NodeList within;          // nodes within the distance limit
+  NodeList marked;          // used only where the limit is wider than the half thickness; elsewhere `within` has them
   bool was_marked = false;  // false for an empty result
   std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking was asked for
   NodeFields fields_within;
@@ -32,9 +32,9 @@ struct MarkResult {
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  int n_threads = 1;  // as the caller wanted
+  int n_threads = 1;  // as the caller asked for
   riis_mark_stats stats{};
-  LeakingEdges leaking;  // of the last marking, after a search for them
+  LeakingEdges leaking;  // empty until a search for leaks follows the marking
 
   // Memory for the next marking.
   FoundNodes found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's nodes and adjacency, borrowed; checked when they are given. And what searches want to know of them, made when it is first
-// asked for.
+// The caller's nodes and adjacency, borrowed and checked when they are given. The mesh also owns the searches' data about the
+// nodes: balls, clusters and blocks of edges, each made when it is first needed.
 #pragma once
 
 #include <atomic>
@@ -27,31 +27,31 @@ class Mesh {
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
-  // What is known of where the nodes are no longer holds.
+  // Call this when the nodes have moved: balls, clusters and edges are made again when they are next needed.
   void forget_places() {
     has_balls_.store(false, std::memory_order_relaxed);
     has_clusters_.store(false, std::memory_order_relaxed);
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // Other coordinates of the same nodes, or other nodes: these have no adjacency yet.
+  // Sets other coordinates of the same nodes, or other nodes. Another number of nodes removes the adjacency.
   void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
   void set_adjacency(const std::optional<Adjacency> &adjacency) {
     adjacency_ = adjacency;
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // The nodes in balls of near ones. Several threads may call it at once.
+  // The nodes in balls. Several threads may call this and the two functions below at once.
   const NodeBalls &balls(int n_threads) const;
-  // The same in clusters, for at most max_clustered_nodes.
+  // The nodes in clusters. The mesh must have at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
-  // Where the long edges are; the mesh has an adjacency.
+  // The edges in blocks of rows. The mesh must have an adjacency.
   const EdgeBlocks &edges(int n_threads) const;
 
-  // Records a marking of these nodes. Returns true if one was recorded before, or if clusters were made: then clusters pay.
+  // Records a marking of these nodes. Returns true if clusters pay: a marking was recorded before, or clusters were made.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
-  // The surfaces that do not fit this mesh, as far as that was said.
+  // The surfaces that the caller was warned about because their sizes do not fit this mesh.
   Warned &warned() const { return warned_; }
 
  private:

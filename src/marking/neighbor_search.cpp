@@ -32,12 +32,12 @@ class NeighborSearch {
     walked_.prepare(nodes_.n, request.n_threads);
   }
 
-  // Nodes to begin with; each is asked once, however often it is named.
+  // Adds a node to begin with. Each is queried once, however often it is added.
   void begin_at(std::int64_t node) {
     if (!request_.is_masked_out(node) && walked_.claim(node)) view(walked_.queue)[n_queued_++] = node;
   }
 
-  // Asks the nodes to begin with, and from each that is within the limit its neighbours.
+  // Queries the nodes to begin with. From each node within the limit it goes on to the node's neighbours.
   void walk() {
     std::vector<Range> &ranges = walked_.ranges;
     ranges.clear();
@@ -92,11 +92,11 @@ class NeighborSearch {
     });
     n_threads_ = std::max(n_threads_, n_ran);
     for (const auto &own : walked_.threads) near.insert(near.end(), own.near_balls.begin(), own.near_balls.end());
-    // In an order that does not depend on the threads.
+    // The order must not depend on the threads.
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // Begins in every ball that the surface may be near to.
+  // Begins at one node in every near ball, the first that is not proven far.
   void begin_in_near_balls(const NodeBalls &balls) {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
@@ -109,7 +109,7 @@ class NeighborSearch {
     }
   }
 
-  // Proves that every node that was not walked to is far, by its ball's centre, or queries it.
+  // Every node of a near ball that the walk did not reach is proven far by its ball's centre, or queried.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
@@ -136,7 +136,7 @@ class NeighborSearch {
   }
 
  private:
-  // Asks for the distance of a node; true, and the node is found, if it is within the limit.
+  // Queries the distance of a node. If it is within the limit, adds the node to the found ones and returns true.
   bool ask(std::int64_t node, int thread) {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!distances_.may_be_within(p, limit_)) return false;
@@ -147,15 +147,16 @@ class NeighborSearch {
     return true;
   }
 
-  // Farther from the surface than the limit, whatever direction it is in: the centre's distance less its own from the centre.
+  // Returns true if the node is farther from the surface than the limit, whatever its direction from the ball's centre. The
+  // node's distance is at least the centre's distance less the node's distance from the centre.
   bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
     const Vec3 centre = view(balls.balls)[near.ball].centre;
     const double from_centre = distance(centre, nodes_[node]);
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // For the rounding of two distances and of a ball's radius: in proportion to them, to the nodes' coordinates, and to the
-  // triangles'.
+  // Covers the rounding of two distances and of a ball's radius. It is in proportion to them, to the nodes' coordinates and to
+  // the triangles' coordinates.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
            2 * distances_.rounding();

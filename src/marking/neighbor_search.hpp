@@ -14,15 +14,15 @@
 
 namespace riis {
 
-// A ball that may hold nodes within the limit, and a lower bound on the distance of its centre.
+// A ball that may hold nodes within the limit.
 struct NearBall {
   std::int64_t ball;
-  double distance;
+  double distance;  // a lower bound on the distance of the ball's centre
 };
 
 class NeighborScratch {
  public:
-  // A thread's own; on cache lines of its own.
+  // The memory of one thread, on cache lines of its own.
   struct alignas(64) Thread {
     std::vector<std::int64_t> next;
     std::vector<NearBall> near_balls;
@@ -39,7 +39,7 @@ class NeighborScratch {
   std::vector<Range> ranges;
   std::vector<NearBall> near_balls;
 
-  // Nodes that a thread hands on together.
+  // The number of nodes that a thread hands on together.
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);
@@ -51,17 +51,18 @@ class NeighborScratch {
   bool is_claimed(std::int64_t node) const { return marks_.get()[node].load(std::memory_order_relaxed) == walk_; }
 
  private:
-  std::unique_ptr<std::atomic<std::uint8_t>[]> marks_;  // the number of the walk that claimed the node
+  std::unique_ptr<std::atomic<std::uint8_t>[]> marks_;  // for each node, the number of the last walk that claimed it
   std::int64_t n_marks_ = 0;
   std::uint8_t walk_ = 0;
 };
 
-// From neighbour to neighbour; nodes that the walk does not reach are proven far (paper, 4.2.2 "Recursive neighbor search";
-// docs/theory.md, section 7). The walk starts at the nodes of `last`, such as those of the last marking. The mesh has an adjacency.
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"), and proves that the other nodes are far or
+// queries them (docs/theory.md, section 7). The walk starts at the nodes of `last`, usually the last marking's. The mesh must
+// have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 
-// The paper's algorithm to the letter.
+// Runs the paper's algorithm to the letter, without the proof. The mesh must have an adjacency.
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

@@ -20,12 +20,12 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
   });
 }
 
-// A ball's radius is right to a few units of rounding of the coordinates.
+// A computed radius is off by at most a few units of rounding of the coordinates, which this adds.
 double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }
 
-// The ball around the middle of the range's balls; nodes are balls without radius.
+// Returns a ball around the balls of a range, centred in the middle of their centres' box. A node is a ball of radius 0.
 template <class BallAt>
 Ball ball_around(const Range &range, const BallAt &ball_at) {
   Bounds box;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mesh's nodes in balls of 32 near ones, and 16 balls to a larger one: the neighbour search dismisses the nodes of a ball together.
-// Made once for a mesh. When nodes move their order stays, and the balls are made again.
+// The mesh's nodes in balls. A ball has 32 nodes near each other, a large ball has 16 balls. The neighbour search dismisses the
+// nodes of a ball together. The order is made once for a mesh. When nodes move, the order stays and the balls are made again.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace riis {
 
 struct Ball {
   Vec3 centre;
-  double radius;  // at least the distance of each of its nodes
+  double radius;  // at least the distance from the centre to each node
 };
 
 struct NodeBalls {
@@ -26,10 +26,10 @@ struct NodeBalls {
   Range balls_of(std::int64_t large_ball) const;
 };
 
-// Both fail with RIIS_INVALID_MESH for a coordinate that is not finite.
+// Makes the order. Both functions fail with RIIS_INVALID_MESH for an unusable coordinate.
 void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
-// Makes the balls of the order that there is.
+// Makes the balls and large balls from the order.
 void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
 }  // namespace riis

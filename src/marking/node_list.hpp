@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of one entry a node, ascending by node: what a caller gets of a marking.
+// The arrays that a caller gets from a marking: one entry per node, ascending by node.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct NodeList {
   std::vector<std::int32_t> leaflet_id;
 
   std::size_t size() const { return node_id.size(); }
-  // Reserves half as much again, so that a moving valve does not want more memory with every new largest number.
+  // Reserves half as much again: a moving valve would otherwise need more memory at every new largest number of nodes.
   void reserve(std::size_t n) {
     if (n <= node_id.capacity() && n <= leaflet_id.capacity()) return;
     n += n / 2;

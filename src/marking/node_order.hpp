@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An order of nodes in which near ones follow each other, and the frame and boxes that it needs: what clusters and balls share.
+// An order of nodes in which near ones follow each other, with its frame and boxes. Clusters and balls share it.
 // In: the caller's nodes. Out: their numbers in that order.
 #pragma once
 
@@ -26,7 +26,7 @@ inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
   return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
 }
 
-// Coordinates of a mesh: (x - centre) * scale, scale a power of two that brings them between -1 and 1.
+// The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1.
 struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -37,7 +37,7 @@ struct NodeFrame {
   }
 };
 
-// `blocks` is memory that is reused.
+// `blocks` is memory that the call reuses.
 inline NodeFrame frame_of(const StridedPoints &nodes, int n_threads, std::vector<Bounds> &blocks) {
   resize(blocks, (nodes.n + nodes_per_sorting_block - 1) / nodes_per_sorting_block);
   parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
@@ -76,15 +76,15 @@ struct NodeBox {
   }
 };
 
-// A node by its number, Node, which is wide enough for all of the mesh.
+// A node's coordinates and its number. The integer type Node is wide enough for all nodes of the mesh.
 template <class Node>
 struct NodeItem {
   float x[3];
   Node node;
 };
 
-// Sorts nodes so that near ones follow each other: by counting along the longest axis of their box, cut where parts are multiples of a
-// unit, clusters of leaves first, then leaves. Items go from one array to the other and back.
+// Sorts nodes so that near ones follow each other. Each pass sorts a part by counting along the longest axis of its box, then
+// cuts it at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
 template <class Node>
 class NodeSorter {
  public:
@@ -94,7 +94,7 @@ class NodeSorter {
       : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
 
   const std::vector<Item> &sort() {
-    // While parts are fewer than threads want, threads share a part; then each takes whole ones.
+    // While there are too few parts for the threads, all threads share each part. Then each thread takes whole parts.
     Item *at = items_.data(), *other = buffer_.data();
     std::vector<Part> parts{{0, view(items_).size()}}, next;
     const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
@@ -134,7 +134,7 @@ class NodeSorter {
     }
   };
 
-  // A part in blocks that threads share, each with its box and counts; or in one block, for one thread.
+  // A part in blocks that threads share, each with its box and counts. OneBlock is a part in one block, for one thread.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
@@ -166,7 +166,7 @@ class NodeSorter {
     }
   };
 
-  // Cuts into as many parts as keep the cuts at multiples of a unit: clusters, and within a cluster leaves.
+  // Cuts a part into two or four. Every cut is at a multiple of a unit: a cluster, or a leaf within a cluster.
   template <class Visit>
   static void for_each_cut(const Part &part, const Visit &visit) {
     const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
@@ -180,7 +180,7 @@ class NodeSorter {
     }
   }
 
-  // Sorts into bins of the longest axis. Within a bin items keep their order, however many the blocks.
+  // Sorts into bins along the longest axis. Within a bin items keep their order, whatever the number of blocks.
   template <class Blocks>
   static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
     blocks.for_each([&](std::size_t block, const Part &of_block) {

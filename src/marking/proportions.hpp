@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a mesh, a surface and its half thickness can be in one unit.
+// Checks whether a mesh, a surface and its half thickness can be in one unit.
 // In: boxes that are known anyway. Out: a warning to the caller's log function, once for a mesh and a surface.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace riis {
 
-// The surfaces that a mesh was warned of. Several threads may ask at once.
+// The surfaces that a mesh was warned about. Several threads may call both functions at once.
 class Warned {
  public:
-  // True once for every number other than 0, until there are more than fit: then false.
+  // Returns true once for every number other than 0. Returns false for every new number once the list is full.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;
 
@@ -29,7 +29,8 @@ struct Sizes {
   double half_thickness;
 };
 
-// Makes a few comparisons, whatever the size of the mesh. Only sizes are compared: a rank's part of a mesh may be elsewhere.
+// Makes a few comparisons, whatever the size of the mesh. Compares sizes only, not places: a rank's part of a mesh may be
+// elsewhere.
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, Warned &warned);
 
 }  // namespace riis

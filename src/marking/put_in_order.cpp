@@ -10,11 +10,11 @@
 namespace riis {
 namespace {
 
-// Each node of a stretch is a bit while it is put in order.
+// A stretch is put in order through a set with one bit per node.
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 
-// The set of a stretch's found nodes, and the rank of each in it.
+// The set of a stretch's found nodes, which knows the rank of each.
 class Ranks {
  public:
   void clear() { bits_.fill(0); }
@@ -34,7 +34,7 @@ class Ranks {
  private:
   static std::int64_t word(std::int64_t node) { return node % nodes_per_stretch / bits_per_word; }
   static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
-  // On an x86-64 without the instruction for it the compiler would call a function.
+  // Written out because the compiler would call a function for an x86-64 without the popcount instruction.
   static std::uint32_t n_bits(std::uint64_t x) {
     x -= x >> 1 & 0x5555555555555555;
     x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
@@ -61,7 +61,8 @@ class Ordering {
         n_stretches_((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch),
         scratch_(scratch) {}
 
-  // Pass 1. Counts the nodes of each list in each stretch, then makes the counts the places where they begin. Returns the sums.
+  // Pass 1. Counts the nodes of each list in each stretch, then replaces each count by the place where its nodes begin. Returns
+  // the sums.
   OrderScratch::Counts count() {
     scratch_.counts.clear();
     resize(scratch_.counts, n_stretches_ * n_lists_ + 1);
@@ -80,7 +81,7 @@ class Ordering {
     return sum;
   }
 
-  // Pass 2. Copies the found nodes stretch by stretch. The place of each list moves on to its end.
+  // Pass 2. Copies the found nodes stretch by stretch. Each place moves on to the end of its nodes.
   void gather() {
     for_each_list([&](std::int64_t list, const FoundNode &found) {
       std::int64_t &at = counts_of(found, list).n_within;
@@ -117,7 +118,7 @@ class Ordering {
     });
   }
 
-  // Writes the wanted nodes of a stretch to the list, from position `first` on, by their ranks.
+  // Writes the wanted nodes of a stretch to the list by their ranks, from position `first` on.
   template <class IsWanted>
   void write_ranked(const FoundNode *begin, const FoundNode *end, std::int64_t first, NodeList &list,
                     const IsWanted &is_wanted) const {

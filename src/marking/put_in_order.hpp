@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the lists of several threads to lists that ascend by node.
-// In: found nodes. Out: the nodes within the limit, and the marked ones where the limit is wider than the half thickness.
+// Turns the lists of several threads into lists that ascend by node.
+// In: found nodes. Out: the nodes within the limit. Where the limit is wider than the half thickness, also the marked nodes.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct OrderScratch {
   struct Counts {
     std::int64_t n_within, n_marked;
   };
-  std::vector<Counts> counts;         // stretch by stretch, list by list; later where each begins
+  std::vector<Counts> counts;         // stretch by stretch, list by list; later the places where they begin
   std::vector<FoundNode> by_stretch;  // all found nodes, stretch after stretch
 };
 
-// Makes `marked` only where the limit is wider. Reserves all memory before it overwrites a list.
+// Fills `marked` only where the limit is wider than the half thickness. Reserves all memory before it overwrites a list.
 void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
                   int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked);
 

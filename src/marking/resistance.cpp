@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// K at a distance d: (R / eps) delta(d), delta(d) = (1 + cos(pi d / eps)) / (2 eps), 0 from eps on.
+// Returns K at a distance d: (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps), and 0 from eps on.
 double coefficient_at(const Resistance &resistance, double distance) {
   const double eps = resistance.half_thickness;
   if (!(distance < eps)) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The resistive term of the momentum equation and what is measured with it (paper, eq. "RIIS"; docs/theory.md, "Resistance").
+// The resistive term of the momentum equation and the sums over it (paper, eq. "RIIS"; docs/theory.md, "Resistance").
 // In: the nodes within the limit, with their fields. Out: sums over these nodes, added to the caller's arrays.
 #pragma once
 
@@ -16,7 +16,7 @@ struct Resistance {
   bool cuts_rim;
 };
 
-// All fail with RIIS_INVALID_ARGUMENT where the result lacks what they need.
+// All fail with RIIS_INVALID_ARGUMENT if the result lacks data that they need.
 Resistance checked_resistance(const riis_resistance &resistance, const MarkResult &result);
 void add_resistance(const MarkResult &result, const Resistance &resistance, double *coefficient, double *momentum);
 void add_reaction(const MarkResult &result, const Resistance &resistance, const double *velocity, const double *weight,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The request and the report of every search.
-// In: surface, nodes, limit. Out: nodes within the limit, with distance and triangle, in any order.
+// In: surface, mesh, limit. Out: the nodes within the limit, with distance and triangle, in any order.
 #pragma once
 
 #include "distance/surface.hpp"
@@ -27,9 +27,9 @@ struct SearchReport {
   std::int64_t n_unreached;  // found by the neighbour search's proof
 };
 
-// Every search fills FoundNodes in any order. It fails with RIIS_INVALID_MESH if a coordinate is not finite.
+// Every search fills FoundNodes in any order, and fails with RIIS_INVALID_MESH if it reads an unusable coordinate.
 
-// Every node is queried (paper, 4.2.1 "Exhaustive node iteration").
+// Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
 
 }  // namespace riis

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of the arrays in files, promised by riis_vtk.h.
+// The names of the arrays in files. riis_vtk.h promises them.
 #pragma once
 
 namespace riis::vtk {
 
-// What set_marks puts before _marked, _distance and _leaflet, if it is told nothing else.
+// The default of the prefix that set_marks puts before _marked, _distance and _leaflet.
 inline constexpr const char *default_prefix = "riis";
 inline constexpr const char *marked_array = "riis_marked";
 inline constexpr const char *distance_array = "riis_distance";

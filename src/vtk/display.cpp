@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// The server may be resetting itself after a picture before this one.
+// Tries several times, because the server may be resetting itself after the last picture.
 Display *open_display() {
   for (int n_tries_left = 5;; --n_tries_left) {
     Display *display = XOpenDisplay(nullptr);

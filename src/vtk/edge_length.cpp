@@ -15,7 +15,7 @@
 namespace riis::vtk {
 namespace {
 
-// Of other cells VTK's edges are of no use here, or not safe to ask for.
+// The edges that VTK gives for other cells are useless here, or not safe to query.
 bool has_straight_edges(int type) {
   switch (type) {
     case VTK_TRIANGLE:

@@ -72,15 +72,15 @@ std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType
   return {area[0], area[1], area[2]};
 }
 
-// Whether the diagonal from corner i to the opposite one cuts a quad into two triangles that face the same way.
+// Tells whether the diagonal from corner i to the opposite corner cuts a quad into two triangles that face the same way.
 bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   const std::array<double, 3> one = area_of(data, ids, i, i + 1, i + 2);
   const std::array<double, 3> other = area_of(data, ids, i, i + 2, (i + 3) % 4);
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// Quads are cut from their first corner to their third, here and in the core. Where that line runs outside a concave
-// quad, and the other diagonal inside, the corners move on by one.
+// Quads are cut from their first corner to their third, here and in the core. If that line runs outside a concave quad and the
+// other diagonal runs inside, the corners move on by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
@@ -116,7 +116,7 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// "; there are: a, b", for what is not.
+// Returns "; there are: a, b", for messages about an array that is missing.
 std::string list_of_cell_arrays(vtkPointSet *data) {
   std::string list;
   for (int i = 0; i < data->GetCellData()->GetNumberOfArrays(); ++i) {
@@ -126,7 +126,7 @@ std::string list_of_cell_arrays(vtkPointSet *data) {
   return list.empty() ? "; there is none" : list;
 }
 
-// One leaflet id a cell; empty if there is no such array, unless it is required.
+// Returns one leaflet id per cell, or none if there is no such array. Fails if that array is required.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data,
                                             const std::string &leaflets_name, bool is_required) {
   const std::string name = "cell array " + leaflets_name;

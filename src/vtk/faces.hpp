@@ -13,12 +13,12 @@ namespace riis::vtk {
 
 struct Faces {
   std::vector<double> xyz;               // (3, n_vertices): all points, used or not
-  std::vector<std::int64_t> vertex_ids;  // (corners_per_face, n_faces); a quad's first and third end an inner diagonal
+  std::vector<std::int64_t> vertex_ids;  // (corners_per_face, n_faces); a quad's corners 1 and 3 end an inner diagonal
   std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set names none
   std::int32_t corners_per_face = 3;
 };
 
-// The path is for the error text only. Leaflet ids come from the cell array of that name, which must be there if it is required.
+// The path is only for the message. Leaflet ids come from the cell array of the given name, which must exist if it is required.
 Faces faces_of(const std::string &path, vtkPointSet *data, const std::string &leaflets, bool is_required);
 
 }  // namespace riis::vtk

@@ -21,7 +21,7 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-// The file itself where the path is a link, be the file there or not.
+// Follows links to the file itself, which need not exist.
 std::string resolved(const std::string &path) {
   std::filesystem::path place = path;
   for (int n_links_left = 40; std::filesystem::is_symlink(place); --n_links_left) {
@@ -31,17 +31,18 @@ std::string resolved(const std::string &path) {
   return place.string();
 }
 
-// Creates an empty file with a name of its own beside the place and returns the name. replaced is the file that stands
-// in the place, or NULL: its permissions go over, before there is anything to read.
+// Creates an empty file with a new name beside the place and returns the name. `replaced` describes the file that now stands in
+// the place, or is NULL. The new file gets its permissions while there is nothing to read yet.
 std::string create_beside(const std::string &place, const struct stat *replaced) {
   static int n_created = 0;
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
   for (;;) {
     const std::string name = ".riis-" + std::to_string(getpid()) + "-" + std::to_string(n_created++) + ".tmp";
-    std::string path = (folder / name).string();  // moved out: a copy might fail and leave the file
+    std::string path = (folder / name).string();  // returned without a copy, which might fail and leave the file
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
-      // The writer has to open it again. A file system without permissions may refuse, and then loses none.
+      // The owner may always read and write, because the writer opens the file again. A file system without permissions may
+      // refuse, which does no harm.
       if (replaced) static_cast<void>(fchmod(file, (replaced->st_mode & 0777) | S_IRUSR | S_IWUSR));
       close(file);
       return path;
@@ -50,7 +51,7 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   }
 }
 
-// Some file systems report a failed write only when the data has to reach the disk.
+// Needed because some file systems report a failed write only when the data has to reach the disk.
 int synchronise(const std::string &path) {
   const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;

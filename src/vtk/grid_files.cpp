@@ -46,7 +46,7 @@ void check_data_set(const std::string &path, vtkPointSet *data) {
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
 }
 
-// Offsets must be sound before any cell can be looked at.
+// The offsets must be sound before any cell is read.
 void check_offsets(const std::string &path, vtkCellArray *cells) {
   if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
 }
@@ -58,7 +58,7 @@ void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_
   }
 }
 
-// first_id is the first cell's, for the error text.
+// first_id is the id of the first cell, for the message.
 void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType first_id, vtkIdType n_points) {
   check_offsets(path, cells);
   const vtkIdType n_cells = cells ? cells->GetNumberOfCells() : 0;
@@ -70,7 +70,7 @@ void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType fir
   }
 }
 
-// Faces whose first has the id first_id.
+// first_id is the id of the first face, for the message.
 void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_id, vtkIdType n_points) {
   check_point_ids(path, faces, first_id, n_points);
   for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
@@ -81,7 +81,7 @@ void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_i
   }
 }
 
-// How many points a cell of each type has: 0 where the type leaves it open, -1 where there is no such type.
+// Returns the number of points of each type of cell: 0 if the type leaves it open, -1 if there is no such type.
 std::array<int, 256> points_of_cell_types() {
   std::array<int, 256> n_points{};
   for (int type = 0; type < 256; ++type) {
@@ -92,7 +92,7 @@ std::array<int, 256> points_of_cell_types() {
   return n_points;
 }
 
-// VTK's cells trust the number of their points.
+// VTK's cells do not check the number of their points.
 void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   static const std::array<int, 256> points_of_type = points_of_cell_types();
   for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
@@ -108,7 +108,7 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   }
 }
 
-// A polyhedron's faces: at its location the number of faces, then for each face its size and its points.
+// Checks a polyhedron's faces. The array has, from the cell's location on, the number of faces, then each face's size and points.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -143,7 +143,7 @@ void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
   check_polyhedra(path, grid);
 }
 
-// Shows what VTK's XML readers know about their own failure.
+// Makes public what VTK's XML readers know about their own failure.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -153,8 +153,8 @@ class WatchedReader : public Reader {
   }
 };
 
-// VTK 9.1 crashes while it words the error about an array that it cannot read. Reading is therefore done without any
-// words; a second reader, which leaves the arrays out, then says what is wrong with the rest.
+// VTK 9.1 crashes while it writes the message about an array that it cannot read. So the first reader runs with messages off. A
+// second reader, which leaves the arrays out, then says what is wrong with the rest.
 template <class Reader>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Reader> reader;
@@ -167,7 +167,7 @@ template <class Reader>
   fail_file(path, "is damaged: not all of its arrays can be read");
 }
 
-// Runs an XML reader and compares what it hands out with what the file promised.
+// Runs an XML reader and compares its data set with the sizes that the file promised.
 template <class Reader, class DataSet>
 vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
   vtkNew<WatchedReader<Reader>> reader;
@@ -187,7 +187,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   const std::int64_t n_cells = check_legacy(path);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
-  // Left to itself the reader keeps one array of a kind.
+  // By default the reader keeps only one array of each kind.
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
   reader->ReadAllNormalsOn();
@@ -233,7 +233,7 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const Caught
   }
   check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
   check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
-  // Before this VTK does not know its cells' types.
+  // VTK knows the types of the cells only after this call.
   data->BuildCells();
   return data;
 }

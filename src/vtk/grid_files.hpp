@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a path. Out: a VTK data set whose sizes are those that the file promised and whose cells name only points that
-// exist. VTK reads on after many errors and hands out what it has; here a file is whole or an error.
+// In: a path. Out: a VTK data set that has the sizes that the file promised and whose cells name only points that exist. VTK
+// reads on after many errors and returns the part that it has. Here a file is whole or an error.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// An unstructured grid with at least one point, from .vtu (XML) or .vtk (legacy).
+// Reads an unstructured grid with at least one point from a .vtu (XML) or .vtk (legacy) file.
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught);
 
-// Polydata of polygons and strips only, with at least one point, from .vtp (XML).
+// Reads polydata with at least one point from a .vtp (XML) file. The cells are polygons and strips only.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
 }  // namespace riis::vtk

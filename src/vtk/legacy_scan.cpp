@@ -25,7 +25,7 @@
 namespace riis::vtk {
 namespace {
 
-// Bytes of one value in a binary file; 0 for types of varying size.
+// Returns the bytes of one value in a binary file, or 0 for types of varying size.
 int size_of_type(const std::string &type) {
   static const std::map<std::string, int> sizes = {{"char", 1},
                                                    {"signed_char", 1},
@@ -49,7 +49,8 @@ int size_of_type(const std::string &type) {
   return found == sizes.end() ? -1 : found->second;
 }
 
-// Whether VTK, which reads by streams, takes the whole word for a number of the type: infinite or too large ones it does not.
+// Tells whether VTK takes the whole word for a number of the type. VTK reads by streams, which refuse infinite or too large
+// numbers.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const char *const first = word.data(), *const last = first + word.size();
@@ -78,10 +79,10 @@ bool is_number(std::string_view word, const std::string &type) {
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
-// Whole numbers one behind another, which the scan has been past already: they are there, and they are numbers.
+// A row of whole numbers that the scan has passed already, so they are known to be there and to be numbers.
 class Numbers {
  public:
-  // size: bytes of each in a binary file, 4 or 8; 0 in an ASCII file.
+  // size is the bytes of each number in a binary file, 4 or 8, or 0 in an ASCII file.
   Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
 
   std::int64_t next() {
@@ -134,7 +135,7 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // Empty at the end. VTK takes what is longer for two words.
+  // Returns "" at the end. VTK takes a longer word for two.
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
@@ -144,10 +145,10 @@ class Scan {
     return text;
   }
 
-  // In lower case, since the format mostly does not distinguish; empty at the end.
+  // Returns the word in lower case, since the format mostly ignores case, or "" at the end.
   std::string word() { return lower_case(word_as_it_is()); }
 
-  // Words that must be there.
+  // These two return words that must be there.
   std::string_view next_as_it_is() {
     const std::string_view text = word_as_it_is();
     if (text.empty()) refuse_end();
@@ -163,7 +164,7 @@ class Scan {
     return n;
   }
 
-  // A count: what it counts takes room in the file, at least a bit each, so that one beyond the file's size is wrong.
+  // Returns a count. Each counted thing takes at least a bit of the file, so a count beyond the file's number of bits is wrong.
   std::int64_t count() {
     const std::int64_t n = number_of(next());
     if (n < 0) refuse("has the count " + std::to_string(n));
@@ -198,7 +199,7 @@ class Scan {
     rest_.remove_prefix(static_cast<std::size_t>(n));
   }
 
-  // n words of an ASCII file, each a number of the type: VTK closes the file at one that it cannot read, and reads on.
+  // Skips n words of an ASCII file and refuses any that is no number of the type. VTK would close the file there and read on.
   void skip_words(std::int64_t n, const std::string &type) {
     for (std::int64_t i = 0; i < n; ++i) {
       const std::string_view word = take_word(rest_);
@@ -211,7 +212,7 @@ class Scan {
     if (!is_number(word, type)) refuse("has '" + std::string(word.substr(0, 40)) + "' for a number of type " + type);
   }
 
-  // A string in a binary file: the upper two bits of its first byte tell how many bytes hold its length.
+  // Skips a string in a binary file. The upper two bits of its first byte tell how many bytes hold its length.
   void skip_binary_string() {
     if (rest_.empty()) refuse_end();
     const auto first = static_cast<unsigned char>(rest_[0]);
@@ -236,7 +237,7 @@ class Scan {
     }
   }
 
-  // n values that begin on the next line; n is not larger than the number of bits left.
+  // Skips n values that begin on the next line. n must not be larger than the number of bits left.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
     const int size = size_of_type(type);
@@ -251,7 +252,7 @@ class Scan {
     }
   }
 
-  // An array: n tuples of a width that is written in the file, and what VTK's writer may put behind them.
+  // Skips an array: n tuples of a width that the file gives, and the METADATA that VTK's writer may put behind them.
   void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
     if (width > 0 && n > n_bits_left() / width) refuse_end();
     skip_values(n * width, type);
@@ -261,8 +262,8 @@ class Scan {
     skip_metadata(width);
   }
 
-  // A block of METADATA behind its keyword: it ends with a blank line. Names of components, though, have a line each, a
-  // blank one where a component has no name. Of keywords VTK looks at the beginning only: INFORMATION8 1 promises 8 keys.
+  // Skips a block of METADATA behind its keyword. The block ends with a blank line. But each name of a component has a line,
+  // which is blank for a component without a name. VTK reads only the beginning of a keyword: INFORMATION8 1 promises 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -280,8 +281,8 @@ class Scan {
     }
   }
 
-  // The rest of a block of METADATA: keys, a line with the NAME and one with the DATA of each. VTK seeks as many keys as are promised,
-  // past the blank line if need be, and for ever once it has met a number that it cannot read.
+  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for as many keys as are
+  // promised, even past the blank line. It never stops once it has met a number that it cannot read.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;
@@ -301,7 +302,7 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // VTK would begin anew there.
+        // VTK would start the block again there.
         refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' behind INFORMATION");
       }
     }
@@ -309,7 +310,7 @@ class Scan {
       refuse("has INFORMATION of " + std::to_string(n_keys) + " keys and gives " + std::to_string(n_found));
   }
 
-  // The values of a key that VTK knows: a text, or numbers, several of them behind their count.
+  // Skips the values of a key that VTK knows: a string, a number, or a count and so many strings or numbers.
   void skip_data(vtkInformationKey *key, std::string_view text) {
     if (vtkInformationStringKey::SafeDownCast(key)) return;
     const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
@@ -363,7 +364,7 @@ class Scan {
     const std::int64_t first = count();
     const std::int64_t second = count();
     if (version_ >= 5) {
-      // Numbers of offsets and of corners.
+      // Here the two numbers count offsets and corners.
       n_cells_ = std::max<std::int64_t>(first - 1, 0);
       if (first == 0) return;
       if (next() != "offsets") refuse("has CELLS without OFFSETS");
@@ -381,7 +382,7 @@ class Scan {
     }
   }
 
-  // Up to version 4: each cell's number of corners, then its corners; n_values of both.
+  // Skips the cells of files up to version 4: each cell's number of corners, then its corners. n_values counts both.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
     line();
     corners_ = rest_;
@@ -396,7 +397,7 @@ class Scan {
     if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");
   }
 
-  // The values of an array whose type was read last: they begin on the next line.
+  // Returns the values of an array whose type was the last word read. They begin on the next line.
   std::string_view values_behind_line() const {
     std::string_view values = rest_;
     take_line(values);
@@ -409,7 +410,7 @@ class Scan {
     return {values, binary_ ? size : 0};
   }
 
-  // VTK, too, has a byte for each.
+  // VTK also keeps each type in a byte.
   bool has_polyhedra() const {
     Numbers types = numbers(types_, "int");
     for (std::int64_t i = 0; i < n_types_; ++i)
@@ -417,7 +418,7 @@ class Scan {
     return false;
   }
 
-  // VTK follows the faces of polyhedra as it reads them, wherever that leads.
+  // VTK follows the faces of polyhedra unchecked while it reads them.
   void check_polyhedra() const {
     Numbers types = numbers(types_, "int"), corners = numbers(corners_, type_of_corners_);
     Numbers offsets = numbers(offsets_, type_of_offsets_);
@@ -440,7 +441,7 @@ class Scan {
     }
   }
 
-  // Of n numbers: that of its faces, and for each face that of its points and these.
+  // A polyhedron has n numbers: the number of its faces, then for each face the number of its points and the points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell " + std::to_string(cell) + " has broken polyhedron faces"); };
     if (n < 1) broken();
@@ -469,7 +470,7 @@ class Scan {
     return static_cast<std::int32_t>(value);
   }
 
-  // An array of POINT_DATA or CELL_DATA; false if the keyword is none.
+  // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin one.
   bool attribute(const std::string &keyword) {
     static const std::map<std::string, int> widths = {{"vectors", 3},   {"normals", 3},    {"tensors", 9},
                                                       {"tensors6", 6},  {"global_ids", 1}, {"pedigree_ids", 1},
@@ -496,7 +497,7 @@ class Scan {
     return true;
   }
 
-  // Of one byte each, or in an ASCII file from 0 to 1.
+  // Colours are bytes in a binary file, and numbers from 0 to 1 in an ASCII file.
   std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
 
   void scalars() {
@@ -521,11 +522,11 @@ class Scan {
   std::int64_t n_cells_ = -1;  // unknown
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // Where they begin. Up to version 4 each cell's corners are behind their number, which is no offset then.
+  // The beginnings of the arrays. Up to version 4 there are no offsets: each cell's corners stand behind their number.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;
-  std::int64_t n_tuples_ = 0;  // of the arrays of the POINT_DATA or CELL_DATA that the scan is in
+  std::int64_t n_tuples_ = 0;  // of each array in the POINT_DATA or CELL_DATA that the scan is in
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the opaque mesh handle holds.
+// The content of the opaque mesh handle.
 #pragma once
 
 #include <riis/riis_vtk.h>

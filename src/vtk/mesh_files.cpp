@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h: a file to a grid with double points, its cells to an adjacency, marks into its point arrays,
-// the grid to a .vtu file.
+// Volume meshes of riis_vtk.h: reads a file into a grid with double points, makes an adjacency from its cells, puts marks into
+// its point arrays, and writes the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void check_is_of_mesh(const riis_mark_result *result, vtkIdType n_nodes) {
   }
 }
 
-// A name that every file format and every reader takes.
+// Refuses a name that some file format or some reader does not take.
 void check_name(const char *argument, const std::string &name) {
   constexpr std::size_t longest = 64;
   const auto is_good = [](char c) {
@@ -100,14 +100,14 @@ void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::in
   grid->GetPointData()->AddArray(array);
 }
 
-// The core names the field of its own struct; the caller gave a plain argument.
+// The core's message names a field of its own struct, but the caller gave a plain argument.
 void check_adjacency(riis_status status, const std::string &structure) {
   if (status == RIIS_OK) return;
   const std::string text = riis_last_error();
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// Nodes that edges join are to the core as cells that faces join.
+// The core makes adjacencies from cells and the faces that join them. Here nodes stand for the cells and edges for the faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_faces faces;

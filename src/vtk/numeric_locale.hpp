@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decimal points for the length of a scope: under a caller's setlocale(LC_ALL, "de_DE.UTF-8") VTK's readers would take
-// "1.5" for 1. Only this thread is told. VTK's legacy reader also sets the process's locale to "C" and leaves it there;
-// the caller gets his own back.
+// Decimal points while this object lives: under a caller's setlocale(LC_ALL, "de_DE.UTF-8") VTK's readers would take "1.5" for 1.
+// Only this thread's locale changes. VTK's legacy reader also sets the process's locale to "C" and leaves it there, so the
+// caller's locale is put back.
 #pragma once
 
 #include <locale.h>
@@ -26,7 +26,7 @@ class NumericLocale {
   NumericLocale &operator=(const NumericLocale &) = delete;
 
  private:
-  std::string callers_;  // of the process
+  std::string callers_;  // the process's locale
   locale_t points_;
   locale_t threads_;
 };

@@ -49,7 +49,7 @@ void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOut
   file.commit("IEND");
 }
 
-// What a picture says of itself, all but what changes with its view.
+// The texts of a picture that do not change with its view.
 std::vector<PanelTexts> texts_of(const riis_vtk_picture_options &options, const SurfacePanel &surface,
                                  vtkIdType n_triangles, const MarkCounts *marks) {
   const std::string title = options.title ? drawable(options.title) : "Surface";
@@ -72,7 +72,7 @@ std::vector<PanelTexts> texts_of(const riis_vtk_picture_options &options, const 
   return panels;
 }
 
-// All that the views of one picture share.
+// The parts that all views of one picture share.
 class Scene {
  public:
   Scene(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk_picture_options &options)

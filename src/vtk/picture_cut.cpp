@@ -13,7 +13,7 @@
 namespace riis::vtk {
 namespace {
 
-// One side of the panel: where along which axis, and which side stays.
+// One side of the panel: a place along an axis, and the direction of the part that stays.
 struct Side {
   std::size_t axis;
   double at;
@@ -29,7 +29,7 @@ std::vector<Side> cut_sides(const Sight &sight) {
   return sides;
 }
 
-// Where the side's line is inside of the boundary: sorted, apart from each other.
+// The stretches of the side's line that lie inside the boundary, sorted and disjoint.
 std::vector<Extent> crossings(const View &view, const Side &side, vtkPolyData *boundary) {
   std::vector<Extent> all;
   const Vector &across = view.axes[side.axis], &along = view.axes[1 - side.axis];

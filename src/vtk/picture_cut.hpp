@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a sight in which a mesh goes on beyond the panel. Out: how the mesh is cut so that one sees that it goes on.
+// In: a sight in which a mesh goes on beyond the panel. Out: planes and dashed lines that show that it goes on.
 #pragma once
 
 #include <vtkPlane.h>
@@ -13,10 +13,10 @@ class vtkPolyData;
 
 namespace riis::vtk {
 
-// For the mapper of what is to be cut; none where the mesh is in sight as a whole.
+// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
-// Dashed lines where the planes cut the boundary, nearer to the eye than all else.
+// Returns dashed lines where the planes cut the boundary. They are nearer to the eye than everything else.
 vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
 
 }  // namespace riis::vtk

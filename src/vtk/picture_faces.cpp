@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, take longer than all else of a picture.
+// VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, take longer than the rest of a picture together.
 #include "vtk/picture_faces.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using Corners = std::vector<vtkIdType>;
 
-// The corners of the faces of one type of cells, anticlockwise seen from outside; triangles end with -1.
+// The faces of one type of cell, each by its corners, anticlockwise seen from outside. A triangle's row ends with -1.
 using FaceTable = std::vector<std::array<int, 4>>;
 
 const FaceTable *faces_of_type(int type) {
@@ -47,7 +47,7 @@ const FaceTable *faces_of_type(int type) {
   }
 }
 
-// A grid's cells as polygons of corners. VTK describes the types that no table above has.
+// A grid's cells as polygons of corners. Types that have no table above are described by VTK.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -57,7 +57,7 @@ class Polygons {
     return generic(cell)->GetNumberOfFaces();
   }
 
-  // Valid until the next call.
+  // The result is valid until the next call.
   const Corners &face_of_volume(vtkIdType cell, int face) {
     corners_.clear();
     if (const FaceTable *table = faces_of_type(grid_->GetCellType(cell))) {
@@ -77,7 +77,7 @@ class Polygons {
     corners_.clear();
     const int type = grid_->GetCellType(cell);
     add_corners(generic(cell));
-    // VTK keeps the corners of a pixel by rows, and those of a strip to and fro.
+    // VTK keeps the corners of a pixel row by row, and the corners of a strip in zigzag.
     if (type == VTK_PIXEL) std::swap(corners_[2], corners_[3]);
     if (type == VTK_TRIANGLE_STRIP) {
       Corners round;
@@ -108,15 +108,15 @@ class Polygons {
 
 struct Face {
   vtkIdType cell;
-  int number;  // in its cell
+  int number;  // the face's position in its cell
 };
 
-// The faces of one cell only, so far. Neighbours mostly follow each other in a mesh, so this keeps few faces at a time.
+// The faces that only one cell has had so far. Neighbours mostly follow each other in a mesh, so these are few at any time.
 class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
 
-  // A face that is there already goes, since two cells share it.
+  // Adds a face. A face that is there already is removed, since two cells share it.
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
@@ -164,7 +164,7 @@ class LoneFaces {
     return view(entries_).size() - 1;
   }
 
-  std::vector<std::int64_t> first_;  // by least corner
+  std::vector<std::int64_t> first_;  // for each least corner
   std::vector<Entry> entries_;
   std::int64_t free_ = -1;
 };
@@ -200,14 +200,14 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Turns a face over whose corners run clockwise seen from outside of its cell. A cell that is inside out has such faces.
+// Turns over a face whose corners run clockwise seen from outside its cell. A cell that is inside out has such faces.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);
   double inside[3] = {0, 0, 0};
   for (const vtkIdType node : *nodes) vtkMath::Add(inside, grid->GetPoint(node), inside);
   vtkMath::MultiplyScalar(inside, 1.0 / static_cast<double>(nodes->GetNumberOfIds()));
-  // The volumes of the tetrahedra from that point to the face.
+  // Sums the volumes of the tetrahedra from the inner point to the face.
   double first[3], volume = 0;
   vtkMath::Subtract(grid->GetPoint(corners[0]), inside, first);
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {

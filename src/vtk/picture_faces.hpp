@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a grid, and which of its cells are wanted. Out: the faces that the wanted cells do not share, as polydata.
+// In: a grid and its wanted cells. Out: the faces that the wanted cells do not share, as polydata.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -31,15 +31,15 @@ class CellDimensions {
 };
 
 struct Outside {
-  vtkSmartPointer<vtkPolyData> faces;  // with the points that the faces use, no others
-  std::vector<vtkIdType> cell_id;      // of each face the cell that it belongs to
-  bool of_volumes = false;             // corners then run anticlockwise, seen from outside
+  vtkSmartPointer<vtkPolyData> faces;  // with only the points that the faces use
+  std::vector<vtkIdType> cell_id;      // for each face, the cell that it belongs to
+  bool of_volumes = false;             // if true, corners run anticlockwise, seen from outside
 };
 
-// Volumes give the faces that no other wanted volume has. In a grid without volumes, each flat cell is a face.
-// Faces of cells of higher order become straight, between their corners.
-//   wanted       by cell; NULL: all
-//   face_wanted  by cell: only faces of these cells are kept; NULL: all
+// Each volume gives the faces that no other wanted volume has. In a grid without volumes, each flat cell is a face.
+// Faces of cells of higher order become straight between their corners.
+//   wanted       one entry per cell; NULL: all
+//   face_wanted  one entry per cell: only faces of these cells are kept; NULL: all
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,
                    const std::vector<std::uint8_t> *face_wanted);
 

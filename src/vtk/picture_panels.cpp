@@ -52,7 +52,7 @@ vtkSmartPointer<vtkActor> flat_actor(vtkPolyData *data, const Colour &colour) {
   return actor;
 }
 
-// Gives every face the colour of its leaflet, with so much white in it.
+// Gives every face the colour of its leaflet. `white` is the share of white in it.
 void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, double white) {
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetName("colour");
@@ -85,7 +85,7 @@ std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
   return nodes;
 }
 
-// By cell; cells of less than the largest dimension count as not marked.
+// Returns one value per cell. Cells of less than the largest dimension count as not marked.
 std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
   const CellDimensions dimensions(grid);
   std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vec
   return parts;
 }
 
-// For each of the cells the leaflet of its closest node.
+// Returns the leaflet of each cell's closest marked node.
 std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<vtkIdType> &cells) {
   vtkDataArray *distance = grid->GetPointData()->GetArray(distance_array);
   vtkDataArray *leaflet = grid->GetPointData()->GetArray(leaflet_array);
@@ -114,7 +114,7 @@ std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<
     grid->GetCellPoints(cell, nodes);
     vtkIdType closest = -1;
     for (const vtkIdType node : *nodes) {
-      // Of nodes that are not marked the far distance may be any number.
+      // The distance of an unmarked node may be the far distance, which may be any number.
       if (marked->GetComponent(node, 0) == 0) continue;
       if (closest < 0 || distance->GetComponent(node, 0) < distance->GetComponent(closest, 0)) closest = node;
     }
@@ -136,7 +136,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// Without perspective this changes nothing but what hides what.
+// There is no perspective, so this only changes which parts hide which.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }
@@ -211,7 +211,7 @@ void MarksPanel::add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std:
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetLines(lines);
-  data->SetVerts(dots);  // an edge that is looked along, or shorter than a pixel, is still seen
+  data->SetVerts(dots);  // dots show edges that point at the eye or are shorter than a pixel
   leaks_ = flat_actor(data, leak_colour);
   leaks_->GetProperty()->SetLineWidth(static_cast<float>(2 * pixels_));
   leaks_->GetProperty()->SetPointSize(static_cast<float>(3 * pixels_));

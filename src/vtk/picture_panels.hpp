@@ -35,19 +35,19 @@ SurfacePanel surface_panel(vtkPolyData *surface);
 
 struct MarkCounts {
   vtkIdType n_nodes = 0, n_marked_nodes = 0;
-  vtkIdType n_whole_cells = 0;   // all of whose nodes are marked
-  vtkIdType n_partly_cells = 0;  // of which some are, not all
+  vtkIdType n_whole_cells = 0;   // cells with all nodes marked
+  vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
 // Marked cells in the faint boundary of the mesh. A cell has the colour of its closest node's leaflet; a partly marked
 // cell is paler. Edges that leak are red. Cells of less than the grid's largest dimension are left out.
 class MarksPanel {
  public:
-  // The grid has the marking's point arrays. leaking_edges(2, n_leaking_edges) are node ids, checked.
+  // The grid has the marking's point arrays. leaking_edges(2, n_leaking_edges) holds checked node ids.
   MarksPanel(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges, double pixels);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }
-  // Turns to a view: cuts a mesh that goes on beyond the panel, and moves leaking edges before all else.
+  // Turns to a view: cuts a mesh that goes on beyond the panel, and moves leaking edges in front of everything else.
   void look(const View &view, const Sight &sight);
 
  private:
@@ -58,7 +58,7 @@ class MarksPanel {
   vtkSmartPointer<vtkRenderer> renderer_;
   MarkCounts counts_;
   double pixels_;                                                    // the width of a line
-  double partly_length_ = 0;                                         // of the edges of partly marked cells, on average
+  double partly_length_ = 0;                                         // mean edge length of partly marked cells
   vtkSmartPointer<vtkActor> partly_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
 };
 

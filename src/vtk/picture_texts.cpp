@@ -46,7 +46,7 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Smaller letters for a text that is too long; one that is too long with the smallest loses its end.
+// Uses smaller letters for a text that is too long. A text that is too long even with the smallest letters loses its end.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
   if (width_of(text, letter) > width) {
@@ -83,7 +83,7 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
   renderer->AddViewProp(actor);
 }
 
-// A round length, and how long it is.
+// Adds a bar of a round length, with the length and its unit beside it.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
                    const std::string &unit) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
@@ -102,7 +102,7 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
 }
 
-// The directions of x, y, z, each of the length that it has in the view. One that is looked along is named at the middle.
+// Adds the directions of x, y and z, each as long as the view shows it. An axis that points at the eye is named at the middle.
 void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
   const char *const names[3] = {"x", "y", "z"};
   std::vector<Line> lines;
@@ -129,7 +129,7 @@ void add_caption(vtkRenderer *renderer, const Layout &layout, int panel, const s
   }
 }
 
-// From x to the panel's right end, in one line or more.
+// Adds the key from `left` to the panel's right end, in one line or more.
 void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left, int n_lines,
              const std::vector<KeyEntry> &key) {
   const double right = layout.panel_left(panel) + layout.panel_width() - layout.margin();

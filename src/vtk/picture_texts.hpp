@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what a picture says. Out: the bands above and below its panels, with captions, the key of colours, axes and a
-// scale bar.
+// In: a picture's texts. Out: the bands above and below its panels, with captions, the key of colours, axes and a scale bar.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -15,7 +14,7 @@ class vtkRenderer;
 
 namespace riis::vtk {
 
-// Where what is, in pixels from the lower left corner. A picture too low for bands has none, and no texts.
+// The places of a picture's parts, in pixels from the lower left corner. A picture too low for bands has neither bands nor texts.
 class Layout {
  public:
   Layout(int width, int height, int n_panels);
@@ -26,11 +25,11 @@ class Layout {
   double panel_left(int panel) const { return width_ * static_cast<double>(panel) / n_panels_; }
   double panel_width() const { return width_ / static_cast<double>(n_panels_); }
   double panel_height() const { return height_ - top_ - bottom_; }
-  // The lower end of a line of text: of the caption from the top, of the key below the panels.
+  // The lower end of a line of text. The caption's lines count from the top, the key's lines from the panels downwards.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
-  // Left, lower, right, upper as parts of the picture.
+  // Left, lower, right and upper end, each from 0 to 1 across the picture.
   std::array<double, 4> viewport(int panel) const;
   double line_width() const;
 
@@ -49,17 +48,17 @@ struct PanelTexts {
   std::vector<KeyEntry> key;         // as many as fit
 };
 
-// All texts of a picture, behind its panels. unit follows the number at the scale bar.
+// Draws all texts of a picture behind its panels. unit follows the number at the scale bar.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
                                               const View &view, const Sight &sight, const std::string &unit);
 
-// What VTK can draw of a text in one line: it knows other letters than ASCII only as UTF-8.
+// Returns the part of a text that VTK can draw in one line. VTK knows letters other than ASCII only as UTF-8.
 std::string drawable(std::string text);
-// With commas between thousands.
+// Returns the number with commas between thousands.
 std::string grouped(vtkIdType n);
-// Such as "1 edge", "1,200 edges".
+// Returns texts such as "1 edge" and "1,200 edges".
 std::string counted(vtkIdType n, const std::string &singular);
-// The largest of 1, 2 or 5 times a power of ten that is not above the limit.
+// Returns the largest 1, 2 or 5 times a power of ten that is not above the limit.
 double round_length(double limit);
 
 }  // namespace riis::vtk

@@ -14,9 +14,9 @@ namespace riis::vtk {
 namespace {
 
 constexpr double not_much_larger = 1.6;
-constexpr double margin = 1.08;        // of the whole picture around what it fits
-constexpr double neighbourhood = 1.3;  // around the surface where the mesh goes on
-constexpr double cut_at = 0.94;        // of the way from the middle to the panel's edge
+constexpr double margin = 1.08;        // the panel's size over the size of what it fits
+constexpr double neighbourhood = 1.3;  // the shown size over the surface's, where the mesh goes on
+constexpr double cut_at = 0.94;        // the cut's place, as a part of the way from the middle to the panel's edge
 
 Extent hull(const Extent &a, const Extent &b) { return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)}; }
 
@@ -24,7 +24,7 @@ Extent around(const Extent &extent, double factor) {
   return {extent.middle() - factor * extent.half(), extent.middle() + factor * extent.half()};
 }
 
-// What has to be seen along one axis; size is that of the surface.
+// Returns the extent that must be in sight along one axis. size is the surface's size.
 Extent wanted(const Extent &surface, const Extent &mesh, double size) {
   const Extent both = hull(surface, mesh);
   if (both.half() <= not_much_larger * size || !surface.meets(mesh)) return both;
@@ -86,7 +86,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect) {
 }
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight) {
-  // The eye is outside of everything, with room for what is drawn nearer than it is.
+  // The eye is outside everything, with room for parts that are drawn nearer than they are.
   const double depth = 4 * (sight.shown[2].half() + sight.shown[1].half() + sight.shown[0].half());
   Vector focus, eye;
   for (std::size_t k = 0; k < 3; ++k) {

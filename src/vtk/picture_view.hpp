@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: where the eye is, and the extents of the surface and the mesh. Out: what is in sight, for the camera, the cut and
-// the scale bar.
+// In: the direction of view and the extents of the surface and the mesh. Out: the space in sight, for the camera, the cut and the
+// scale bar.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Extent {
   bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
 };
 
-// Along the axes of a view: to the right, upwards, away from the eye.
+// Extents along the axes of a view: to the right, upwards, away from the eye.
 using Extents = std::array<Extent, 3>;
 
 // A view without perspective, so that lengths can be compared: right, up, away are unit vectors, perpendicular to each other.
@@ -37,15 +37,15 @@ struct View {
 
 // The part of space that a panel shows, along the axes of its view.
 struct Sight {
-  Extents shown;                  // x and y to the panel's edges; depth of all there is
-  std::array<Extent, 2> uncut;    // x and y up to which a mesh is drawn that goes on further
+  Extents shown;                  // x and y to the panel's edges; the depth of surface and mesh
+  std::array<Extent, 2> uncut;    // x and y at which a mesh that goes on further is cut
   std::array<bool, 2> cut_below;  // whether it goes on to the left, downwards
   std::array<bool, 2> cut_above;  // to the right, upwards
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// The sight holds the surface. It also holds the mesh along each axis where the mesh is not much larger, so that pictures
-// of a valve that moves in one mesh can be compared. Along other axes it holds the surface's neighbourhood.
+// The sight holds the surface. Along each axis where the mesh is not much larger, it also holds the mesh, so that pictures of a
+// valve that moves in one mesh can be compared. Along other axes it holds the surface's neighbourhood.
 //   mesh    NULL: none
 //   aspect  the panel's width over its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);

@@ -9,7 +9,7 @@
 namespace riis::vtk {
 namespace {
 
-// A vertex's place as bits, which can be sorted whatever the file holds; 0 and -0 are the same place.
+// Returns a vertex's place as bits, which can be sorted even if the file holds NaN. 0 and -0 are the same place.
 std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   std::array<std::uint64_t, 3> bits;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -19,7 +19,7 @@ std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   return bits;
 }
 
-// For every vertex the number of its place, below the number of vertices.
+// Returns the number of each vertex's place, which is below the number of vertices.
 std::vector<std::size_t> places_of(const Faces &faces) {
   const std::size_t n = faces.xyz.size() / 3;
   std::vector<std::size_t> order(n), places(n);
@@ -31,7 +31,7 @@ std::vector<std::size_t> places_of(const Faces &faces) {
   return places;
 }
 
-// Sets that are joined: each has one member that stands for it.
+// Disjoint sets that can be joined. Each set has one member that stands for it.
 class Sets {
  public:
   explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }

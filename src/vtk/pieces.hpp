@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: faces as plain arrays. Out: the connected pieces that they make.
+// In: faces as plain arrays. Out: their connected pieces.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace riis::vtk {
 
-// The piece of every face. Pieces are numbered in the order of their first faces. Faces are connected if they share a vertex, or
-// have vertices with exactly the same coordinates.
+// Returns the piece of every face. Pieces are numbered in the order of their first faces. Faces are connected if they share a
+// vertex or have vertices with exactly the same coordinates.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
 }  // namespace riis::vtk

@@ -13,18 +13,18 @@
 namespace riis::vtk {
 namespace {
 
-constexpr std::int64_t binary_header_size = 84;  // 80 bytes of anything, then the number of triangles
+constexpr std::int64_t binary_header_size = 84;  // 80 arbitrary bytes, then the number of triangles
 constexpr std::int64_t binary_triangle_size = 50;
 
-// The number of triangles in the header of a binary file, little endian; 0 for files too short to have one.
+// Returns the number of triangles in the header of a binary file (little endian), or 0 if the file is too short for a header.
 std::int64_t binary_count(std::string_view bytes) {
   if (bytes.size() < static_cast<std::size_t>(binary_header_size)) return 0;
   const auto byte = [&](std::size_t i) { return static_cast<std::int64_t>(static_cast<unsigned char>(bytes[i])); };
   return byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
 }
 
-// The number of triangles in an ASCII file, which has a keyword at the beginning of each line: in "solid endfacet part"
-// the second word is a name. Blank lines may follow the last endsolid.
+// Returns the number of triangles in an ASCII file. Only the first word of a line is a keyword: in "solid endfacet part" the
+// second word is a name. Blank lines may follow the last endsolid.
 std::int64_t ascii_count(const std::string &path, std::string_view text) {
   std::int64_t n = 0;
   std::string keyword;
@@ -39,8 +39,8 @@ std::int64_t ascii_count(const std::string &path, std::string_view text) {
   return n;
 }
 
-// How many triangles the file must give. VTK ignores the count in a binary file and the end mark of an ASCII one, and
-// so reads a truncated file as a smaller surface.
+// Returns how many triangles the file must give. VTK ignores the count in a binary file and the end mark of an ASCII one, so it
+// reads a truncated file as a smaller surface.
 std::int64_t promised_triangles(const std::string &path, std::string_view bytes) {
   const std::int64_t n = binary_count(bytes);
   const std::int64_t n_behind =

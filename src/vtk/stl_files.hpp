@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the path of an .stl file, ASCII or binary. Out: its triangles as polydata, each with three points of its own, in
-// the file's order: merging points would drop triangles and shift the ids of the others.
+// In: the path of an .stl file, ASCII or binary. Out: its triangles as polydata in the file's order, each with three points of
+// its own. Merging points would drop triangles and shift the ids of the others.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of riis_vtk.h: a file to arrays for the core, the core's surface to a .vtp file.
+// Surfaces of riis_vtk.h: reads a file into arrays for the core, and writes the core's surface to a .vtp file.
 #include <riis/riis_vtk.h>
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines and words of the files that are scanned before VTK sees them; ASCII only, whatever the locale.
+// Lines and words of the files that are scanned before VTK sees them. Only ASCII counts, whatever the locale.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::string lower_case(std::string_view text);
 // Removes the first line from the text and returns it without its line feed.
 std::string_view take_line(std::string_view &text);
 
-// Removes the first word and the blanks before it; "" if there is none.
+// Removes the first word and the blanks before it. Returns the word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
 }  // namespace riis::vtk

@@ -52,7 +52,7 @@ bool has_no_volume(int type) {
   }
 }
 
-// The edges of a cell as pairs of positions in its list of nodes.
+// A cell's edges, as pairs of positions in its list of nodes.
 struct CellEdges {
   int n;
   const vtkIdType *(*edge)(vtkIdType);
@@ -74,7 +74,7 @@ CellEdges edges_of(int type) {
   }
 }
 
-// In fine meshes no edge is long: lengths first.
+// Checks the length first: in fine meshes no edge is long.
 bool is_long_and_near(const double *a, const double *b, double least_square, const double *lower, const double *upper) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   if (x * x + y * y + z * z < least_square) return false;
@@ -103,7 +103,7 @@ VolumeCells volume_cells_of(vtkUnstructuredGrid *grid) {
     const vtkIdType *ids = nullptr;
     grid->GetCells()->GetCellAtId(cell_id, n, ids);
     if (type == VTK_VOXEL) {
-      // A voxel's nodes run along x, then y, then z; a hexahedron's round its base and round its top.
+      // A voxel's nodes run along x, then y, then z. A hexahedron's nodes run round its base, then round its top.
       cells.node_ids.insert(cells.node_ids.end(), {ids[0], ids[1], ids[3], ids[2], ids[4], ids[5], ids[7], ids[6]});
     } else {
       cells.node_ids.insert(cells.node_ids.end(), ids, ids + n);

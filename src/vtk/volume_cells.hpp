@@ -14,16 +14,17 @@ struct VolumeCells {
   std::vector<std::int64_t> offsets = {0};  // one more than cells
 };
 
-// Tetrahedra, pyramids, wedges, hexahedra, and voxels as hexahedra; no other cells.
+// Returns tetrahedra, pyramids, wedges and hexahedra, and voxels as hexahedra. Other cells are left out.
 VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
 
-// The edges of the same cells, as pairs of nodes, edges of several cells several times.
+// Edges of the same cells, as pairs of nodes. An edge of several cells is listed several times.
 struct LongEdges {
   std::vector<std::int64_t> node_ids;  // (2, n)
-  std::int64_t n_cells_left_out = 0;   // cells of volume of other kinds
+  std::int64_t n_cells_left_out = 0;   // volume cells of other kinds
 };
 
-// Edges longer than a length whose bounding box meets the box from lower to upper. The grid's points are xyz(3, n).
+// Returns the edges that are longer than a length and whose bounding box meets the box from lower to upper. The grid's points are
+// xyz(3, n).
 LongEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
                         const double *upper);
 

@@ -15,10 +15,10 @@
 namespace riis::vtk {
 namespace {
 
-// Leaves room for a reason in the core's error text.
+// Leaves room for a reason in the core's message.
 constexpr std::size_t longest_path = 250;
 
-// VTK's text is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n": the message is what a user can read.
+// VTK's text is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n". Users can read only the message in it.
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);
@@ -35,7 +35,7 @@ std::string message_of(const std::string &vtk_text) {
   return line;
 }
 
-// A path may hold any byte; an error text is one line.
+// A path may hold any byte, but a message is one line.
 std::string printable(std::string text) {
   for (char &c : text) {
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
@@ -79,7 +79,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // With the display off VTK drops errors before they reach any window.
+  // With the warning display off, VTK drops errors before they reach any window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a failure leaves this library: fail() throws, guarded() turns whatever is thrown into a status and the core's
-// last error. While a body runs, what VTK has to say is caught instead of printed.
+// The way of a failure out of this library: fail() throws, and guarded() turns any exception into a status and the core's last
+// error. While a body runs, VTK's messages are caught instead of printed.
 #pragma once
 
 #include <riis/riis.h>
@@ -22,9 +22,9 @@ struct Failure {
 };
 
 [[noreturn]] void fail(riis_status status, std::string text);
-// "PATH: reason", a RIIS_FILE_ERROR; a path too long for the error text loses its beginning, not the reason.
+// Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path too long for the message loses its beginning, not the reason.
 [[noreturn]] void fail_file(const std::string &path, const std::string &reason);
-// Passes an error of the core on, with the core's text.
+// Passes on an error of the core, with the core's message.
 void check_core(riis_status status);
 
 template <class T>
@@ -33,9 +33,8 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Takes the place of VTK's process-wide output window for the length of a scope, and silences VTK's log on stderr,
-// which repeats every error. VTK does not tell what the log's stderr part was set to, only the highest level of its
-// parts: that is put back.
+// Takes the place of VTK's process-wide output window while it lives, and silences VTK's log on stderr, which repeats every
+// error. VTK does not tell the level of the log's stderr part, only the highest level of its parts. So that level is put back.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -43,8 +42,8 @@ class CaughtOutput {
   CaughtOutput(const CaughtOutput &) = delete;
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
-  // The first error since the scope began, in one line without VTK's source positions; "" if there was none. The first
-  // one is the cause, those after it come from VTK's layers above.
+  // Returns the first error since the scope began, in one line without VTK's source positions, or "" if there was none. The first
+  // error is the cause. Later ones come from VTK's layers above.
   std::string first_error() const;
   // Fails with RIIS_FILE_ERROR for the path if VTK reported an error.
   void check(const std::string &path) const;
@@ -57,10 +56,10 @@ class CaughtOutput {
   int caller_log_level_;
 };
 
-// Status and text of the exception that is being handled.
+// Records the message of the exception that is being handled, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Every public function's body runs in here and receives the caught output.
+// Every public function's body runs in this function and receives the caught output.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;

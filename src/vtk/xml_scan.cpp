@@ -12,18 +12,18 @@
 namespace riis::vtk {
 namespace {
 
-// A start tag: the element's name and the value of its attribute "type", "" if it has none.
+// A start tag: the element's name and the value of its attribute "type", or "" if it lacks one.
 struct Tag {
   std::string_view name, type;
 };
 
-// Walks the start tags of an XML text. Comments, instructions and end tags are passed over; a '>' in an attribute's
-// value ends no tag, and a word in it is no attribute.
+// Walks the start tags of an XML text and passes over comments, instructions and end tags. In an attribute's value, '>' does not
+// end the tag and a word is not an attribute.
 class Tags {
  public:
   explicit Tags(std::string_view text) : rest_(text) {}
 
-  // False at the end.
+  // Returns false at the end.
   bool next(Tag &tag) {
     for (;;) {
       rest_.remove_prefix(std::min(rest_.find('<'), rest_.size()));
@@ -47,15 +47,15 @@ class Tags {
   }
 
  private:
-  // What stands before the first of these characters.
+  // Takes the text before the first of these characters.
   std::string_view take_until(std::string_view characters) {
     const std::string_view text = rest_.substr(0, rest_.find_first_of(characters));
     rest_.remove_prefix(text.size());
     return text;
   }
 
-  // Goes on to the value of the next attribute in the tag: its name to attribute_, its quotation mark returned; 0 where
-  // the tag ends.
+  // Goes on to the value of the tag's next attribute. Sets attribute_ to its name and returns its quotation mark, or 0 where the
+  // tag ends.
   char next_attribute() {
     attribute_ = take_until("=\"'<>");
     if (rest_.empty() || rest_[0] == '<' || rest_[0] == '>') return 0;
@@ -80,7 +80,7 @@ void check_array_types(const std::string &path, std::string_view text) {
   }
 }
 
-// What the VTKFile element at the beginning of an XML file says that the file holds; "" if there is none.
+// Returns the type in the VTKFile element at the beginning of an XML file, or "" if there is none.
 std::string xml_type(std::string_view head) {
   Tag tag;
   for (Tags tags(head); tags.next(tag);) {

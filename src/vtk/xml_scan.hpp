@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the path of a VTK XML file. Out: nothing, or an error for a file that is of another kind or cut
-// off. VTK's parser stops at appended data without looking for the end of the file, and crashes on a field array whose
-// type it does not know.
+// In: the path of a VTK XML file. Out: nothing, or an error for a file of another kind or a file that is cut off. VTK's parser
+// stops at appended data without looking for the end of the file. It crashes on a field array whose type it does not know.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a data set. Out: a VTK XML file that is complete or not there, as raw appended data: as fast as the disk, and
-// every bit of every double kept. 64-bit block sizes, since VTK's default ends at 4 GiB.
+// In: a data set. Out: a VTK XML file that is complete or not there. Its data is raw and appended, which is as fast as the disk
+// and keeps every bit of every double. Block sizes have 64 bits, since VTK's default ends at 4 GiB.
 #pragma once
 
 #include <string>

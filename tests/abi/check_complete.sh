@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
-# Every function, enum constant, struct and field of the headers is pinned by the test, so that what is appended is pinned too.
+# Every function, enum constant, struct and field of the headers is pinned by the test, so appended ones must be pinned too.
 set -euo pipefail
 test_source=$1
 shift
-# A line each, however they are wrapped.
+# One line for each signature, however it is wrapped.
 signatures=$(tr '\n' ' ' <"$test_source" | sed 's/SIGNATURE( */\nSIGNATURE(/g')
 missing=0 n=0
 for header in "$@"; do

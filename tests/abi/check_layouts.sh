@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts.sh compare DUMP DESCRIBED [LIBRARY]
-#   The library, built with debug information, fits callers that were compiled with the release that the dump is of: whatever
-#   abidiff finds is an error but for new functions and for fields appended to structs. With LIBRARY, which has no debug
-#   information, the described one must also export what that one does.
+#   DESCRIBED is the library built with debug information. It must fit callers that were compiled with the dump's release: every
+#   difference that abidiff finds is an error, except new functions and fields appended to structs. LIBRARY is the library without
+#   debug information. If it is given, DESCRIBED must export the same functions.
 # check_layouts.sh write DUMP DESCRIBED
 #   Makes the dump: the exported functions and the public types, no path of the machine.
 set -euo pipefail
@@ -19,9 +19,10 @@ describe() {
     --no-corpus-path --no-comp-dir-path --no-show-locs --no-elf-needed "$1"
 }
 
-# without_appended_fields DUMP: a newer dump on the standard input, its structs without the fields that follow those of the older
-# one. Callers say the size of the struct that they were compiled with, so what follows is nothing to them. (abidiff's suppressions do
-# not do it: has_data_member_inserted_at = end also keeps silent about fields that changed their type.)
+# without_appended_fields DUMP: prints the newer dump on the standard input, without the fields that follow those of the older
+# dump's structs. Callers tell the size of the struct that they were compiled with, so later fields do not concern them.
+# (abidiff's suppressions cannot do this: has_data_member_inserted_at = end also keeps silent about fields that changed their
+# type.)
 without_appended_fields() {
   awk '
     function value_of(attribute) {
@@ -67,7 +68,8 @@ case $verb in
     status=0
     new=$(mktemp)
     trap 'rm -f "$new"' EXIT
-    # Two dumps: beside a dump without locations, a library and its --headers-dir would have all its types taken for private ones.
+    # Two dumps are compared. If a library with --headers-dir were compared with a dump without locations, all its types would
+    # count as private.
     describe "$described" | without_appended_fields "$dump" >"$new"
     report=$(abidiff --no-added-syms "$dump" "$new" 2>&1) || status=$?
     printf '%s\n' "$report"

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts_judged.sh CC SCRATCH
-# check_layouts.sh, on a library of a few lines and its next releases: it accepts what callers do not notice and refuses the rest.
+# Runs check_layouts.sh on a library of a few lines and its next releases. It must accept changes that callers do not notice,
+# and refuse others.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cc=$1 scratch=$2
@@ -38,7 +39,7 @@ if grep -q -F "$scratch" <(sed 's/path=.[^ ]*//' "$scratch/small.xml"); then
   exit 1
 fi
 
-# release accepted|refused TEXT EDIT: of both files by sed; TEXT is in the report.
+# release accepted|refused TEXT EDIT: edits both files by sed; TEXT must be in the report.
 release() {
   local expected=$1 text=$2 edit=$3 found=accepted report
   cp "$scratch"/first/*.[ch] "$scratch/next"

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols.sh LIST HEADER LIBRARY
-# The list has a line for every function that a release exported and for every constant with its value: "NAME VERSION" and
-# "NAME = VALUE VERSION", the version being the one it came with. Compiled callers have these names and values in them: what the list
-# has must be in the library and the header, and what these have must be in the list.
+# The list has a line for every function that a release exported, "NAME VERSION", and for every constant, "NAME = VALUE
+# VERSION". The version is the one that it came with. Compiled callers contain these names and values. So everything in the list
+# must be in the library and the header, and the other way round.
 set -euo pipefail
 list=$1 header=$2 library=$3
 version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$(dirname "$header")/riis.h" | paste -s -d .)
@@ -17,7 +17,7 @@ if [ "$(printf '%s\n' "$newest" "$version" | sort -V | tail -n 1)" != "$version"
   failed=1
 fi
 
-# Each with its version's name, RIIS_0: a symbol under another one is another symbol.
+# Each symbol has its version's name, RIIS_0: under another version it would be another symbol.
 soname=$(readelf -d "$library" | sed -n -E 's/.*soname: \[lib(riis|riis_vtk)\.so\.([0-9]+)\].*/\1_\2/p')
 others=$(nm -D --defined-only "$library" | awk -v node="${soname^^}" '$2 != "A" && $3 !~ "@@" node "$" { print $3 }')
 if [ -n "$others" ]; then

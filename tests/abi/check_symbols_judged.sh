@@ -1,15 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols_judged.sh LIBRARY SCRATCH
-# check_symbols.sh refuses what it is for: a function or a constant that is gone or has another name or value, in library and header
-# alike, and one that the list does not have.
+# check_symbols.sh must refuse a function or constant that is gone or has another name or value, in the library and in the
+# header. It must also refuse one that the list lacks.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../.. library=$1 scratch=$2
 rm -rf "$scratch"
 mkdir -p "$scratch"
 
-# refused TEXT LIST HEADER: with an error that has the text.
+# refused TEXT LIST HEADER: check_symbols.sh must fail with an error that has the text.
 refused() {
   local errors
   if errors=$("$here/check_symbols.sh" "$2" "$3" "$library" 2>&1); then
@@ -23,7 +23,7 @@ refused() {
 }
 list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 "$here/check_symbols.sh" "$list" "$header" "$library"
-# What was in a release and is in the library no more is, seen from here, what the list has and the library has not.
+# A function that a later library dropped looks like one that the list has and the library lacks.
 (cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
 refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
 grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"

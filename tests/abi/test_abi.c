@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What a program that was compiled yesterday relies on: the numbers here are literals, written down when the interface
- * was made. Where one of them has to change, programs break: append instead. Appended fields, functions and values get
- * new lines; the sizes of structs that grew are the only old lines that may change.
- */
+ * The layouts and values that programs compiled yesterday rely on. The numbers are literals, written down when the interface
+ * was made. If one of them has to change, programs break: append instead. Appended fields, functions and values get new lines.
+ * The sizes of structs that grew are the only old lines that may change. */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 #include <setjmp.h>
@@ -19,7 +18,7 @@
     assert_int_equal(offsetof(type, field), offset);    \
     assert_int_equal(sizeof(((type *)0)->field), size); \
   } while (0)
-/* The type of a function, arguments and all; the callers of other languages, which see no header, count on it. */
+/* Checks the type of a function, including its arguments. Callers in other languages do not see the header and rely on it. */
 #define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
 
 static void test_structs(void **state) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench/compare.py: what it calls slower, on files made up here."""
+"""Tests what bench/compare.py calls slower, on files made up here."""
 
 import contextlib
 import io
@@ -33,7 +33,7 @@ class Compare(unittest.TestCase):
         return path
 
     def judge(self, now, base=None, *words):
-        """Exit status and what was printed; now and base are times by name, or whole files."""
+        """Returns the exit status and the output. now and base are times by name, or whole files."""
         paths = []
         for name, times in (("base.json", base or BASE), ("now.json", now)):
             whole = isinstance(times, str) or "benchmarks" in times

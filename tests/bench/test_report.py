@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench/report.py: that the page says what the JSON says, on files made up here."""
+"""Tests that the page of bench/report.py agrees with the JSON, on files made up here."""
 
 import contextlib
 import io
@@ -22,7 +22,7 @@ SEARCHES = {
 
 
 def searches(threads, speed):
-    """Runs of 1000 thousand nodes round the aortic valve; the plain exhaustive search takes 8 s."""
+    """Runs with 1000 thousand nodes round the aortic valve. The plain exhaustive search takes 8 s."""
     runs = []
     for name, ms in SEARCHES.items():
         runs.append(
@@ -131,7 +131,7 @@ class Page(unittest.TestCase):
         self.assertIn("Left out: VTK (built without VTK).", text)
 
     def test_figures_of_the_plots(self):
-        """What is drawn and written for the page of figures; who draws is replaced: there may be no matplotlib."""
+        """Drawings and texts for the page of figures. The drawing function is replaced, since matplotlib may be missing."""
         self.page()
         drawn, limits = {}, []
 
@@ -161,7 +161,7 @@ class Page(unittest.TestCase):
         self.assertEqual(times["plain exhaustive"], [(1, 1), (2, 1.6)])
         self.assertEqual(times["paper, neighbour"][-1], (12, 11.95 / 2.035))
         self.assertEqual(drawn["peers.png"][1][1][0], ("CGAL", 30))
-        ((processors, text),) = limits  # beyond which threads share a processor
+        ((processors, text),) = limits  # beyond these threads share a processor
         self.assertEqual(processors, 1)
         self.assertIn("oversubscribed", text)
 
@@ -182,7 +182,7 @@ class Page(unittest.TestCase):
                 self.assertGreater(shares[0].nonzero()[0].mean(), shares[1].nonzero()[0].min())
 
     def test_no_plot_without_times(self):
-        """What is not drawn is said, with the command that gets it, on the terminal and for the page."""
+        """The terminal and the page name each missing drawing and the command that makes it."""
         self.page(())
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
@@ -214,7 +214,7 @@ class Page(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """What bench/study.py measures for the figures; the programs are replaced."""
+    """The measurements of bench/study.py for the figures. The programs are replaced."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -222,7 +222,7 @@ class Study(unittest.TestCase):
         self.folder = folder.name
 
     def measured(self):
-        """Names of the runs that were started."""
+        """Returns the names of the runs that were started."""
         started = []
 
         def run(_, name, command):

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What riis-mark writes against what the C interface says about the same mesh, in.vtu of the scratch folder. */
+ * Compares the marks that riis-mark writes with the C interface's marks on the same mesh, in.vtu of the scratch folder. */
 #ifndef RIIS_TESTS_MARKS_H
 #define RIIS_TESTS_MARKS_H
 
@@ -16,15 +16,15 @@ typedef struct expected_marks {
   riis_mark_stats stats;
 } expected_marks;
 
-/* By the last mark_by_c. */
+/* The result of the last mark_by_c. */
 extern expected_marks by_c;
 
 void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_options, double distance_limit,
                double far_distance);
 
-/* out.vtu is in.vtu, its points as doubles, with the expected marks; more than 20 nodes are marked. */
+/* Checks that out.vtu is in.vtu with its points as doubles and the expected marks. More than 20 nodes must be marked. */
 void expect_marked_mesh(void);
-/* out.vtp is the expected surface. */
+/* Checks that out.vtp is the expected surface. */
 void expect_surface_output(void);
 
 void forget_marks(void);

@@ -21,7 +21,7 @@ static void give_up(const char *what) {
   exit(1);
 }
 
-/* Both streams go to files, so that neither can fill up while nobody reads it. */
+/* Both streams go to files: a pipe that nobody reads could fill up. */
 static int temporary_file(void) {
   char name[] = "output-XXXXXX";
   const int file = mkstemp(name);
@@ -37,7 +37,7 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* The warning of leaks goes to a place of its own: most meshes of tests are so coarse that the valve leaks in them. */
+/* Moves the warning about leaks to a buffer of its own: most meshes of the tests are so coarse that the valve leaks in them. */
 static void take_leaks(void) {
   program_leaks[0] = 0;
   for (char *line = program_err; *line;) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Runs riis-mark as a user would and keeps what it printed. */
+ * Runs riis-mark as a user would, and keeps its output. */
 #ifndef RIIS_TESTS_PROGRAM_H
 #define RIIS_TESTS_PROGRAM_H
 
@@ -14,24 +14,23 @@
 
 enum { longest_output = 65536 };
 
-/* The last run. */
-extern int program_exit_code; /* 128 + N where signal N ended it */
+/* Results of the last run. */
+extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
-extern char program_leaks[longest_output]; /* the warning of leaks, which is not in program_err; "" if there was none */
+extern char program_leaks[longest_output]; /* the warning about leaks, not in program_err; "" if there was none */
 
-/* Where the program's stdout goes instead of to program_out: the path of a file, or "" for a stdout that is closed. NULL
- * at first. */
+/* The place for the program's stdout instead of program_out: the path of a file, or "" for a closed stdout. NULL at first. */
 extern const char *program_stdout;
 
 /* Runs the program with these arguments; the last one is NULL. */
 void run_program(const char *argument, ...);
-/* The same in two steps; one run at a time. */
+/* The same in two steps, for one run at a time. */
 pid_t start_program(const char *argument, ...);
 void finish_program(pid_t process);
 
-/* Runs it, and fails the test unless it went well with nothing on stderr. */
+/* Runs the program, and fails the test unless it succeeds with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
-/* Runs it, and fails the test unless it gave up with this code, nothing on stdout, and one line on stderr with this
+/* Runs the program, and fails the test unless it ends with this exit code, nothing on stdout, and one line on stderr with this
  * text. */
 #define RUN_REFUSED(exit_code, text, ...) \
   (run_program(__VA_ARGS__, NULL), expect_run_refused(exit_code, text, __FILE__, __LINE__))
@@ -39,14 +38,14 @@ void finish_program(pid_t process);
 void expect_run_fine(const char *file, int line);
 void expect_run_refused(int exit_code, const char *part_of_text, const char *file, int line);
 
-/* The number behind "key": in JSON text; fails the test if there is none. */
+/* Returns the number behind "key": in JSON text. Fails the test if there is none. */
 double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
 /* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */
 enum { n_box_side = 13, n_box = n_box_side * n_box_side * n_box_side };
 int make_box(void **state);
-/* The same with other corners. */
+/* The same box with other corners. */
 int make_box_of(void **state, const double lower[3], const double upper[3]);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --leaflets: a surface file's leaflets from its pieces or from an array of its own. --prefix and --replace: the marks of a
- * second valve beside those of the first, or in their place. */
+ * --leaflets takes a surface file's leaflets from its pieces or from one of its arrays. --prefix and --replace put the marks of
+ * a second valve beside those of the first, or in their place. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Three squares of two triangles each, one above the other; their triangles in turn. */
+/* Three squares of two triangles each, one above the other. The file lists a triangle of each square in turn. */
 static const double heights[3] = {-0.2, 0, -1};
 static void write_squares(void) {
   static char text[4096];
@@ -33,7 +33,7 @@ static int make_files(void **state) {
   return 0;
 }
 
-/* Every node within the limit has the leaflet of the square that is nearest to it, by its height. */
+/* Checks that every node within the limit has the leaflet of the square nearest to its height. */
 static void expect_leaflets(const char *path, const int leaflets[3]) {
   static double xyz[3 * n_box], leaflet[n_box];
   int n_of[3] = {0, 0, 0};
@@ -64,7 +64,7 @@ static void test_leaflets(void **state) {
   assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
-  /* What it wrote keeps them, and has other arrays: riis_triangle is the triangle's own number. */
+  /* The written surface keeps the leaflets and has other arrays: riis_triangle is the triangle's own number. */
   RUN_FINE("--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--surface-output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");
@@ -130,7 +130,7 @@ static void test_two_valves(void **state) {
   assert_true(n_marked_in(both, "mitral_marked") == n_aortic);
   RUN_FINE(both, "--valve", "mitral", "--replace", "--output", both, "--quiet");
   assert_true(n_marked_in(both, "riis_marked") == n_mitral);
-  /* Without an output nothing is replaced. */
+  /* Without an output there is nothing to replace. */
   RUN_FINE(both, "--stats", "-");
   assert_true(json_number(program_out, "n_marked") == n_aortic);
 }

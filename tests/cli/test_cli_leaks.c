@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning of edges that cross the valve between unmarked nodes, against the C interface with all edges of the mesh. */
+ * The warning about edges that cross the valve between unmarked nodes, against the C interface and all edges of the mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* A box around the valve whose cells' longest edges, the diagonals of cubes, are this long. */
+/* Writes a box around the valve. The cells' longest edges, the diagonals of cubes, have the length `longest`. */
 static void write_mesh(const char *name, const riis_surface *surface, double longest) {
   riis_surface_info info;
   double lower[3], upper[3], extent = 0;
@@ -38,7 +38,7 @@ static riis_surface *make_surface(const char *kind, double half_thickness) {
   return surface;
 }
 
-/* With every edge of the mesh. */
+/* Finds leaks by the C interface, with every edge of the mesh. */
 static riis_leaks leaks_by_c(const char *name, const riis_surface *surface) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -64,7 +64,7 @@ static riis_leaks leaks_by_c(const char *name, const riis_surface *surface) {
   return leaks;
 }
 
-/* What the program says is what the C interface says, and its advice, as it stands there to be typed, works. */
+/* Checks that the program reports the same leaks as the C interface, and that its advice works when typed as printed. */
 static void expect_advice(const char *name, const char *kind) {
   riis_surface *surface = make_surface(kind, 0.1);
   const riis_leaks leaks = leaks_by_c(name, surface);
@@ -127,7 +127,7 @@ static void test_fine_meshes_do_not(void **state) {
   }
 }
 
-/* Triangles from a file do not follow the half thickness: the advice is the library's number, to three digits. */
+/* Triangles from a file do not depend on the half thickness, so the advice is the library's number to three digits. */
 static void test_surface_from_file(void **state) {
   (void)state;
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -148,7 +148,7 @@ static void test_surface_from_file(void **state) {
   assert_non_null(strstr(program_leaks, " edge"));
 }
 
-/* The table says it as well. By the paper's search and by other distances short edges are looked at, too. */
+/* The table also reports leaks. The paper's search and other distances also check short edges. */
 static void test_searches_and_distances(void **state) {
   (void)state;
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -158,7 +158,7 @@ static void test_searches_and_distances(void **state) {
   static char first[longest_output];
   for (int i = 0; i < 3; ++i) {
     run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", names[i], NULL);
-    assert_int_equal(program_exit_code, 0); /* with a warning that the mesh is coarse */
+    assert_int_equal(program_exit_code, 0); /* succeeds with a warning that the mesh is coarse */
     assert_non_null(strstr(program_out, " edges between unmarked nodes across the surface, length up to 0."));
     if (i == 0) memcpy(first, program_leaks, sizeof first);
     assert_true(first[0] && strcmp(program_leaks, first) == 0);
@@ -167,9 +167,9 @@ static void test_searches_and_distances(void **state) {
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_leaks, "--half-thickness"));
   run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
-  assert_int_equal(program_exit_code, 3); /* its one start is not marked, so it finds none */
+  assert_int_equal(program_exit_code, 3); /* the search's single start is not marked, so it finds no node */
   assert_non_null(strstr(program_err, "may be incomplete"));
-  assert_non_null(strstr(program_leaks, "edges of at most two")); /* no half thickness helps where nodes are missed */
+  assert_non_null(strstr(program_leaks, "edges of at most two")); /* no half thickness helps if nodes are missed */
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
 
@@ -191,7 +191,7 @@ static void test_one_edge(void **state) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
-/* Of cells whose edges are not known nothing is said. */
+/* There is no warning for cells whose edges are not known. */
 static void test_other_cells(void **state) {
   (void)state;
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The files that riis-mark writes against the C interface run on the same mesh. */
+ * The files that riis-mark writes, compared with the C interface on the same mesh. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,7 +85,7 @@ static void test_stats_on_stdout(void **state) {
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
 
-/* The surface output taken as --surface gives the same marks: triangles, leaflets and all. */
+/* The surface output, read again by --surface, gives the same marks with triangles and leaflets. */
 static void test_surface_from_file(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -95,7 +95,7 @@ static void test_surface_from_file(void **state) {
   options.half_thickness = 0.2;
   mark_by_c(valve, &options, 0.3, RIIS_FAR_DISTANCE);
   riis_valve_destroy(&valve);
-  /* The triangles depend on the half thickness, by the tolerance. */
+  /* The triangles depend on the half thickness through the tolerance. */
   RUN_FINE("--half-thickness", "0.2", "--surface-output", scratch_path("out.vtp"));
   RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("out.vtp"), "--half-thickness", "0.2", "--distance-limit",
            "0.3", "--output", scratch_path("out.vtu"));
@@ -118,7 +118,7 @@ static void test_one_of_each(void **state) {
   assert_non_null(strstr(program_out, "1 thread\n"));
 }
 
-/* A status of its own, unless it was to be expected; whatever was asked for is written. */
+/* A run without marks has an exit code of its own, unless that was expected. All requested files are written. */
 static void test_no_marks(void **state) {
   (void)state;
   run_program(scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
@@ -133,7 +133,7 @@ static void test_no_marks(void **state) {
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE(scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
-  /* The search that may miss some has missed all: both are said. */
+  /* A search that may miss nodes missed all. Both are reported. */
   run_program(scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis-mark: the marks may be incomplete"));

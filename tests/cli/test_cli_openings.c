@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valves that open, by riis-mark and by the C interface: the mitral valve by itself, any valve between two files. */
+ * Valves that open, in riis-mark and in the C interface: the mitral valve by itself, and any valve between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 static const char *const opening_texts[] = {"0", "0.5", "1"};
 static const double openings[] = {0, 0.5, 1};
-static const char *half_thickness = "0.25"; /* so that enough of the coarse box is marked */
+static const char *half_thickness = "0.25"; /* enough nodes of the coarse box are marked */
 
 static riis_valve *make_valve(const char *kind) {
   riis_valve *valve = NULL;
@@ -54,7 +54,7 @@ static void test_mitral(void **state) {
     assert_non_null(strstr(program_out, title));
   }
   assert_true(n_marked[0] != n_marked[1] && n_marked[1] != n_marked[2]);
-  /* Open is the default; --set and a file know the parameter, too, and --opening comes last. */
+  /* The default is open. --set and a file can also set the opening, and --opening comes last. */
   mark_at(valve, 1);
   RUN_ON_BOX("--valve", "mitral");
   expect_outputs();
@@ -77,7 +77,7 @@ static void test_aortic(void **state) {
   expect_fine(riis_valve_set_scalar(closed, "leaflet_angle", 68));
   expect_fine(riis_valve_set_scalar(closed, "root_radius", 1.25));
   expect_fine(riis_valve_set_scalar(open, "leaflet_angle", 45));
-  /* An opening in the file of the open state does not matter. */
+  /* An opening in the file of the open state has no effect. */
   scratch_write_text("closed.json", "{\"leaflet_angle\": 68}");
   scratch_write_text("open.json", "{\"leaflet_angle\": 45, \"opening\": 0.3}");
   riis_surface_options options;
@@ -87,10 +87,10 @@ static void test_aortic(void **state) {
     if (i == 1) {
       expect_fine(riis_valve_set_open_state(closed, open));
       mark_at(closed, 0.5);
-    } else { /* the state alone */
+    } else { /* only this state */
       mark_by_c(i == 0 ? closed : open, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
     }
-    /* --set is of the closed state only. */
+    /* --set changes only the closed state. */
     RUN_ON_BOX("--params-closed", scratch_path("closed.json"), "--params-open", scratch_path("open.json"), "--set",
                "root_radius=1.25", "--opening", opening_texts[i]);
     expect_outputs();
@@ -104,7 +104,7 @@ static void test_aortic(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* Half way lies between: the area does. */
+/* Half way between two states, the area is between theirs. */
 static void test_between(void **state) {
   (void)state;
   scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
@@ -118,7 +118,7 @@ static void test_between(void **state) {
   assert_true((area[0] < area[1] && area[1] < area[2]) || (area[0] > area[1] && area[1] > area[2]));
 }
 
-/* The closed curves are then the first file's, the open ones the second's. */
+/* With two files, the closed curves are the first file's and the open curves the second's. */
 static void test_mitral_states(void **state) {
   (void)state;
   riis_valve *valve = make_valve("mitral"), *open = make_valve("mitral");
@@ -160,14 +160,14 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--params", mesh, "--params", file, "--params-closed", file);
   RUN_REFUSED(1, "missing.json: cannot be read", mesh, "--params-open", scratch_path("missing.json"), "--opening", "0");
   RUN_REFUSED(1, "missing.json: cannot be read", mesh, "--params-closed", scratch_path("missing.json"));
-  /* Its parameters are the valve's. */
+  /* A file's parameters must be the valve's. */
   RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", mesh, "--valve", "mitral",
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", mesh, "--valve", "mitral", "--set",
               "left.leaflet_angle=3");
   RUN_REFUSED(1, "is not a kind of valve; there are: aortic, mitral, and files of patches, FILE.json", mesh, "--valve",
               "tricuspid");
-  /* No input is replaced. */
+  /* An output must not replace an input. */
   RUN_REFUSED(2, "is the file of --params-open too", mesh, "--params-open", file, "--opening", "0", "--stats", file);
 }
 

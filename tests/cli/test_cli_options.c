@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What riis-mark says without a mesh, and how it reads its command line. */
+ * The output of riis-mark without a mesh, and the reading of its command line. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,7 +74,7 @@ static void test_help(void **state) {
   }
 }
 
-/* What cannot be printed is no success. */
+/* The program fails if it cannot print its output. */
 static void test_no_stdout(void **state) {
   (void)state;
   const char *places[] = {"/dev/full", ""};
@@ -88,7 +88,7 @@ static void test_no_stdout(void **state) {
   program_stdout = NULL;
 }
 
-/* An option takes one value: what follows it is the mesh. */
+/* An option takes one value. The next argument is the mesh. */
 static void test_order(void **state) {
   (void)state;
   RUN_FINE("--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");
@@ -111,7 +111,7 @@ static void test_skip_zero_area(void **state) {
   assert_true(json_number(program_out, "area") == 0.5);
 }
 
-/* Who types the name alone gets a few lines of what to type, not of what was wrong. */
+/* The program's name alone prints a few lines on what to type, not on what was wrong. */
 static void test_no_arguments(void **state) {
   (void)state;
   run_program(NULL);
@@ -124,7 +124,7 @@ static void test_no_arguments(void **state) {
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) assert_non_null(strstr(program_err, parts[i]));
 }
 
-/* Numbers are read and written with a point, whatever the locale. */
+/* Numbers are read and written with a decimal point, whatever the locale. */
 static void test_locale(void **state) {
   (void)state;
   setenv("LC_ALL", "de_DE.UTF-8", 1);

@@ -8,7 +8,7 @@
 #include "program.h"
 #include "scratch.h"
 
-/* The number behind the key within the object of a cusp. */
+/* Returns the number behind the key within the object of a cusp. */
 static double in_cusp(const char *json, const char *cusp, const char *key) {
   char quoted[64];
   snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
@@ -17,7 +17,7 @@ static double in_cusp(const char *json, const char *cusp, const char *key) {
   return json_number(object, key);
 }
 
-/* The first number of an array within the object of a cusp. */
+/* Returns the first number of an array within the object of a cusp. */
 static double first_in_cusp(const char *json, const char *cusp, const char *key) {
   char quoted[64];
   snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
@@ -30,7 +30,7 @@ static double first_in_cusp(const char *json, const char *cusp, const char *key)
   return value;
 }
 
-/* Every parameter that the library has is in the template, which is read back to the same values. */
+/* Every parameter of the library is in the template. Reading the template back gives the same values. */
 static void expect_template(const char *kind) {
   static char defaults[longest_output];
   RUN_FINE("--print-params", "--valve", kind);
@@ -163,7 +163,7 @@ static void test_json_refusals(void **state) {
   RUN_REFUSED(1, ": cannot be read", scratch_path("in.vtu"), "--params", scratch_path("."));
 }
 
-/* What is deep or long is refused in a line like any other. */
+/* A file that is nested deeply or has long strings is refused in one line, like any other. */
 static void test_json_sizes(void **state) {
   (void)state;
   enum { depth = 1000000, length = 100000 };
@@ -192,7 +192,7 @@ static void test_json_sizes(void **state) {
   }
 }
 
-/* Every parameter has a line with its value, unit, range and description; the values are those that are set. */
+/* Every parameter has a line with its current value, unit, range and description. */
 static void expect_table(const char *kind) {
   RUN_FINE("--describe-params", "--valve", kind);
   riis_valve *valve = NULL;
@@ -233,7 +233,7 @@ static void test_table(void **state) {
   assert_non_null(strstr(program_out, " 0.5 "));
 }
 
-/* What may have been meant. */
+/* A refusal of an unknown name suggests a near one. */
 static void test_near_names(void **state) {
   (void)state;
   RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --picture: without a display one line and exit code 1, not an abort; with one, a file for each, each with its view.
- */
+ * --picture: without a display there is one line and exit code 1, not an abort. With a display there is a file for each option,
+ * each with its view. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,12 +20,12 @@ static void test_without_display(void **state) {
   unsetenv("DISPLAY");
   RUN_REFUSED(1, "DISPLAY is not set", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
-  /* Before any work: the mesh is missing too, and is not what is named. */
+  /* The refusal comes before any work: the mesh is also missing, but is not named. */
   RUN_REFUSED(1, "DISPLAY is not set", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
   setenv("DISPLAY", ":7654", 1);
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
-  /* The marks are good: what else was asked for is there. */
+  /* The marks are good, so the other requested files are there. */
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"),
               "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
   assert_true(scratch_exists("out.vtu"));
@@ -65,19 +65,19 @@ static void test_pictures(void **state) {
   expect_picture("2.png");
   expect_picture("3.png");
   assert_non_null(strstr(program_out, "3.png"));
-  /* The third had no --view of its own: oblique. */
+  /* The third picture had no --view, so its view is oblique. */
   RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("4.png"), scratch_path("in.vtu"), "--view", "oblique");
   assert_true(same_file("3.png", "4.png"));
   assert_false(same_file("1.png", "2.png"));
   assert_false(same_file("1.png", "3.png"));
   assert_false(same_file("2.png", "3.png"));
-  /* Marks by another name are drawn alike. */
+  /* Marks with another name are drawn in the same way. */
   RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix", "left",
            "--output", scratch_path("left.vtu"));
   assert_true(same_file("3.png", "5.png"));
 }
 
-/* A picture by the program, and one by the C interface with the title that it should have. */
+/* Compares a picture of the program with one of the C interface that has the expected title. */
 static void expect_title(const char *title, const char *setting, const char *value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -97,7 +97,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   riis_valve_destroy(&valve);
 }
 
-/* Nobody is to take the paper's aortic valve for a closed one. */
+/* The title must not let anyone take the paper's aortic valve for a closed one. */
 static void test_titles(void **state) {
   (void)state;
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");

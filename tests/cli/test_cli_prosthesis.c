@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The example of a valve of one's own, prosthesis.json, .c and .f90: all three are the same valve, its leaflets never cross
+ * The example of a valve of one's own, as prosthesis.json, .c and .f90. All three are the same valve. Its leaflets never cross
  * each other, and closed it has no hole. */
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,7 @@ static void read_surface(void) {
   }
 }
 
-/* Has the program make the valve of this file at this opening, and reads it. */
+/* Lets the program make the valve of this file at this opening, and reads the result. */
 static void show(const char *file, double opening) {
   char text[32];
   snprintf(text, sizeof text, "%.17g", opening);
@@ -67,8 +67,9 @@ static void difference(const double *a, const double *b, long double *c) {
   for (int k = 0; k < 3; ++k) c[k] = (long double)a[k] - b[k];
 }
 
-/* How deep the segment from p to q goes through the triangle: how far both its ends are off the triangle's plane, and the
- * point in between from the triangle's edges, whichever is least. At most 0 if it does not go through. */
+/* The depth at which the segment from p to q goes through the triangle. It is the least of three kinds of distance: of each end
+ * from the triangle's plane, and of the point in between from the triangle's edges. It is at most 0 if the segment does not go
+ * through. */
 static long double depth_of_segment(const double *p, const double *q, double triangle[3][3]) {
   long double ab[3], ac[3], normal[3], ap[3], aq[3];
   difference(triangle[1], triangle[0], ab);
@@ -101,7 +102,7 @@ static int boxes_are_apart(double a[3][3], double b[3][3]) {
   return 0;
 }
 
-/* The deepest that triangles of different leaflets go through each other: all pairs, all edges. */
+/* The greatest depth at which triangles of different leaflets go through each other, over all pairs and all edges. */
 static double deepest_crossing(void) {
   long double deepest = 0;
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
@@ -117,8 +118,8 @@ static double deepest_crossing(void) {
   return (double)deepest;
 }
 
-/* How far the valve's vertices leave the thirds of the ring that their leaflets have: half planes through the axis and the
- * commissures. Thirds are convex, so triangles are as far inside as their corners are. */
+/* The greatest distance of a vertex from its leaflet's third of the ring. Half planes through the axis and the commissures bound
+ * a third. Thirds are convex, so triangles are as far inside as their corners. */
 static double farthest_outside(void) {
   static const double commissure[3][2] = {{0.60, -1.04}, {0.60, 1.04}, {-1.20, 0.00}};
   double farthest = 0;
@@ -133,7 +134,7 @@ static double farthest_outside(void) {
   return farthest;
 }
 
-/* Whether the vertical line through (x, y) meets some triangle, or passes it by no more than this. */
+/* Tells whether the vertical line through (x, y) meets a triangle or passes it within the tolerance. */
 static int is_covered(double x, double y, double tolerance) {
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
     double(*c)[3] = shown.corner[i];
@@ -149,8 +150,8 @@ static int is_covered(double x, double y, double tolerance) {
   return 0;
 }
 
-/* Lines through a grid on the disc inside of the ring that no triangle covers. The ring has radius 1.2; its polygon comes
- * within 0.01 of that. The grid's middle lies on the axis; the lines where leaflets meet have a row of their own each. */
+/* The number of vertical lines through a grid on the disc inside the ring that meet no triangle. The ring has radius 1.2, and its
+ * polygon comes within 0.01 of that. The grid's middle is on the axis. Each line where leaflets meet has a row of its own. */
 static int n_uncovered(void) {
   const double radius = 1.19, tolerance = 1e-9;
   int n_missed = 0;
@@ -163,7 +164,7 @@ static int n_uncovered(void) {
   return n_missed;
 }
 
-static const double rounding = 1e-13; /* cm: leaflets that meet may overlap by what coordinates round by */
+static const double rounding = 1e-13; /* cm; leaflets that meet may overlap by the rounding of coordinates */
 
 static void test_no_crossing(void **state) {
   (void)state;
@@ -202,7 +203,7 @@ static void write_with_end(const char *end) {
   free(text);
 }
 
-/* The checks above find what they are for. */
+/* The checks above find the faults that they are for. */
 static void test_faults_are_found(void **state) {
   (void)state;
   char file[256];
@@ -244,7 +245,7 @@ static void test_file_is_c(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* The numbers in the lines of arrays of a source: those lines begin with blanks and a number, or a brace. */
+/* Reads the numbers in the lines of arrays of a source. These lines begin with blanks and a number or a brace. */
 static int numbers_of(const char *path, double *numbers, int n_most) {
   char *text = scratch_read(path, NULL);
   int n_found = 0;
@@ -267,7 +268,7 @@ static int numbers_of(const char *path, double *numbers, int n_most) {
   return n_found;
 }
 
-/* The C and the Fortran program have the same control points; the rest of them is compared by what they print. */
+/* The C and the Fortran program have the same control points. Another test compares their output. */
 static void test_fortran_is_c(void **state) {
   (void)state;
   enum { n_all = 3 * (30 + 30 + 30), n_most = 2 * n_all };

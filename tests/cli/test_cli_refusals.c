@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Every refusal: its exit code and one line on stderr that names what was wrong; and no output is left behind. */
+ * Every refusal has its exit code and one line on stderr that names the fault. No refusal leaves output behind. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,7 +52,7 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "--output", mesh, "--output");
 }
 
-/* What may have been meant, and in the order of typing. */
+/* Refusals suggest the option that may have been meant, and come in the order of typing. */
 static void test_unknown_options(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
@@ -158,7 +158,7 @@ static void test_numbers(void **state) {
   RUN_REFUSED(2, "--threads: 'two' is not a whole number", mesh, "--threads", "two");
   RUN_REFUSED(2, "--threads: '2.5' is not a whole number", mesh, "--threads", "2.5");
   RUN_REFUSED(2, "--threads: '99999999999' is not a whole number", mesh, "--threads", "99999999999");
-  /* RIIS_AUTO, which is -1, must not come from outside. */
+  /* A user must not be able to pass RIIS_AUTO, which is -1. */
   RUN_REFUSED(2, "--half-thickness: -1 is not above 0", mesh, "--half-thickness", "-1");
   RUN_REFUSED(2, "--half-thickness: nan is not above 0", mesh, "--half-thickness", "nan");
   RUN_REFUSED(2, "--distance-limit: -1 is not above 0", mesh, "--distance-limit", "-1");
@@ -177,7 +177,7 @@ static void test_values(void **state) {
   RUN_REFUSED(2, "riis-mark: --tolerance is 0; ", mesh, "--tolerance", "0");
   RUN_REFUSED(2, "riis-mark: --tolerance is -1; ", mesh, "--tolerance", "-1");
   RUN_REFUSED(2, "riis-mark: --half-thickness is inf; ", mesh, "--half-thickness", "inf");
-  /* These before the mesh is read: it is missing too. */
+  /* These refusals come before the mesh is read: it is also missing. */
   mesh = scratch_path("missing.vtu");
   RUN_REFUSED(2, "riis-mark: --distance-limit is 0.05; ", mesh, "--distance-limit", "0.05");
   RUN_REFUSED(2, "riis-mark: --threads is -2; ", mesh, "--threads", "-2");
@@ -205,7 +205,7 @@ static void test_input_files(void **state) {
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
-/* Data that only the core can judge is named with its file. */
+/* A refusal of data that only the core can check names the file. */
 static void test_bad_data(void **state) {
   (void)state;
   scratch_write_text(
@@ -242,7 +242,7 @@ static void test_outputs(void **state) {
   RUN_REFUSED(1, "/dev/full: cannot be written: No space left", mesh, "--stats", "/dev/full", "--quiet");
 }
 
-/* An output that cannot be is refused before the mesh is read: this one is missing too, and is not the one named. */
+/* An impossible output is refused before the mesh is read: the mesh is also missing, but is not named. */
 static void test_outputs_first(void **state) {
   (void)state;
   RUN_REFUSED(1, "a.vtu: cannot be written", scratch_path("missing.vtu"), "--output", scratch_path("no_folder/a.vtu"));

@@ -42,7 +42,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--resistance", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
   RUN_REFUSED(2, "--resistance needs a MESH", "--valve", "aortic", "--resistance", "1", "--surface-output",
               scratch_path("s.vtp"));
-  /* Of another valve's K nothing is replaced by chance. */
+  /* The K of another valve is not replaced by chance. */
   RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1", "--prefix", "a",
            "--output", scratch_path("a.vtu"));
   RUN_REFUSED(2, "a_marked", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis-mark --search: which search runs, that marks are the same, and what is said of a search that may be incomplete. */
+ * riis-mark --search: the search that runs, the marks, which are always the same, and the message about a search that may be
+ * incomplete. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@ static void mark_default_valve(double half_thickness, double distance_limit) {
   riis_valve_destroy(&valve);
 }
 
-/* auto, too, which says what it chose. */
+/* This includes auto, which reports its choice. */
 static void test_marks_are_equal(void **state) {
   (void)state;
   mark_default_valve(0.2, 0.3);
@@ -44,7 +45,7 @@ static void test_marks_are_equal(void **state) {
   }
 }
 
-/* By the same options from C; by triangles other distances, and said. */
+/* The distances equal those of C with the same options. They differ from the triangles', and the output says so. */
 static void test_distances(void **state) {
   (void)state;
   const char *methods[] = {"triangles", "sampling", "minimization"};
@@ -97,7 +98,7 @@ static void expect_warning(void) {
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
 }
 
-/* Where the band hangs together the paper's search finds all of it, too; it cannot know, and says so. */
+/* In a connected band the paper's search also finds all nodes. It cannot know this, and says so. */
 static void test_paper(void **state) {
   (void)state;
   mark_default_valve(0.3, RIIS_AUTO);
@@ -118,7 +119,7 @@ static void test_paper(void **state) {
   assert_string_equal(program_out, "");
 }
 
-/* Two triangles far apart: the paper's search finds what is near to the first, the neighbour search both. */
+/* Two triangles are far apart. The paper's search finds the nodes near the first, the neighbour search those near both. */
 static void test_two_pieces(void **state) {
   (void)state;
   scratch_write_text(
@@ -139,7 +140,7 @@ static void test_two_pieces(void **state) {
   assert_true(n_marked[2] > 0 && n_marked[2] < n_marked[0]);
 }
 
-/* Points alone: no neighbours, all marks by the proof, and the table says how many. */
+/* A mesh of points has no neighbours, so all marks come from the proof. The table gives their number. */
 static void test_no_cells(void **state) {
   (void)state;
   scratch_write_text("points.vtk",
@@ -160,7 +161,7 @@ static void test_no_cells(void **state) {
   assert_true(json_number(program_out, "n_marked") == 1);
 }
 
-/* What is refused without an adjacency is refused with one, before the mesh is read. */
+/* Options that are refused without an adjacency are also refused with one, before the mesh is read. */
 static void test_refusals(void **state) {
   (void)state;
   const char *searches[] = {"neighbor", "paper"};

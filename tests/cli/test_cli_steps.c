@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --steps: what a step of a moving valve costs is said, and nothing else changes. */
+ * --steps prints the cost of each step of a moving valve and changes nothing else. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,7 +55,7 @@ static void test_refusals(void **state) {
               scratch_path("a.vtp"));
   RUN_REFUSED(2, "--steps has no effect with --print-params", "--valve", "mitral", "--steps", "2", "--print-params");
   RUN_REFUSED(2, "--surface excludes --steps", mesh, "--surface", scratch_path("a.vtp"), "--steps", "2");
-  /* A valve that cannot move. */
+  /* This valve cannot move. */
   RUN_REFUSED(1, "--steps: opening is 0.02, but the aortic valve has one state only", mesh, "--steps", "2");
 }
 

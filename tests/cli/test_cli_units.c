@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --unit and --surface-unit: the marks are the same whatever the unit. Sizes that do not go together: the options that the
- * warning names are taken from it, and they mend it. */
+ * --unit and --surface-unit: the marks are the same whatever the unit. For sizes that do not go together, the test takes the
+ * options that the warning names, and they mend it. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ static int make_files(void **state) {
   return n_wanted > 100 ? 0 : -1;
 }
 
-/* Rounding may move a node that is as far as the half thickness; a wrong unit moves all. */
+/* Rounding may change the mark of a node at the half thickness. A wrong unit changes all marks. */
 static void expect_wanted_marks(void) {
   if (program_exit_code != 0 || program_err[0]) fail_msg("exit code %d, stderr: %s", program_exit_code, program_err);
   const double n = json_number(program_out, "n_marked");
@@ -93,7 +93,7 @@ static void test_patches(void **state) {
   assert_true(n_marked[0] > 30 && n_marked[0] == n_marked[1] && n_marked[1] == n_marked[2]);
 }
 
-/* One line with this text and status; --quiet does not take it away. */
+/* Checks that there is one line with this text, and this exit code. --quiet does not remove the line. */
 static void expect_warning(int exit_code, const char *text) {
   const char *end = strchr(program_err, '\n');
   if (program_exit_code != exit_code || strncmp(program_err, "riis-mark: ", 11) != 0 || !end || end[1] ||
@@ -101,7 +101,7 @@ static void expect_warning(int exit_code, const char *text) {
     fail_msg("exit code %d for %d, wanted \"%s\"\nstderr: %s", program_exit_code, exit_code, text, program_err);
 }
 
-/* The words behind "write ", up to " in place of", as arguments. */
+/* Makes arguments of the words between "write " and " in place of". */
 static int advised(char words[8][64]) {
   static char text[longest_output];
   const char *place = strstr(program_err, ": write ");
@@ -116,7 +116,7 @@ static int advised(char words[8][64]) {
   return n;
 }
 
-/* Runs it with what the last warning advises: all is well then. surface may be NULL. */
+/* Runs the program with the last warning's advice, which must end the warnings. surface may be NULL. */
 static void expect_cured(const char *mesh, const char *surface) {
   char words[8][64];
   const int n_words = advised(words);
@@ -149,13 +149,13 @@ static void test_wrong_valve_units(void **state) {
   run_program(meshes[0], "--unit", "mm", NULL);
   expect_warning(3, ": write --unit m in place of --unit mm\n");
   expect_cured(meshes[0], NULL);
-  /* A half thickness that would go with neither is told of at once. */
+  /* One warning mends both a wrong unit and a wrong half thickness. */
   run_program(meshes[0], "--half-thickness", "0.1", NULL);
   expect_warning(3, ": write --unit m --half-thickness 0.001\n");
   expect_cured(meshes[0], NULL);
 }
 
-/* A mesh of millimetres that would be large and coarse, but no nonsense, in centimetres: both are told. */
+/* A mesh in millimetres would be large and coarse in centimetres, but possible. Both explanations are reported. */
 static void test_coarse_or_other_unit(void **state) {
   (void)state;
   assert_int_equal(
@@ -164,7 +164,7 @@ static void test_coarse_or_other_unit(void **state) {
   expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
   expect_warning(program_exit_code, ": write --unit mm, or, if that is wrong, --half-thickness 0.");
   RUN_FINE(scratch_path("large.vtu"), "--unit", "mm");
-  /* The unit of a file is not known, so its default half thickness says nothing. */
+  /* The unit of a file is not known, so its default half thickness tells nothing. */
   run_program(scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
@@ -180,7 +180,7 @@ static void test_wrong_file_units(void **state) {
   run_program(meshes[0], "--surface", surfaces[2], "--unit", "m", "--surface-unit", "m", NULL);
   expect_warning(3, ": write --unit m --surface-unit mm in place of --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[2]);
-  /* Both in one unit, which is not the half thickness'. */
+  /* Mesh and surface are in one unit, and the half thickness in another. */
   run_program(meshes[2], "--surface", surfaces[2], NULL);
   expect_warning(0, "the median edge of the mesh ");
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
@@ -189,7 +189,7 @@ static void test_wrong_file_units(void **state) {
   expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
   expect_warning(0, "both look as if they were in metres: write --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[0]);
-  /* A factor that no two units have. */
+  /* No two units differ by this factor. */
   run_program(meshes[1], "--surface", surfaces[1], "--scale", "0.005", NULL);
   expect_warning(3, "different units");
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
@@ -210,7 +210,7 @@ static void test_half_thickness(void **state) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* A mesh too coarse for any power of ten: its edge, unless that is too coarse as well. */
+  /* If no power of ten suits a coarse mesh, the advice is its edge length, unless that is also too coarse. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
@@ -223,24 +223,24 @@ static void test_half_thickness(void **state) {
                    1);
   run_program(scratch_path("coarse.vtu"), "--half-thickness", "0.075", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.4");
-  /* A file whose surface is in no size of a valve. */
+  /* The surface of this file has no valve's size in any unit. */
   run_program(meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
   expect_warning(0, ": write --half-thickness 0.07\n");
 }
 
-/* Where sizes explain nothing: the places. */
+/* If sizes explain nothing, the message gives the places. */
 static void test_places(void **state) {
   (void)state;
   run_program(meshes[1], "--translate", "50,0,0", NULL);
   expect_warning(3,
                  "no node is marked: the mesh is in x -1.7 to 1.5, y -1.6 to 1.6, z -1.3 to 0.4, the surface in x 48.");
   expect_warning(3, "the half thickness is 0.1: see --translate, --rotate, --scale, --half-thickness\n");
-  /* A corner of the valve alone is in the mesh. */
+  /* Only a corner of the valve is in the mesh. */
   run_program(meshes[1], "--translate", "3,0,0", NULL);
   expect_warning(0, "only ");
   expect_warning(0, " of 10,648 nodes are marked: the mesh is in x");
   RUN_FINE(meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));
-  /* A mesh of few nodes, all of them near, is no news. */
+  /* A mesh of few nodes, all near the valve, needs no message. */
   scratch_write_text("few.vtk",
                      "# vtk DataFile Version 3.0\nfew\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                      "1 0 -.3 1.01 0 -.3 1 .01 -.3 1 0 -.31\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");

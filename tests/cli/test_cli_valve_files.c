@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --valve FILE.json: the marks of such a valve against the C interface's, and every refusal of a file. */
+ * --valve FILE.json: the marks of such a valve, compared with the C interface's, and every refusal of a file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +10,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A flap of two patches, of curves of every degree and one collapsed side, which swings open; the curves of a file stand in
- * another order, and so they do in "open". */
+/* A flap of two patches that swings open, with curves of every degree and one collapsed side. The file has the curves in another
+ * order, also in "open". */
 static const char *const flap =
     "{\"curves\": {\"hinge\": [[-1, 0, 0], [0, 0, 0]], \"rim\": [[0, 1.2, -0.3], [-1, 1, 0]],\n"
     "  \"left\": [[-1, 0, 0], [-1, 0.5, 0.4], [-1, 1, 0]], \"middle\": [[0, 0, 0], [0, 0.4, 0.4], [0, 0.8, 0.4], [0, "
@@ -56,7 +56,7 @@ static riis_valve *flap_by_c(const double *control) {
   return valve;
 }
 
-/* Writes v.json: the flap, with the first found text replaced, and open or not. */
+/* Writes v.json: the flap, with the first place of the text `found` replaced, and with or without an open state. */
 static void write_flap(int can_open, const char *found, const char *replacement) {
   char text[4096], changed[4096];
   snprintf(text, sizeof text, flap, can_open ? flap_open : "");
@@ -101,7 +101,7 @@ static void test_marks(void **state) {
   assert_true(json_number(program_out, "opening") == 0);
   RUN_FINE(scratch_path("in.vtu"), "--valve", file);
   assert_non_null(strstr(program_out, "v.json, opening 0: "));
-  /* By any capitals. */
+  /* The file's ending may be in capitals. */
   char *text = scratch_read(file, NULL);
   scratch_write_text("V.JSON", text);
   free(text);
@@ -117,7 +117,7 @@ static void test_marks(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* Its only parameter is known to all that knows parameters. */
+/* Every option that takes parameters knows the valve's only parameter. */
 static void test_parameters(void **state) {
   (void)state;
   keep_path();
@@ -175,7 +175,7 @@ static void test_bad_files(void **state) {
     scratch_write_text("v.json", files[i].json);
     RUN_REFUSED(1, files[i].text, scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* What only the surface shows. */
+  /* Only making the surface shows this fault. */
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");
@@ -185,7 +185,7 @@ static void test_bad_files(void **state) {
               scratch_path("missing.json"));
 }
 
-/* One thing wrong in a good file. */
+/* Each case has one fault in a good file. */
 static void test_changed_files(void **state) {
   (void)state;
   const struct {
@@ -238,10 +238,10 @@ static void test_changed_files(void **state) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
     RUN_REFUSED(1, changes[i].text, scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* A curve without length stands for a side that opens, and the other way. */
+  /* A curve without length becomes a side that opens, and the other way round. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE(scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
-  /* No input is replaced. */
+  /* An output must not replace an input. */
   RUN_REFUSED(2, "is the file of --valve too", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--stats",
               scratch_path("v.json"));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files are replaced as a whole or left as they were, whatever comes in between; no input is lost, and nothing is left
- * beside them. */
+ * Files are replaced as a whole or left as they were, even if the write is interrupted or fails. No input is lost, and nothing
+ * is left beside the files. */
 #include <linux/capability.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static void test_same_file_twice(void **state) {
   RUN_REFUSED(2, "is the file of --output too", mesh, "--output", out, "--stats", out);
   RUN_REFUSED(2, "is the file of --picture too", mesh, "--picture", "a.png", "--picture", "./a.png");
   RUN_REFUSED(2, "is the file of --surface-output too", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
-  /* By another name. */
+  /* The same file by another name. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
   RUN_REFUSED(2, "is the file of MESH too", mesh, "--stats", scratch_path("link.vtu"));
@@ -50,7 +50,7 @@ static void test_same_file_twice(void **state) {
   free(after);
 }
 
-/* What the user can only have meant. */
+/* An output may be the input itself: the user can only have meant that. */
 static void test_in_place(void **state) {
   (void)state;
   assert_true(shim_write_box(scratch_path("place.vtu"), SHIM_RAW, 5, (double[3]){-1.7, -1.6, -1.3},
@@ -61,7 +61,7 @@ static void test_in_place(void **state) {
   RUN_FINE("--surface", scratch_path("place.vtp"), "--scale", "2", "--surface-output", scratch_path("place.vtp"));
 }
 
-/* Stats replace a file, also through a link, but go into a device. */
+/* Stats replace a file, also through a link, but are written into a device. */
 static void test_stats_places(void **state) {
   (void)state;
   scratch_write_text("s.json", "before");
@@ -78,10 +78,10 @@ static void test_stats_places(void **state) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
-/* Files are replaced by others from beside them: that the file itself is writable does not help. */
+/* A file is replaced by a new one from the same folder, so a writable file in a closed folder is not enough. */
 static void test_closed_folder(void **state) {
   (void)state;
-  /* Root writes everywhere, unless the programs that it starts may not. */
+  /* Root may write everywhere, unless the programs that it starts lose that right. */
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0 && geteuid() == 0) skip();
   const char *mesh = scratch_path("missing.vtu");
   assert_int_equal(mkdir(scratch_path("closed"), 0700), 0);
@@ -99,7 +99,7 @@ static void test_closed_folder(void **state) {
   expect_text("closed/a.json", "before");
 }
 
-/* A file may not grow as large as it must: an error as any other. */
+/* If a file may not grow to its full size, that is an error like any other. */
 static void test_limited_size(void **state) {
   (void)state;
   scratch_write_text("limit.vtu", "before");
@@ -116,7 +116,7 @@ static void test_limited_size(void **state) {
   small.rlim_cur = 200;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
   run_program(scratch_path("in.vtu"), "--stats", scratch_path("limit.json"), "--quiet", "--half-thickness", "0.5",
-              NULL); /* at which nothing leaks: that would be said on a stderr of the same limit */
+              NULL); /* nothing leaks here: a warning would go to a stderr with the same limit */
   setrlimit(RLIMIT_FSIZE, &before);
   expect_run_refused(1, "limit.json: cannot be written: File too large", __FILE__, __LINE__);
   expect_text("limit.vtu", "before");
@@ -124,7 +124,7 @@ static void test_limited_size(void **state) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
-/* The program, sent the signal as soon as there is a file that it is writing. */
+/* Runs the program and sends it the signal as soon as it is writing a file. */
 static void run_and_interrupt(int signal_number) {
   unlink(scratch_path("marked.vtu"));
   unlink(scratch_path("late.json"));
@@ -136,8 +136,8 @@ static void run_and_interrupt(int signal_number) {
   finish_program(process);
 }
 
-/* A signal waits for the end of the file that is being written, and ends the process then: --stats is not reached. On a busy machine
- * the program may be at its end before this process sees the file: then again. */
+/* A signal waits for the end of the file that is being written, then it ends the process, so --stats is not written. On a busy
+ * machine the program may end before this process sees the file. Then the test tries again. */
 static void test_interruption(void **state) {
   (void)state;
   assert_true(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 60, (double[3]){-1.7, -1.6, -1.3},

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# in_root.sh SUITE FOLDER WORD...: ./run WORD... on a bare Debian of that suite (trixie, bookworm), in FOLDER/root, which debootstrap makes
-# the first time. The working tree's tracked files are copied there at every call; packages and build folders stay for the next.
+# in_root.sh SUITE FOLDER WORD...: runs ./run WORD... on a bare Debian of the given suite (trixie, bookworm). It is in
+# FOLDER/root, which debootstrap makes the first time. Every call copies the working tree's tracked files there. Packages and
+# build folders stay for the next call.
 #
-# What is mounted inside is so in a namespace of its own, which ends with the last process in it: nothing is left mounted, however this
+# Mounts are in a namespace of their own, which ends with the last process in it. So nothing stays mounted, however this script
 # ends, and FOLDER can be removed at any time.
 set -euo pipefail
 
@@ -23,8 +24,8 @@ if ((EUID != 0)); then
   command -v sudo >/dev/null || give_up "$suite: making a root and entering it takes root rights, and there is no sudo"
   as_root=(sudo)
 fi
-# in_namespace COMMAND...: what it mounts no one else sees, and what it starts ends with it, or with this script, however that ends: the
-# first process waits for the lock that this script holds.
+# in_namespace COMMAND...: no one else sees the command's mounts. The processes that it starts end with it, or with this script,
+# however that ends: the first process waits for the lock that this script holds.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '
@@ -52,9 +53,9 @@ find_mirror() {
   local release uri entry file line host_codename
   # shellcheck source=/dev/null
   host_codename=$(. /etc/os-release && [[ ${ID:-} == debian ]] && echo "${VERSION_CODENAME:-}") || host_codename=
-  # Of what apt fetches from, the first that has this suite, or the one that the host itself was installed from.
+  # Takes the first of apt's sources that has this suite, or the source that the host itself was installed from.
   while read -r release uri entry; do
-    [[ $uri =~ ^https?:// ]] || continue # a disc or a folder would not be found from inside
+    [[ $uri =~ ^https?:// ]] || continue # a disc or a folder cannot be found from inside
     [[ $release == "$suite" || ($host_codename && $release =~ ^($host_codename|stable|oldstable|testing)$) ]] || continue
     mirror=$uri
     break
@@ -62,7 +63,7 @@ find_mirror() {
   [[ $mirror ]] || return 0
 
   file=${entry%:*} line=${entry##*:}
-  [[ $file == *.sources ]] && line='1,$' # there the number counts stanzas, which of one file share their key
+  [[ $file == *.sources ]] && line='1,$' # there the number counts stanzas, and all stanzas of a file share their key
   local signed_by
   signed_by=$(sed -n "${line}p" -- "$file" | grep -v '^ *#' | grep -ioPm1 'signed-by\s*[:=]\s*\K/[^], ]+' || true)
   keyring=${signed_by:-$keyring}
@@ -80,7 +81,7 @@ find_mirror() {
   [[ $proxy != DIRECT ]] || proxy=
 }
 
-# What of the host's apt settings is about fetching; the rest (hooks, what is kept) is the host's own affair.
+# Prints the host's apt settings for fetching. Other settings (hooks, kept files) concern only the host.
 apt_settings() {
   command -v apt-config >/dev/null || return 0
   apt-config dump Acquire | grep -E '^Acquire::(http|https|Retries|ForceIPv4|ForceIPv6|Check-Date|Check-Valid-Until)\b' |
@@ -88,7 +89,7 @@ apt_settings() {
   [[ ! $proxy ]] || printf 'Acquire::%s::Proxy "%s";\n' "${mirror%%:*}" "$proxy"
 }
 
-# Variables of the environment that are about fetching.
+# Prints the environment's variables for fetching.
 proxy_variables() { env | grep -iE '^(http|https|ftp|all|no)_proxy=' || true; }
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -108,7 +109,7 @@ install_debootstrap() {
 
 check_keyring() {
   [[ -r $keyring ]] || give_up "no keyring $keyring to check Debian with (package debian-archive-keyring)"
-  # Debian's own keyring comes with each suite's key in a file of its own, too.
+  # Debian's keyring also comes with each suite's key in a separate file.
   [[ $keyring != "$debian_keyring" ]] || compgen -G "/usr/share/keyrings/debian-archive-$suite-stable.*" >/dev/null ||
     give_up "the package debian-archive-keyring is too old to know Debian's suite $suite: upgrade it (apt-get install --only-upgrade" \
       "debian-archive-keyring)"
@@ -137,7 +138,7 @@ make_root() {
   "${as_root[@]}" mv -- "$root.part" "$root"
 }
 
-# The host's network: it may have changed since the last call.
+# Copies the host's network settings, which may have changed since the last call.
 configure_root() {
   local file
   for file in /etc/resolv.conf /etc/hosts; do
@@ -151,13 +152,13 @@ configure_root() {
   fi
   "${as_root[@]}" find /etc/apt/ -maxdepth 1 -name 'auth.conf*' -exec cp -R -- {} "$root/etc/apt/" \;
   apt_settings | write "$root/etc/apt/apt.conf.d/90host"
-  # Certificates that the administrator added.
+  # The administrator may have added certificates.
   if [[ -d /usr/local/share/ca-certificates ]]; then
     "${as_root[@]}" cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
   fi
 }
 
-# The tracked files as they are in the working tree, with their times, so that only what changed is built again.
+# Copies the tracked files as they are in the working tree, with their times, so that only changed files are built again.
 copy_tree() {
   local files=() file fresh=$root/riis.part
   if [[ -e .git ]]; then
@@ -179,7 +180,7 @@ copy_tree() {
   "${as_root[@]}" mv -- "$fresh" "$root/riis"
 }
 
-# What runs in the namespace. With a bare /dev: what it draws and computes on is the processor.
+# The script that runs in the namespace. /dev is bare, so drawing and computing use the processor only.
 # shellcheck disable=SC2016
 inside='
 set -e
@@ -216,6 +217,6 @@ say "in $root: ./run $*"
 # shellcheck disable=SC2016
 in_namespace bash -c "$inside" bash "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
   "TERM=${TERM:-dumb}" "${variables[@]}" bash -c '
-    dpkg --configure -a >/dev/null # what an interrupted call may have left half done
+    dpkg --configure -a >/dev/null # finishes what an interrupted call left half done
     ! command -v update-ca-certificates >/dev/null || update-ca-certificates >/dev/null
     cd /riis && exec ./run "$@"' bash "$@"

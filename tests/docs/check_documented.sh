@@ -1,16 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_documented.sh DOXYGEN SOURCE_DIR SCRATCH
-# Every public function, struct, field, value, macro and typedef of the C headers has a text in what Doxygen makes of them. The names
-# are read from the headers, not from Doxygen, so that one which Doxygen overlooks is missed, too. Then the same of headers that
-# lost a comment each: what is checked by a check that cannot fail is not checked.
+# Every public function, struct, field, value, macro and typedef of the C headers must have a text in Doxygen's output. The
+# names are read from the headers, not from Doxygen, so names that Doxygen overlooks are also found. Then the check runs on
+# headers that lost a comment each, to show that it can fail.
 set -euo pipefail
 doxygen=$1 source=$2 scratch=$3
 rm -rf "$scratch"
 mkdir -p "$scratch"
 cd "$source"
 
-# names HEADER...: "name", or "struct.field", a line each.
+# names HEADER...: prints "name" or "struct.field", one per line.
 names() {
   cat "$@" | sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' | awk '
     /^#define RIIS_RIIS/ { next } # include guards
@@ -29,7 +29,7 @@ names() {
   ' | sort -u
 }
 
-# documented DIRECTORY: the same of what has a text in the XML files there.
+# documented DIRECTORY: prints the names that have a text in the XML files there.
 documented() {
   cat "$1"/*.xml | awk '
     function begin(what) { kind[++depth] = what; name[depth] = ""; text[depth] = 0 }
@@ -55,7 +55,7 @@ documented() {
   ' | sort -u
 }
 
-# undocumented DIRECTORY HEADER...: what has no text; Doxygen leaves its files in the directory.
+# undocumented DIRECTORY HEADER...: prints the names without a text. Doxygen writes its files into the directory.
 undocumented() {
   local to=$1
   shift
@@ -77,7 +77,7 @@ if [ -n "$missing" ]; then
   exit 1
 fi
 
-# without BEFORE AFTER NAME: the header without the comment between these two is refused for that name.
+# without BEFORE AFTER NAME: checks that the header without the comment between these two is refused for the name.
 without() {
   local before=$1 after=$2 expected=$3 to=$scratch/mutated found
   rm -rf "$to"

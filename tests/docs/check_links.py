@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_links.py FOLDER: links in the Markdown documents below the folder lead to files that there are, and to their headings."""
+"""check_links.py FOLDER: links in the Markdown documents below the folder must lead to existing files and headings."""
 import pathlib
 import re
 import sys
@@ -8,7 +8,7 @@ LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 
 
 def text_of(path):
-    """Without code, in which nothing is a link."""
+    """Returns the text without code, which has no links."""
     text = re.sub(r"^( *)```.*?^\1```", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"`[^`\n]*`", "", text)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_pages.py FOLDER: the HTML pages in the folder need nothing but what is in the folder.
+"""check_pages.py FOLDER: the HTML pages in the folder must need nothing outside the folder.
 
-What a page loads (style sheets, scripts, pictures, fonts) is a file in the folder, never something from a server. Links
-to other pages lead to a file in the folder, and to a place in it that there is. Links to web sites are not followed.
+Everything that a page loads (style sheets, scripts, pictures, fonts) must be a file in the folder, never on a server. Links
+to other pages must lead to a file in the folder and to an existing place in it. Links to web sites are not followed.
 """
 import html.parser
 import pathlib
@@ -63,7 +63,7 @@ class Folder:
         self.problems.append(f"{path.relative_to(self.folder)}: {problem}")
 
     def check_local(self, path, url):
-        """The file that a relative address means, or None, with a problem said."""
+        """Returns the file that a relative address means, or reports a problem and returns None."""
         target = urllib.parse.unquote(url.split("#")[0].split("?")[0])
         file = (path.parent / target).resolve() if target else path.resolve()
         if file.is_relative_to(self.folder.resolve()) and file.exists():

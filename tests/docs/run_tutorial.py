@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """run_tutorial.py check|write TUTORIAL.md SCRATCH PROGRAM_FOLDER RIIS: runs the tutorial as its reader would.
 
-Every block of ```sh is run in the scratch folder, in their order, and must succeed. Where a block of ```text follows, it is
-what the commands print. check compares; write puts what they printed into the tutorial. Seconds and numbers of threads are
-not compared, and with another gmsh than the tutorial's no numbers are.
+Every block of ```sh is run in the scratch folder, in order, and must succeed. A block of ```text that follows holds the
+commands' output. check compares it; write puts the new output into the tutorial. Seconds and numbers of threads are not
+compared. With another gmsh than the tutorial's, no numbers are compared.
 """
 import os
 import pathlib

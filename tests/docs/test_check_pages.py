@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_pages.py and check_links.py: what they refuse, on files made up here."""
+"""Tests what check_pages.py and check_links.py refuse, on files made up here."""
 import os
 import pathlib
 import subprocess

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The page of figures: every figure is there with a caption, every picture is a PNG of the size that the page says and
- * not of one colour, and nothing is fetched from elsewhere. */
+ * The page of figures: every figure is there with a caption. Every picture is a PNG of the size that the page gives, with more
+ * than one colour. Nothing is fetched from elsewhere. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -15,7 +15,7 @@ enum { n_figures = 11 };
 
 static char *page;
 
-/* The program's exit status; what it prints goes to a file in the scratch folder. */
+/* Returns the program's exit status. Its output goes to a file in the scratch folder. */
 static int run_program(const char *arguments) {
   char command[2048];
   const int n =
@@ -26,7 +26,7 @@ static int run_program(const char *arguments) {
   return WEXITSTATUS(status);
 }
 
-/* The same with plots of that JSON behind the figures. */
+/* The same with the plots of a JSON file behind the figures. */
 static int run_with_plots(const char *name, const char *json) {
   char arguments[1024];
   scratch_write("plots.json", json, strlen(json));
@@ -63,7 +63,7 @@ static int base64_digit(char c) {
   return found ? (int)(found - digits) : -1;
 }
 
-/* Decodes up to the closing quote into a file of the scratch folder. */
+/* Decodes the text up to the closing quote into a file of the scratch folder. */
 static void write_decoded(const char *text, const char *name) {
   const size_t length = strcspn(text, "\"");
   assert_true(length > 0 && length % 4 == 0);
@@ -85,7 +85,7 @@ static void write_decoded(const char *text, const char *name) {
   free(bytes);
 }
 
-/* Where text stands in [from, end). */
+/* Returns the place of a text in [from, end). */
 static const char *find(const char *from, const char *end, const char *text) {
   const char *found = strstr(from, text);
   return found && found < end ? found : NULL;
@@ -123,13 +123,13 @@ static void test_every_figure(void **state) {
     if (n_pictures < 4) fail_msg("figure %d has %d pictures", i, n_pictures);
   }
   char beyond[64];
-  snprintf(beyond, sizeof beyond, "<section id=\"figure-%d\">", n_figures + 2); /* one is given */
+  snprintf(beyond, sizeof beyond, "<section id=\"figure-%d\">", n_figures + 2); /* one figure is given by the JSON */
   assert_null(strstr(page, beyond));
 }
 
 static void test_page_stands_alone(void **state) {
   (void)state;
-  assert_null(strstr(page, "http:")); /* a colon is in no picture */
+  assert_null(strstr(page, "http:")); /* encoded pictures have no colon */
   assert_null(strstr(page, "https:"));
   assert_null(strstr(page, "<script"));
   assert_null(strstr(page, "<link"));
@@ -139,7 +139,7 @@ static void test_page_stands_alone(void **state) {
   assert_non_null(strstr(page, "</html>"));
 }
 
-/* Figures that are drawn elsewhere stand behind the others. */
+/* Figures that are drawn elsewhere follow the others. */
 static void test_given_figures(void **state) {
   (void)state;
   char start[64];
@@ -156,7 +156,7 @@ static void test_given_figures(void **state) {
   expect_picture(second, end);
 }
 
-/* What is not on the page is said there. */
+/* The page says which figures are missing. */
 static void test_left_out(void **state) {
   (void)state;
   const char *section = strstr(page, "<section id=\"left-out\">");
@@ -167,7 +167,7 @@ static void test_left_out(void **state) {
   assert_non_null(find(section, end, "<li>Threads: as well.</li>"));
 }
 
-/* What is wrong with them is said before anything is drawn. */
+/* Faults of given figures are reported before anything is drawn. */
 static void test_given_figures_refused(void **state) {
   (void)state;
   const struct {

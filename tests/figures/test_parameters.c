@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The drawings of what parameters measure: every parameter that riis_valve_parameter knows is named in its valve's drawing,
- * also in the one that the documents show; a drawing that would leave one out or show another value is refused. Skipped
- * where Python has no matplotlib. */
+ * The drawings of the parameters' meaning. Every parameter that riis_valve_parameter knows is named in its valve's drawing,
+ * also in the drawing that the documents show. A drawing that would leave one out or show another value is refused. The test is
+ * skipped where Python lacks matplotlib. */
 #include <ctype.h>
 #include <riis/riis.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 static const char *const valves[] = {"aortic", "mitral"};
 
-/* The exit status of a program; what it prints goes to a file in the scratch folder. */
+/* Returns the exit status of a program. Its output goes to a file in the scratch folder. */
 static int run(const char *command, const char *word, const char *other_word) {
   char line[2048];
   const int n = snprintf(line, sizeof line, "%s '%s' '%s' >'%s", command, word, other_word, scratch_path("printed"));
@@ -62,7 +62,7 @@ static void for_each_parameter(const char *kind, void (*visit)(const riis_parame
   riis_valve_destroy(&valve);
 }
 
-/* Whether a text of the drawing is the name, or begins with it and a blank. */
+/* Tells whether a text of the drawing is the name, or begins with it and a blank. */
 static int is_written(const char *svg, const char *name) {
   char begin[256];
   const size_t n = (size_t)snprintf(begin, sizeof begin, ">%s", name);
@@ -94,7 +94,7 @@ struct picture {
   size_t n_bytes;
 };
 
-/* The drawing has names and defaults in it as text. */
+/* The drawing has names and defaults as text. */
 static void expect_in_picture(const riis_parameter *parameter, void *what) {
   const struct picture *picture = what;
   char text[512];
@@ -120,7 +120,7 @@ static void test_pictures_of_the_documents(void **state) {
   }
 }
 
-/* Puts text in the place of the first old one after the mark, and expects that drawing it is refused with the message. */
+/* Replaces the first `old` after the mark by `text`, and expects that the drawing is refused with the message. */
 static void expect_refused_drawing(const char *mark, const char *old, const char *text, const char *message) {
   char *json = scratch_read(scratch_path("curves.json"), NULL);
   char *found = strstr(json, mark);

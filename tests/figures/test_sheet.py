@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench/figures/parameters: labels that overlap or leave the sheet are found, lengths along curves are right."""
+"""bench/figures/parameters: labels that overlap or leave the sheet are found, and lengths along curves are right."""
 
 import math
 import os

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors.sh SOURCE_FOLDER
-# The folders of the library are floors, each built on those before it: no file includes a file of a later floor.
+# The library's folders are floors, each built on the earlier ones. No file may include a file of a later floor.
 set -euo pipefail
 cd "$1"
 floors=(base laws parallel geometry kernels valve surface distance marking pipeline api)
@@ -18,7 +18,7 @@ floor_of() {
 failed=0 n=0
 for folder in */; do
   folder=${folder%/}
-  # The component and the program stand on the library's public header.
+  # The component and the program build on the library's public header.
   [[ $folder != vtk && $folder != cli ]] || continue
   own=$(floor_of "$folder") || { failed=1; continue; }
   while IFS=: read -r file line included; do

@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
-# check_floors.sh is content with the library, and refuses an include upwards and a folder that is no floor.
+# check_floors.sh must accept the library, and refuse an include upwards and a folder that is no floor.
 set -euo pipefail
 check=$(dirname "$0")/check_floors.sh
 sources=$1 scratch=$2
 
-# refuses MESSAGE: the check fails on the scratch copy, and says so.
+# refuses MESSAGE: the check must fail on the scratch copy with this message.
 refuses() {
   local said
   if said=$("$check" "$scratch" 2>&1); then

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The calls of test_calls.f90, made from C, and the layout of the structs as C sees it. */
+ * The calls of test_calls.f90 made from C, and the layout of the structs in C. */
 #include "c_twin.h"
 
 #include <stddef.h>
@@ -67,7 +67,7 @@ static riis_status make_surface(twin_numbers *numbers) {
   return list_surface(surface, &numbers->aortic);
 }
 
-/* Makes the surface of a valve that is then not needed any more. */
+/* Makes the surface of a valve, which is not needed afterwards. */
 static riis_status make_other_surface(riis_valve **of, riis_surface **made, twin_surface *list) {
   TRY(riis_surface_create(*of, NULL, made));
   riis_valve_destroy(of);
@@ -93,7 +93,7 @@ static riis_status make_opening(twin_numbers *numbers) {
 }
 
 static riis_status make_patches(twin_numbers *numbers) {
-  /* Two patches side by side that share a curve; the last curve is run along backwards. */
+  /* Two patches side by side share a curve. The last curve runs backwards. */
   const int32_t degree[7] = {2, 1, 1, 3, 2, 1, 1};
   const double control[3 * 18] = {-8, -8, 0, -4, -8, 4, 0, -8, 2, -8, 8, 0, 0, 8, 2, -8, -8, 0,
                                   -8, 8,  0, 0,  -8, 2, 1, -3, 1, -1, 3, 1, 0, 8, 2, 0,  -8, 2,
@@ -115,7 +115,7 @@ static riis_status make_patches(twin_numbers *numbers) {
 }
 
 static riis_status make_plate(void) {
-  /* Two quads; then two of their triangles, one in another place, and a third without area. */
+  /* Two quads. Then two of their triangles, one at another place, and a third one without area. */
   const double x[6] = {-9, 0, 9, -9, 0, 9}, y[6] = {-9, -9, -9, 9, 9, 9}, z[6] = {0, 0.5, 0, 0, 0.5, 0};
   const int64_t quads[8] = {1, 2, 5, 4, 2, 3, 6, 5};
   const int32_t triangles[9] = {0, 1, 4, 1, 1, 2, 2, 5, 4}, leaflet_id[3] = {3, 4, 5};
@@ -203,7 +203,7 @@ static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *number
   return riis_mark_result_stats(result, &numbers->stats, sizeof numbers->stats);
 }
 
-/* Every cube of the grid as six tetrahedra, each along a path from its first corner to its last. */
+/* Cuts every cube of the grid into six tetrahedra, each along a path from its first corner to its last. */
 static riis_status make_cells(int64_t n) {
   const int64_t nn = n * n, paths[6][2] = {{1, n}, {1, nn}, {n, 1}, {n, nn}, {nn, 1}, {nn, n}};
   const int64_t n_cells = 6 * (n - 1) * (n - 1) * (n - 1);
@@ -225,7 +225,7 @@ static riis_status make_cells(int64_t n) {
   return riis_adjacency_create_from_cells(&cells, &of_cells);
 }
 
-/* The grid's nodes as cell centres; with faces at one of its boundaries. */
+/* The grid's nodes are cell centres. There are also faces at one of its boundaries. */
 static riis_status make_faces(int64_t n) {
   const int64_t steps[3] = {1, n, n * n};
   int64_t n_faces = 0, *owner = allocate(3 * n * n * n, sizeof *owner);
@@ -246,7 +246,7 @@ static riis_status make_faces(int64_t n) {
   return riis_adjacency_create_from_faces(&faces, &of_faces);
 }
 
-/* Marks along an adjacency with a new result, which remembers nothing. */
+/* Marks along an adjacency with a new result, which has no last marking. */
 static riis_status walk(const riis_adjacency *along, int32_t search, const uint8_t *node_mask, riis_csr *csr,
                         riis_mark_stats *stats) {
   riis_mark_options options;
@@ -265,7 +265,7 @@ static riis_status walk(const riis_adjacency *along, int32_t search, const uint8
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
-/* Along the tetrahedra, marked thinly. */
+/* Finds leaks along the tetrahedra, marked with a small half thickness. */
 static riis_status find_leaks(twin_leaks *leaks) {
   riis_surface_options surface_options;
   riis_mark_options options;

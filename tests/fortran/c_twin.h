@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these. */
+ * The results that c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these. */
 #ifndef RIIS_TESTS_FORTRAN_C_TWIN_H
 #define RIIS_TESTS_FORTRAN_C_TWIN_H
 
 #include <riis/riis.h>
 
-/* A marking, listed. */
+/* The lists of a marking. */
 typedef struct twin_list {
   int64_t n;
   const int64_t *node_id;
@@ -14,7 +14,7 @@ typedef struct twin_list {
   const int32_t *leaflet_id;
 } twin_list;
 
-/* A surface, listed. */
+/* The lists of a surface. */
 typedef struct twin_surface {
   riis_surface_info info;
   const double *xyz, *uv;
@@ -28,7 +28,7 @@ typedef struct twin_walk {
   riis_mark_stats stats;
 } twin_walk;
 
-/* Edges that leak, listed. */
+/* The list of leaking edges. */
 typedef struct twin_leaks {
   riis_leaks sum;
   int64_t n;
@@ -76,14 +76,13 @@ typedef struct twin_numbers {
   twin_laws laws;
 } twin_numbers;
 
-/* Makes the calls that test_calls.f90 makes, from C, on its grid of per_side^3 nodes. Returns the first status that is
- * not RIIS_OK. */
+/* Makes the calls of test_calls.f90 from C, on its grid of per_side^3 nodes. Returns the first status that is not RIIS_OK. */
 riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers);
 void twin_end(void);
 
-/* Size and field offsets of a struct by name, in at most capacity numbers; returns how many there are. */
+/* Gets the size and field offsets of a struct by its name, at most `capacity` numbers. Returns how many there are. */
 int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers);
-/* How many structs riis.h has. */
+/* Returns the number of structs in riis.h. */
 int64_t twin_n_layouts(void);
 
 double twin_auto(void);

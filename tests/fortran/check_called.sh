@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
-# Every function of the header is called by the objects of the Fortran tests.
+# The objects of the Fortran tests must call every function of the header.
 set -euo pipefail
 header=$1
 shift
@@ -11,7 +11,7 @@ if [ "$(wc -l <<<"$functions")" -ne "$(grep -v '^#define' "$header" | grep -c '\
   echo "$header has declarations that this script does not understand" >&2
   exit 1
 fi
-# What the compiler left undefined is what is really called.
+# Undefined symbols are the functions that are really called.
 called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)
 uncalled=$(comm -23 <(sort <<<"$functions") <(echo "$called"))
 if [ -n "$uncalled" ]; then

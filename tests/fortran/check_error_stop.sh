@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_error_stop.sh PROGRAM
-# Errors without a status, and copies of handles, end error_stop.f90 with a text on the error unit and an exit status.
+# Errors without a status argument, and copies of handles, must end error_stop.f90 with a message on the error unit and an exit
+# status.
 set -euo pipefail
 program=$1
 failed=0

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_flang.sh FLANG CC SOURCE_DIR WORK_DIR LIBRARY
-# The Fortran sources by another compiler, as users of it compile them, against the same C library: the tests' programs pass.
+# Compiles the Fortran sources with another compiler, as its users do, against the same C library. The tests' programs must pass.
 set -euo pipefail
 flang=$1 cc=$2 source=$3 work=$4 library=$5
 flags=(-O1 -Werror)
@@ -15,7 +15,7 @@ for name in "${modules[@]}"; do
 done
 link=("$library" "-Wl,-rpath,$(dirname "$library")")
 tests=$source/tests/fortran
-# Targets of arrays that are none: the interface is made for that, and flang warns of it.
+# The interface is made for pointers to arrays that lack the target attribute, but flang warns about them.
 for name in checks box c_twin; do
   "$flang" -O1 -c "$tests/$name.f90"
 done

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_procedures.sh SOURCES... -- OBJECT_FILES...
-# Every public procedure of module riis and every external subroutine is called by the objects of the Fortran tests. Public
-# is what a binding or a generic names, or a PUBLIC statement; each of them has a documentation comment.
+# The objects of the Fortran tests must call every public procedure of module riis and every external subroutine. A procedure is
+# public if a binding, a generic or a PUBLIC statement names it. Each must have a documentation comment.
 set -euo pipefail
 sources=()
 while [ "$1" != -- ]; do
@@ -12,14 +12,14 @@ done
 shift
 failed=0
 
-# Documented: a comment that begins with !> stands right before it.
+# A procedure is documented if a comment that begins with !> stands right before it.
 documented=$(awk '
   /^ *!>/ { is_documented = 1; next }
   /^ *!!/ { next }
   is_documented && /^ *(pure |impure |elemental )*(subroutine|function) / {
     sub(/^ *(pure |impure |elemental )*(subroutine|function) /, ""); sub(/\(.*/, ""); print
   }
-  { is_documented = 0 }' "${sources[@]}" | grep -v '^riis_log_procedure$' | sort -u) # an abstract interface
+  { is_documented = 0 }' "${sources[@]}" | grep -v '^riis_log_procedure$' | sort -u) # riis_log_procedure is an abstract interface
 named=$(sed 's/!.*//' "${sources[@]}" | sed -n -E 's/^ *procedure(, [a-z_]+)* :: .* => ([a-z0-9_]+) *$/\2/p
   s/^ *module procedure ([a-z0-9_]+) *$/\1/p; s/^subroutine (riisf_[a-z0-9_]+).*/\1/p' | sort -u)
 undocumented=$(comm -13 <(echo "$documented") <(echo "$named"))
@@ -28,7 +28,7 @@ if [ -n "$undocumented" ]; then
   failed=1
 fi
 
-# What the compiler left undefined is what is really called: __module_MOD_name, or name_ of an external subroutine.
+# Undefined symbols are the procedures that are really called: __module_MOD_name, or name_ for an external subroutine.
 called=$(nm -u "$@" | sed -n -E 's/^ *U (__riis(_[a-z]+)?_MOD_)?([a-z0-9_]+)$/\3/p' | sed -E 's/^(riisf_[a-z0-9_]+)_$/\1/' | sort -u)
 uncalled=$(comm -23 <(printf '%s\n' "$documented" "$named" | sort -u) <(echo "$called"))
 if [ -n "$uncalled" ]; then

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_templates.sh FORTRAN_FOLDER SCRATCH
-# The generated sources are what their templates expand to, and fit the line length; the comparison refuses what it is for.
+# The generated sources must equal their templates' expansion and fit the line length. The comparison must refuse damaged copies.
 # Skipped (77) where fypp is not installed.
 set -euo pipefail
 folder=$1 scratch=$2
@@ -10,7 +10,7 @@ if ! command -v fypp >/dev/null; then
   exit 77
 fi
 
-# check FOLDER: whether the sources in FOLDER are those of the templates in FOLDER.
+# check FOLDER: succeeds if the sources in FOLDER are those of the templates in FOLDER.
 check() {
   local name status=0
   rm -rf "$scratch/expanded"
@@ -35,7 +35,7 @@ check() {
   return "$status"
 }
 
-# refused TEXT: check refuses $scratch/copy, with an error that has the text.
+# refused TEXT: check must refuse $scratch/copy with an error that has the text.
 refused() {
   local errors
   if errors=$(check "$scratch/copy" 2>&1); then
@@ -48,7 +48,7 @@ refused() {
   fi
 }
 
-# Two of the sources with their templates are enough to be damaged.
+# Two sources with their templates are enough for the damaged copies.
 copy() {
   local name
   rm -rf "$scratch/copy"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fortran/bindings/generate.py, on copies of riis.h and of bindings.table with something planted in them. It writes the right
-lines, or it refuses, names the line and leaves the files alone. The same for check_keywords.py."""
+"""Tests fortran/bindings/generate.py on copies of riis.h and of bindings.table with something planted in them. It must write the
+right lines, or refuse, name the line and leave the files alone. check_keywords.py is tested in the same way."""
 
 import contextlib
 import io
@@ -39,7 +39,7 @@ class Planted(unittest.TestCase):
         return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
 
     def plant(self, path, old, new):
-        """Replaces the one place that has the old text; returns the number of the line where it was."""
+        """Replaces the only place that has the old text. Returns its line number."""
         text = self.text(path)
         self.assertEqual(text.count(old), 1, f"{path} does not have {old!r} once: this test is out of date")
         with open(os.path.join(self.root, path), "w", encoding="utf-8") as file:
@@ -47,20 +47,20 @@ class Planted(unittest.TestCase):
         return text.count("\n", 0, text.index(old)) + 1
 
     def plant_function(self, arguments, entry=""):
-        """A function with these arguments, and its entry of the table; returns its line."""
+        """Plants a function with these arguments, and its entry in the table. Returns its line number."""
         if entry:
             self.plant(TABLE, "riis_valve_get\n", f"{entry}\nriis_valve_get\n")
         return self.plant(HEADER, BEFORE_FUNCTION, FUNCTION.format(arguments) + BEFORE_FUNCTION)
 
     def run_it(self, *words):
-        """Exit status and what was printed."""
+        """Returns the exit status and the output."""
         out = io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
             status = generate.main(["--root", self.root, *words])
         return status, out.getvalue()
 
     def writes(self):
-        """Says first, without writing, that files are not as they should be; then writes them."""
+        """Reports first, without writing, that files are not up to date. Then writes them."""
         status, text = self.run_it("--check")
         self.assertEqual(status, 1, text)
         self.assertIn("; ./run bindings writes it anew", text)
@@ -79,7 +79,7 @@ class Planted(unittest.TestCase):
         self.assertEqual(self.generated(), self.before)
 
     def function(self, name):
-        """The interface of a function as it was written."""
+        """Returns the interface of a function as it was written."""
         text = self.text(MODULE)
         end = text.index(f"    end function {name}\n")
         return text[text.rindex("\n\n", 0, end) + 2:end]
@@ -250,7 +250,7 @@ class Functions(Planted):
         self.assertRegex(self.text(MODULE), r"(?s)end function riis_valve_create\n.* riis_valve_planted.* riis_valve_destroy\(")
 
     def test_what_c_leaves_open_is_asked_for(self):
-        """All at once, with the lines to fill in."""
+        """The refusal names all gaps at once, with the lines to fill in."""
         line = self.plant_function("int64_t *n, const double *x,\n    const int64_t **ids, const riis_csr *csr, int32_t k")
         place = f"{HEADER}:{line}: riis_valve_planted: {TABLE} does not say of"
         pointer = "'required', or 'optional' where it may be NULL, with 'scalar', (*) or (3); or else 'borrowed'"
@@ -340,7 +340,7 @@ riis_valve_planted  What it does not say elsewhere.
 
 
 class Words(Planted):
-    """What the table must not say."""
+    """Faulty entries of the table."""
 
     def refused(self, old, new, *messages):
         self.setUp()

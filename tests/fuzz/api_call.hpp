@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One call of the library, in some floating-point environment of the caller's, and what holds after every call whatever it was.
+// Makes one call of the library, in some floating-point environment of the caller, and checks what holds after any call.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,7 +17,7 @@
 
 namespace fuzz {
 
-// What of the environment a caller would notice.
+// The parts of the environment that a caller would notice.
 struct FloatSettings {
   int rounding = std::fegetround(), traps = fegetexcept(), raised = std::fetestexcept(FE_ALL_EXCEPT);
 #if defined(__SSE__)
@@ -55,7 +55,7 @@ inline void check_status(riis_status status, const std::string &text_before) {
   EXPECT(std::strlen(text) > 8 && std::strlen(text) < 512, "status %d has the text '%s'", status, text);
 }
 
-// Makes the call and returns its status, which is RIIS_OK or a refusal with a text.
+// Makes the call and returns its status, which must be RIIS_OK or a refusal with a message.
 template <class Call>
 riis_status call(Input &in, const Call &make_call) {
   const std::string text_before = riis_last_error();
@@ -70,14 +70,14 @@ riis_status call(Input &in, const Call &make_call) {
   return status;
 }
 
-// A call that no state nor memory can refuse.
+// A call that must succeed in any state, whatever the memory.
 #define EXPECT_OK(call_)                                                                \
   do {                                                                                  \
     const riis_status status_ = (call_);                                                \
     EXPECT(status_ == RIIS_OK, "%s: %s", riis_status_name(status_), riis_last_error()); \
   } while (0)
 
-// A call that makes an object: the place it goes to is written on success, and only then.
+// A call that makes an object. It must write the handle on success, and only then.
 template <class Handle, class Make>
 Handle *made_by(Input &in, const Make &make) {
   auto *const untouched = reinterpret_cast<Handle *>(0x5a5a5a5a5a5a5a50);
@@ -89,7 +89,7 @@ Handle *made_by(Input &in, const Make &make) {
   return status == RIIS_OK ? handle : nullptr;
 }
 
-// An option struct filled by its init function, its size now and then spoilt.
+// Returns an option struct that its init function filled. Its size is sometimes spoilt.
 template <class Struct>
 Struct initialised(Input &in, riis_status (*init)(Struct *, int64_t)) {
   Struct made;

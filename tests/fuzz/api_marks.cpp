@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mark_*.
+// Calls of riis_mark_*.
 #include <algorithm>
 #include <cmath>
 
@@ -63,7 +63,7 @@ void expect_part(const std::vector<Found> &found, const std::vector<Found> &whol
            static_cast<long long>(one.node), one.distance);
 }
 
-// Every node within the limit, by asking for the closest point of each.
+// Returns every node within the limit, by a query for each node's closest point.
 std::vector<Found> expected_of(const riis_surface *surface, const Nodes &nodes, double limit,
                                const std::uint8_t *mask) {
   const Triangles t = triangles_of(surface);
@@ -96,7 +96,7 @@ void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std
     expected_distance[static_cast<std::size_t>(one.node)] = one.distance;
     expected_triangle[static_cast<std::size_t>(one.node)] = one.triangle_id;
   }
-  // A far distance within the limit is refused: limits go to 1e60.
+  // The far distance is -1: limits go to 1e60, and a far distance within the limit would be refused.
   if (riis_mark_result_dense(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
     EXPECT(false, "%s", riis_last_error());
   std::replace(expected_distance.begin(), expected_distance.end(), RIIS_FAR_DISTANCE, -1.0);
@@ -122,7 +122,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   EXPECT(options.n_threads == 0 || stats.n_threads <= options.n_threads, "%d threads of %d", stats.n_threads,
          options.n_threads);
   const bool is_of_paper = options.search == RIIS_SEARCH_PAPER;
-  // Where clusters cannot be used the exhaustive search runs.
+  // If clusters cannot be used, the exhaustive search runs.
   const bool may_be_clusters = options.search == RIIS_SEARCH_AUTO || options.search == RIIS_SEARCH_CLUSTERS;
   EXPECT(may_be_clusters ? stats.search == RIIS_SEARCH_EXHAUSTIVE || stats.search == RIIS_SEARCH_CLUSTERS
                          : stats.search == options.search,
@@ -130,14 +130,14 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   EXPECT(stats.complete == (is_of_paper ? 0 : 1), "search %d, complete %d", options.search, stats.complete);
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
 
-  for (std::int64_t i = 0; i < mesh.nodes->n; ++i)  // moved without a word: nothing to compare with
+  for (std::int64_t i = 0; i < mesh.nodes->n; ++i)  // moved without an update: nothing to compare with
     for (const double x : (*mesh.nodes)[i])
       if (!(std::abs(x) <= 1e60)) return;
   const std::vector<Found> expected = expected_of(surface, *mesh.nodes, slot.distance_limit, options.node_mask);
   std::vector<Found> expected_marked;
   for (const Found &one : expected)
     if (one.distance <= info.half_thickness) expected_marked.push_back(one);
-  // Clusters go by the copies that they have of coordinates.
+  // Clusters use their own copies of coordinates.
   if (!mesh.was_told && stats.search == RIIS_SEARCH_CLUSTERS) return;
   if (is_of_paper || !mesh.was_told) {
     expect_part(within, expected, "within the limit");
@@ -256,7 +256,8 @@ EdgeList leaking_of(const riis_mark_result *result) {
   return l;
 }
 
-// Ascending, between unmarked nodes, as the sum says. That these are all edges that leak, test_leaks.c checks.
+// Checks that the edges ascend, join unmarked nodes and agree with the summary. test_leaks.c checks that no leaking edge is
+// missing.
 void check_leaks(const riis_mark_result *result, std::int64_t n_nodes, const riis_leaks &leaks) {
   const EdgeList list = leaking_of(result);
   const std::vector<Found> marked = copy_of(marked_of(result));

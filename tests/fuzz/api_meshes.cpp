@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mesh_*, riis_adjacency_*.
+// Calls of riis_mesh_* and riis_adjacency_*.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 MeshSlot &slot_of(Input &in, State &state) { return state.meshes[in.slot()]; }
 
-// A few nodes one by one, a lattice, or a cloud.
+// Returns a few single nodes, a lattice, or a cloud.
 std::vector<std::array<double, 3>> places_of(Input &in) {
   std::vector<std::array<double, 3>> places;
   switch (in.below(3)) {
@@ -57,7 +57,7 @@ std::shared_ptr<Nodes> nodes_of(Input &in, const std::vector<std::array<double, 
   return nodes;
 }
 
-// A size that cannot be.
+// Returns the size, or sometimes an impossible one.
 std::int64_t spoilt_count(Input &in, std::int64_t n) {
   static const std::int64_t wrong[] = {0, -1, INT64_MIN, INT64_MAX / 7, INT64_MAX};
   return in.one_in(24) ? in.one_of(wrong) : n;
@@ -80,14 +80,14 @@ void make_mesh(Input &in, State &state) {
       made_by<riis_mesh>(in, [&](riis_mesh **mesh) { return riis_mesh_create(n, x, y, z, stride, mesh); });
   if (!made) return;
   riis_mesh_destroy(&slot.handle);
-  nodes->stride = stride;  // of a single node it may be anything
+  nodes->stride = stride;  // any stride is right for a single node
   slot = {made, nodes, nullptr, true};
 }
 
 void move_mesh(Input &in, State &state) {
   MeshSlot &slot = slot_of(in, state);
   if (slot.handle && in.one_in(2)) {
-    // In place; now and then to where nothing is finite, or without a word.
+    // Moves nodes in place, sometimes to places that are not finite, sometimes without an update.
     const double shift = in.sound_place();
     for (double &x : slot.nodes->buffer) x += shift;
     if (in.one_in(8)) slot.nodes->buffer[static_cast<std::size_t>(in.byte()) % slot.nodes->buffer.size()] = in.number();
@@ -144,7 +144,7 @@ void give_rows(Input &in, State &state) {
     }
     offsets.push_back(base + static_cast<std::int64_t>(columns.size()));
   }
-  // Offsets out of order, but never a last one beyond the columns: that is how many there are.
+  // Offsets may be out of order, but the last one is never beyond the columns, because it gives their number.
   if (in.one_in(12) && n > 1)
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;
@@ -181,7 +181,7 @@ void put(Input &in, State &state, riis_adjacency *made) {
   if (made) state.adjacencies[in.slot()] = std::make_shared<OwnedAdjacency>(made);
 }
 
-// Ascending columns without repetition, symmetric, base 0.
+// Checks that columns ascend without repeats, and that the rows are symmetric and have base 0.
 void check_rows(const riis_csr &csr) {
   EXPECT(csr.offset_bits == 64 && csr.column_bits == 32 && csr.index_base == 0, "%d %d", csr.offset_bits,
          csr.column_bits);
@@ -239,7 +239,7 @@ void make_adjacency_of_cells(Input &in, State &state) {
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;
   if (in.one_in(24))
-    offsets[0] = in.one_in(2) ? in.raw<std::int64_t>() | 2 : -1;  // 0 or 1 would be right, of more nodes
+    offsets[0] = in.one_in(2) ? in.raw<std::int64_t>() | 2 : -1;  // 0 or 1 could be right, for more nodes
   if (in.one_in(12))
     ids[static_cast<std::size_t>(in.byte()) % ids.size()] = in.one_in(2) ? in.raw<std::int64_t>() : n_nodes + base;
   const Integers node_ids(ids, is_wide), begins(offsets, is_wide);
@@ -298,7 +298,7 @@ void make_adjacency_of_grid(Input &in, State &state) {
   };
   const std::int64_t ni = side(), nj = side(), nk = side();
   const std::int32_t n_threads = in.n_threads();
-  // What fits into memory and is larger than this takes time only.
+  // Larger grids that fit into memory would only take time.
   const double n = static_cast<double>(ni) * static_cast<double>(nj) * static_cast<double>(nk);
   if (n > 1e5 && n < 1e9) return;
   put(in, state, made_by<riis_adjacency>(in, [&](riis_adjacency **made) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handles that a sequence of calls works on, with what they borrow, and the calls.
+// The handles of a sequence of calls, the memory that they borrow, and the calls.
 #pragma once
 
 #include <riis/riis.h>
@@ -16,7 +16,7 @@ namespace fuzz {
 
 constexpr int n_slots = 3;
 
-// An adjacency that the library made; meshes that borrow it keep it.
+// An adjacency that the library made. Meshes that borrow it keep it alive.
 struct OwnedAdjacency {
   riis_adjacency *handle = nullptr;
   explicit OwnedAdjacency(riis_adjacency *made) : handle(made) {}
@@ -25,7 +25,7 @@ struct OwnedAdjacency {
   ~OwnedAdjacency() { riis_adjacency_destroy(&handle); }
 };
 
-// Coordinates in one of several layouts, in a buffer that ends where the last one does.
+// Coordinates in one of several layouts, in a buffer that ends with the last coordinate.
 struct Nodes {
   std::int64_t n = 0, stride = 1;
   std::vector<double> buffer;
@@ -37,8 +37,8 @@ struct Nodes {
 struct MeshSlot {
   riis_mesh *handle = nullptr;
   std::shared_ptr<Nodes> nodes;
-  std::shared_ptr<void> adjacency;  // what the rows lie in; empty: none
-  bool was_told = true;             // of the last change of coordinates
+  std::shared_ptr<void> adjacency;  // the memory of the rows; empty if there are none
+  bool was_told = true;             // whether the handle was updated after the last change of coordinates
 };
 
 struct ValveSlot {
@@ -63,12 +63,12 @@ struct State {
   State &operator=(const State &) = delete;
   ~State();
 
-  // A handle of any kind but the given one, for a place where it does not belong; NULL if there is none.
+  // Returns a handle of any other kind than the given one, for a place where it does not belong, or NULL if there is none.
   enum Kind { valve, surface, mesh, adjacency, result, n_kinds };
   void *handle_of_another_kind(Input &in, Kind but) const;
 };
 
-// The handle, or now and then another kind's, or NULL; `is_right` says which.
+// The right handle, or sometimes a handle of another kind or NULL. `is_right` tells which.
 template <class Handle>
 struct Given {
   Handle *handle;
@@ -82,7 +82,7 @@ Given<Handle> given(Input &in, const State &state, State::Kind kind, Handle *rig
   return {right, right != nullptr};
 }
 
-// Groups of calls; each takes what it needs from the input.
+// Each function makes some calls and takes its choices from the input.
 void call_status_functions(Input &in);
 void call_init_functions(Input &in);
 void make_valve(Input &in, State &state);
@@ -108,7 +108,7 @@ void read_marks(Input &in, State &state);
 void find_leaks(Input &in, State &state);
 void destroy_something(Input &in, State &state);
 
-// Closest triangle by a loop over all, and its distance; the position is -1 where none is within the limit.
+// The closest triangle by a loop over all, and its distance. The position is -1 if none is within the limit.
 struct Closest {
   double distance;
   std::int64_t triangle;
@@ -120,10 +120,10 @@ struct Triangles {
   const double *xyz = nullptr;
 };
 Triangles triangles_of(const riis_surface *surface);
-// Whether its distances are the triangles', by what it says.
+// Tells whether the surface's distances are to triangles, by its own answer.
 bool is_by_triangles(const riis_surface *surface);
 Closest closest_by_loop(const Triangles &triangles, const std::array<double, 3> &point);
-// Whether the loop over all triangles is worth its time, n_points times.
+// Tells whether n_points loops over all triangles are worth their time.
 inline bool is_small(const Triangles &triangles, std::int64_t n_points) { return triangles.n * n_points <= 60'000; }
 
 }  // namespace fuzz

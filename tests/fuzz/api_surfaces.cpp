@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_surface_* and riis_closest_*.
+// Calls of riis_surface_* and riis_closest_*.
 #include <algorithm>
 #include <cmath>
 
@@ -60,7 +60,7 @@ riis_surface_options options_of(Input &in) {
   return options;
 }
 
-// Distances that are finer than triangles are as expensive.
+// Makes fine distances coarse, because they are as expensive as fine triangles.
 void make_distance_coarse(double size, riis_surface_options &options) {
   if (options.distance == RIIS_DISTANCE_TRIANGLES || options.distance_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
@@ -68,7 +68,7 @@ void make_distance_coarse(double size, riis_surface_options &options) {
   if (ratio > 1e-12 && ratio < 0.03) options.distance_tolerance = 1;
 }
 
-// The valve's size before placement, from above.
+// Returns an upper bound on the valve's size before placement.
 double size_of(const ValveSlot &slot) {
   if (!slot.handle) return 1;
   double size = 0;
@@ -81,7 +81,7 @@ double size_of(const ValveSlot &slot) {
   return size > 0 ? size : slot.size;
 }
 
-// What takes millions of triangles takes the fuzzer's time: a tolerance is coarse, or so fine that it must be refused.
+// Millions of triangles would waste the fuzzer's time. So a tolerance is coarse, or so fine that it must be refused.
 void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
   const double ratio = options.tolerance * half_thickness / options.scale / size;
@@ -91,7 +91,7 @@ void make_coarse(Input &in, double size, riis_surface_options &options) {
   options.half_thickness = 0.03 * size * options.scale;
 }
 
-// What can be read of a surface but times.
+// Returns data that can be read from a surface, without times.
 std::vector<double> picture_of(const riis_surface *surface) {
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
@@ -103,7 +103,7 @@ std::vector<double> picture_of(const riis_surface *surface) {
   return all;
 }
 
-// Makes or updates: update(surface) on one that is there, create(&surface) else.
+// Calls update(surface) for an existing surface, or create(&surface).
 template <class Create, class Update>
 void make(Input &in, State &state, const Create &create, const Update &update) {
   riis_surface *&slot = slot_of(in, state);
@@ -164,7 +164,7 @@ void make_surface_of_arrays(Input &in, State &state) {
   for (std::int32_t &leaflet : leaflets) leaflet = in.one_in(32) ? in.raw<std::int32_t>() : in.below(3);
   arrays.leaflet_id = in.one_in(2) ? leaflets.data() : nullptr;
   arrays.reserved = in.one_in(64) ? -1 : 0;
-  // Sizes below those of the buffers, or none at all.
+  // Sizes may be below those of the buffers, or impossible.
   if (in.one_in(32)) arrays.n_vertices = in.below(n + 1) - 1;
   if (in.one_in(32)) arrays.n_faces = in.below(n_faces + 1) - 1;
   if (in.one_in(32)) arrays.n_faces = INT64_MAX - in.below(2);

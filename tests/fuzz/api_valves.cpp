@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_valve_*.
+// Calls of riis_valve_*.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -46,7 +46,7 @@ const char *const names[] = {"opening",
                              "t0_leaflet",
                              "%s%n"};
 
-// Every parameter's values.
+// Returns every parameter's values.
 std::vector<double> values_of(const riis_valve *valve) {
   std::vector<double> all;
   std::int64_t n = -1;
@@ -90,7 +90,7 @@ void set_parameter(Input &in, State &state) {
   const std::int64_t n = in.one_of(lengths);
   const std::vector<double> before = slot.handle ? values_of(slot.handle) : std::vector<double>{};
   std::vector<double> values(static_cast<std::size_t>(std::max<std::int64_t>(n, 1)));
-  // Near what it is, within what it may be, or anything.
+  // New values are near the old one, within the range, or arbitrary.
   for (double &value : values) value = in.number();
   riis_parameter parameter;
   if (slot.handle && in.one_in(2) &&
@@ -150,7 +150,7 @@ void set_open_state(Input &in, State &state) {
 
 namespace {
 
-// Boundary curves that close: a strip of patches between two rails, each with its rungs.
+// A strip of patches between two rails. Each patch has rungs at its ends, so its boundary curves close.
 struct Strip {
   std::vector<std::int32_t> degree, curve_id, reversed, leaflet_id;
   std::vector<double> control;
@@ -162,7 +162,7 @@ struct Strip {
     std::array<std::vector<Point>, 2> corner;
     for (auto &rail : corner)
       for (int i = 0; i <= n_patches; ++i) rail.push_back({in.place(), in.place(), in.place()});
-    // Rungs 0 to n, then the first rail's pieces, then the second's.
+    // The curves are rungs 0 to n, then the first rail's pieces, then the second's.
     for (std::size_t i = 0; i < corner[0].size(); ++i) add(in, corner[0][i], corner[1][i]);
     for (const auto &rail : corner)
       for (std::size_t i = 0; i + 1 < rail.size(); ++i) add(in, rail[i], rail[i + 1]);
@@ -208,7 +208,7 @@ void make_valve_of_patches(Input &in, State &state) {
   patches.n_patches = static_cast<std::int64_t>(strip.leaflet_id.size());
   patches.index_base = in.mostly(in.one_in(4) ? 1 : 0);
   for (std::int32_t &curve : strip.curve_id) curve += patches.index_base == 1 ? 1 : 0;
-  // A degree may become less than it is: fewer control points are read.
+  // A degree may become smaller, so that fewer control points are read.
   if (in.one_in(16)) strip.degree[static_cast<std::size_t>(in.byte()) % strip.degree.size()] = in.below(3) - 1;
   if (in.one_in(32)) strip.degree.back() = in.raw<std::int32_t>() | 4;
   spoil(in, strip.curve_id, in.raw<std::int32_t>());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a harness finds wrong ends the process, which the fuzzer takes for a crash and keeps the input of.
+// A fault that a harness finds ends the process. The fuzzer takes this for a crash and keeps the input.
 #pragma once
 
 #include <cstdio>

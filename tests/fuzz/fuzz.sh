@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs the fuzzing harnesses.
-#   fuzz.sh test BUILD_DIR HARNESS             RIIS_FUZZ_TEST_SECONDS (9) of one harness; nothing but findings is kept
-#   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   all harnesses, N_JOBS at a time, for so long altogether; OUT keeps what they
-#                                              learnt, for the next time, their logs, and findings; ends with a table
+#   fuzz.sh test BUILD_DIR HARNESS             runs one harness for RIIS_FUZZ_TEST_SECONDS (9) and keeps only findings
+#   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table;
+#                                              OUT keeps their corpora for the next time, their logs, and findings
 # RIIS_FUZZ_SEED is the seed of the mutations, 1 unless given; "random" draws one. It is printed. A finding fails.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
@@ -12,12 +12,12 @@ mode=$1 build=$2
 seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
-# With its share of the time, in parts of all.
+# Each harness has a share of the time.
 declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [json]=3 [stl]=2 [command_line]=2)
 harnesses=(api vtk vtu vtp json stl command_line)
 
-# options HARNESS SECONDS: to be set for every run of it. The limits are what no input of its size should need: seconds for a
-# single one, and memory, most of which the address sanitizer holds back.
+# options HARNESS SECONDS: prints the options of every run of a harness. No input of its size should reach the limits: seconds for
+# a single input, and memory, most of which the address sanitizer holds back.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in
@@ -31,15 +31,15 @@ options() {
       ;;
     vtu | vtp) dictionary=xml ;;
   esac
-  # VTK's readers leak on what they refuse: looking for leaks behind each such input takes all the time. At the end it is done all
-  # the same.
+  # VTK's readers leak on inputs that they refuse. Looking for leaks after each such input would take all the time, so it is done
+  # only at the end.
   [[ $1 != vt? && $1 != stl ]] || echo -detect_leaks=0
   printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=300 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
   [[ ! -f $here/$dictionary.dict ]] || echo -dict="$here/$dictionary.dict"
 }
 
-# fuzz HARNESS SECONDS FINDINGS CORPUS...: what is learnt goes to the first corpus. In stretches, each with a seed of its own,
-# since what VTK leaks adds up.
+# fuzz HARNESS SECONDS FINDINGS CORPUS...: runs a harness and adds new inputs to the first corpus. It runs in stretches, each with
+# a seed of its own, since VTK's leaks add up.
 fuzz() {
   local name=$1 left=$2 findings=$3 arguments now number=0
   shift 3
@@ -54,7 +54,7 @@ fuzz() {
   echo "all of $name done"
 }
 
-# The numbers behind "$1: " in the log $2.
+# Prints the numbers behind "$1: " in the log $2.
 numbers() {
   grep -oE "(^|[ :])$1: +[0-9]+" "$2" | grep -oE '[0-9]+$' || true
 }
@@ -76,12 +76,12 @@ run_all() {
   for name in "${harnesses[@]}"; do
     while (($(jobs -rp | wc -l) >= n_jobs)); do wait -n || true; done
     mine=$((seconds * n_jobs * shares[$name] / parts))
-    # One harness has no more time than there is.
+    # A harness has at most the whole time.
     ((mine <= seconds)) || mine=$seconds
     ((mine >= 1)) || mine=1
     given[$name]=$mine
     mkdir -p "$out/$name/corpus" "$out/$name/findings"
-    # What was found before is where this run begins: it is found again unless it was mended.
+    # This run begins with the earlier findings. It finds them again unless they were mended.
     find "$out/$name/findings" -type f -exec mv -t "$out/$name/corpus" {} +
     echo "$name: $mine s"
     fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$here/corpus/$name" >"$out/$name/log" 2>&1 </dev/null &
@@ -94,7 +94,7 @@ run_all() {
     printf '%-13s %11s %6s %6s %6s %7s %9s\n' "$name" "$executions" $((executions / given[$name])) \
       "$(numbers cov "$out/$name/log" | tail -n 1)" "$(numbers ft "$out/$name/log" | tail -n 1)" \
       "$(find "$out/$name/corpus" -type f | wc -l)" "$n_findings"
-    # A harness that did not come to its end has found something, a leak in the end for example, or did not start.
+    # A harness that did not reach its end has found something, such as a leak at the end, or did not start.
     if ((n_findings > 0)) || ! grep -q "^all of $name done" "$out/$name/log"; then
       status=1
       echo "  $out/$name/log:"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark's command line: each line of the input is an argument. No file is opened. What is asked for with --set is set.
+// riis-mark's command line: each line of the input is an argument. No file is opened. Parameters of --set are set.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of meshes and surfaces, of the format RIIS_FUZZ_ENDING: read whole or refused with the file's name and a reason. What is read
-// can be used: its nodes make a mesh or are refused for their coordinates, its cells make an adjacency, its faces a surface.
+// Files of meshes and surfaces in the format RIIS_FUZZ_ENDING. They are read whole, or refused with the file's name and a reason.
+// The content must be usable: nodes make a mesh or are refused for their coordinates, cells make an adjacency, faces make a
+// surface.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -18,7 +19,7 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-// Whether it is fine; if not, it is refused in one of two ways, with a text.
+// Returns true for RIIS_OK. Any other status must be a refusal of one of two kinds, with a message.
 bool is_fine(riis_status status, riis_status refusal) {
   if (status == RIIS_OK) return true;
   const char *text = riis_last_error();
@@ -49,7 +50,7 @@ void read_mesh() {
   EXPECT(riis_vtk_mesh_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
   EXPECT(n_nodes > 0 && n_cells >= 0, "%lld nodes", static_cast<long long>(n_nodes));
   double sum = 0;
-  for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];  // the sanitizer watches
+  for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];  // the sanitizer watches the reads
   riis_mesh *mesh = nullptr;
   if (is_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), RIIS_INVALID_MESH))
     EXPECT(std::isfinite(sum), "%g", sum);

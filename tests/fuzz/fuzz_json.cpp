@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark's JSON files: each input is read as a valve of patches and as parameters of either kind of valve. What is not refused
-// with an exit status and a text is a valve, whose parameters, printed, read back as they were.
+// riis-mark's JSON files: each input is read as a valve of patches and as parameters of either kind of valve. It is refused with
+// an exit status and a message, or it is a valve. The valve's parameters, printed and read back, must be unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-// Whether the file was taken.
+// Tells whether the file was accepted.
 bool is_taken(const std::function<void()> &read) {
   try {
     read();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fuzzer's bytes as choices and numbers. Beyond the last byte everything is 0, and choice 0 is always the harmless one.
+// Turns the fuzzer's bytes into choices and numbers. Beyond the last byte everything is 0, and choice 0 is always harmless.
 #pragma once
 
 #include <cfloat>
@@ -25,7 +25,7 @@ class Input {
 
   bool one_in(int n) { return below(n) == n - 1; }
 
-  // Which of three handles: mostly the first, so that what belongs together meets.
+  // Chooses one of three handles, mostly the first, so that handles that belong together meet.
   std::size_t slot() {
     const int k = byte();
     return static_cast<std::size_t>(k < 208 ? 0 : k % 3);
@@ -45,7 +45,7 @@ class Input {
     return values[below(static_cast<int>(n))];
   }
 
-  // Any double at all: small ones, those at which something ends, any bits.
+  // Returns any double: small ones, limits of ranges, or arbitrary bits.
   double number() {
     static const double special[] = {
         0.0,     -0.0, 1.0,   -1.0,   std::nan(""), -std::nan(""), INFINITY, -INFINITY, DBL_MAX, 5e-324, DBL_MIN,
@@ -57,7 +57,7 @@ class Input {
     return raw<double>();
   }
 
-  // A coordinate: mostly on a coarse lattice, where points coincide and distances tie.
+  // Returns a coordinate, mostly on a coarse lattice, where points coincide and distances tie.
   double place() {
     const int k = byte();
     if (k < 192) return (k - 96) / 32.0;
@@ -65,7 +65,7 @@ class Input {
     return number();
   }
 
-  // The same, but usable.
+  // Returns a usable coordinate.
   double sound_place() {
     const double x = place();
     return std::abs(x) <= 1e3 ? x : 1;
@@ -77,7 +77,7 @@ class Input {
     return one_of(some);
   }
 
-  // The value, or in one of 16 cases another that it should not be.
+  // Returns the value, or in one of 16 cases a wrong one.
   template <class T>
   T mostly(T value) {
     static const T wrong[] = {
@@ -89,13 +89,13 @@ class Input {
   const std::uint8_t *next_, *end_;
 };
 
-// A pointer to exactly so many entries, or in one of 32 cases NULL.
+// Returns the pointer, or in one of 32 cases NULL.
 template <class T>
 T *mostly(Input &in, T *pointer) {
   return in.one_in(32) ? nullptr : pointer;
 }
 
-// 32 or 64 bit integers of a buffer that has exactly the room they take.
+// Integers of 32 or 64 bits, in a buffer of exactly their size.
 class Integers {
  public:
   Integers(const std::vector<std::int64_t> &values, bool is_64_bits) : bytes_(values.size() * (is_64_bits ? 8 : 4)) {

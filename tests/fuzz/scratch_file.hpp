@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fuzzer's bytes as a file of a fixed name, in a folder of the process's own.
+// Writes the fuzzer's bytes to a file with a fixed name, in a folder of the process's own.
 #pragma once
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_exports.sh LIBRARY SONAME HEADER [MORE_NAMES...]
-# The shared library exports the functions that the header declares and the names that are given, and nothing else.
+# The shared library must export the header's functions and the given names, and nothing else.
 set -euo pipefail
 library=$1 soname=$2 header=$3
 shift 3
@@ -15,7 +15,7 @@ if [ "$n_declared" -ne "$n_api" ]; then
 fi
 expected=$(printf '%s\n' "$declared" "$@" | sort)
 
-# Absolute symbols are the version's own name.
+# Absolute symbols are the names of versions.
 exported=$(nm -D --defined-only "$library" | awk '$2 != "A" { sub(/@.*/, "", $3); print $3 }' | sort)
 
 if ! diff <(echo "$expected") <(echo "$exported"); then

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_headers.sh WORK_DIR CC CXX INCLUDE_DIR HEADER...
-# Every public header compiles when it is the first and only thing, twice over, as strict C99 and as C++17, and what it
-# declares can be used from both.
+# Every public header must compile alone, also when it is included twice, as strict C99 and as C++17. Its declarations must be
+# usable from both.
 set -euo pipefail
 work=$1 cc=$2 cxx=$3 include=$4
 shift 4
@@ -17,7 +17,7 @@ for header in "$@"; do
     "$cxx" -std=c++17 -pedantic -Wall -Wextra -Wconversion -Werror "$optimise" -I"$include" \
       -c "$work/alone.cpp" -o "$work/alone.o"
   done
-  # Mangled names would link to nothing.
+  # A mangled name would not link.
   nm -u "$work/alone.o" | grep -q -w riis_last_error
   echo "$header: C99 and C++17"
 done

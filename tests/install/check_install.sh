@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_install.sh SOURCE_DIR BUILD_DIR WORK_DIR shared|static [VTK] [Fortran] [program]
-# Installs a build tree to a fresh prefix and uses it as a stranger would: the examples are built outside the tree by
-# CMake and by pkg-config and run, C and Fortran must print the same. All of that again after the prefix was moved. A
-# staged (DESTDIR) install must hold the same files and know nothing of its stage.
+# Installs a build tree to a fresh prefix and uses it as a stranger would. The examples are built outside the tree by CMake and
+# by pkg-config, and run. C and Fortran must print the same. The prefix is then moved and everything repeated. A staged
+# (DESTDIR) install must hold the same files and no path of its stage.
 # Environment: CMAKE, PKG_CONFIG, CC, CXX, FC
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
@@ -16,7 +16,7 @@ problem() {
   exit 1
 }
 
-# Runs a command and shows what it said only if it failed.
+# Runs a command and shows its output only if it fails.
 quietly() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; problem "failed: $*"; }
 }
@@ -24,7 +24,7 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# All but that of MPI, which check_mpi_example.sh runs; and what a compiler needs for them besides riis.
+# All examples except that of MPI, which check_mpi_example.sh runs. Then the flags that a compiler needs for them besides riis.
 examples=(first_marking prosthesis opening_valve csr_from_elements openmp_caller)
 declare -A more_flags=([opening_valve]=-lm [openmp_caller]=-fopenmp)
 expected=$source/tests/install/expected
@@ -47,13 +47,13 @@ library_dir() { # of a prefix
   dirname "$(dirname "$(find "$1" -name riis.pc)")"
 }
 
-# Whatever it was built with, in C or in Fortran, an example prints the same.
+# An example prints the same, however it was built and in C or in Fortran.
 check_example() { # name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
   diff "$expected/$1.txt" "$work/printed.txt" || problem "$2 does not print what it should"
 }
 
-# The prosthesis from its file: as many nodes marked at each opening as the example marks.
+# The prosthesis from its file must mark as many nodes at each opening as the example.
 check_prosthesis_file() { # riis-mark
   local opening
   awk 'BEGIN {
@@ -109,7 +109,7 @@ refused() { # text, option, prefix
     echo "find_package was not refused: $2"
     return 1
   fi
-  # CMake breaks lines where it likes.
+  # CMake may break lines anywhere.
   tr -s ' \n' ' ' <"$work/refused.txt" | grep -q -F "$1" || { cat "$work/refused.txt"; return 1; }
 }
 
@@ -123,8 +123,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
   rm -rf "$out"
   mkdir -p "$out"
   local example file more source_name
-  # As with a compiler that cannot read the module files: from the installed sources. Once, since they say nothing of where
-  # they are.
+  # A compiler that cannot read the module files uses the installed sources. They hold no paths, so once is enough.
   if has Fortran && [ ! -d "$work/fortran" ]; then
     mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
@@ -133,7 +132,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
     done
   fi
   if has Fortran; then
-    # As codes without modules.
+    # Built like codes that do not use modules.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" -o "$out/test_f77" \
       $(flags --cflags --libs "${@:2}" riis-fortran)
@@ -141,7 +140,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
   for example in "${examples[@]}"; do
     file=$source/examples/$example
     more=${more_flags[$example]:-}
-    # The flags are words.
+    # The flags must split into words.
     # shellcheck disable=SC2046,SC2086
     quietly "$CC" "${c_flags[@]}" "$file.c" -o "$out/$example" $more $(flags --cflags --libs "${@:2}" riis)
     if has Fortran; then
@@ -180,7 +179,7 @@ binaries() { # prefix
 check_prefix() { # prefix
   local file
   while read -r file; do
-    # Whatever is installed finds its libraries by itself.
+    # Every installed file must find its libraries by itself.
     if env -u LD_LIBRARY_PATH ldd "$file" | grep 'not found'; then
       problem "$file does not find the libraries that it needs"
     fi
@@ -215,7 +214,7 @@ else
   grep -q '/libriis\.a$' "$work/files.txt" || problem "no libriis.a is installed"
 fi
 
-# Nothing says where it was built or installed.
+# No file may hold a path of the build or of the prefix.
 if grep -r -I -F -e "$build" -e "$source/" -e "$prefix" "$prefix"; then
   problem "an installed text names a directory of the build or the prefix"
 fi
@@ -235,8 +234,8 @@ if grep -r -I -F "$work/stage" "$work/stage"; then
   problem "a staged file names the stage"
 fi
 
-# An absolute library directory stays where it is, but everything must still be found. The build tree of the static test
-# is its own, so it may be configured anew; its fixture puts it back.
+# An absolute library directory is not moved, but everything must still be found. The static test has its own build tree, so it
+# may be configured anew. Its fixture puts it back.
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   quietly "$CMAKE" -DCMAKE_INSTALL_PREFIX="$work/absolute" -DCMAKE_INSTALL_LIBDIR="$work/absolute/lib" "$build"
   quietly "$CMAKE" --build "$build"

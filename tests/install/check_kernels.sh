@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_kernels.sh NM SET OBJECT...
-# Objects compiled for an instruction set define their tables of kernels and nothing else that the linker sees: of a function that
-# other objects have, too, such as a weak one of a header, it might take the one with instructions that the processor lacks.
+# Objects compiled for an instruction set must define their tables of kernels and nothing else that the linker sees. If other
+# objects have the same function, such as a weak one of a header, the linker might take the version with instructions that the
+# processor lacks.
 set -euo pipefail
 nm=$1 set=$2
 shift 2

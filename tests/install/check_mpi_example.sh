@@ -1,19 +1,23 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_mpi_example.sh EXAMPLES_BUILD_DIR N_RANKS [Fortran]
-# Runs the example of MPI where check_install.sh built it. The program itself compares what the ranks marked with the whole.
+# Runs the example of MPI where check_install.sh built it. The program itself compares the ranks' marks with those of the whole
+# mesh.
 # Environment: MPIEXEC
 set -euo pipefail
 build=$1 n_ranks=$2
 shift 2
 
-# For Open MPI; to others these say nothing. The test must run on one machine, however small or shut in: more ranks than
-# processors, waiting politely; as root; without ssh, though nothing is started elsewhere; without a network beside the
-# loopback; in a container that may not copy from one process's memory to another's.
+# Settings for Open MPI, which others ignore. The test must run on any one machine, however small or restricted:
+#   with more ranks than processors, which yield while they wait
+#   as root
+#   without ssh, since nothing is started elsewhere
+#   without a network except the loopback
+#   in a container that may not copy from one process's memory to another's
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
-# The same of Open MPI 5, which starts its ranks by PRRTE.
+# The same for Open MPI 5, which starts its ranks by PRRTE.
 export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 
 programs=("$build/mpi_partition")

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_needed.sh LIBRARY
-# The core needs Embree, TBB, OpenMP and the C and C++ runtimes, nothing else: no VTK, no Fortran, no path of its own.
+# The core may need Embree, TBB, OpenMP and the C and C++ runtimes, but nothing else: no VTK, no Fortran, no path of its own.
 set -euo pipefail
 library=$1
 needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\].*/\1/p')
@@ -11,6 +11,6 @@ if [ -n "$unexpected" ]; then
   echo "$library needs what it should not:" "$unexpected" >&2
   exit 1
 fi
-# Were the list empty, the check above would mean nothing.
+# The check above would prove nothing if the list were empty.
 grep -q '^libembree' <<<"$needed"
 echo "needed:" "$needed"

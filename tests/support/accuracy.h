@@ -19,17 +19,18 @@ typedef struct known_truth {
   double most_from_fine;
 } known_truth;
 
-/* Of patches from arrays, or, if they are NULL, of leaflet 0 of the valve of that kind. 0, or 1 with the reason on stderr. */
+/* Makes points of known distance to patches from arrays. If patches is NULL, takes leaflet 0 of the valve of the given kind.
+ * Returns 0, or 1 with the reason on stderr. */
 int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t seed, double fine_tolerance,
              known_truth *truth);
 void truth_free(known_truth *truth);
 
-/* Half thicknesses; point i has offset i modulo n_offsets, if it is not left out. */
+/* Offsets are in half thicknesses. Point i has offset i modulo n_offsets, if it is not left out. */
 enum { n_offsets = 6 };
 double truth_offset(int64_t i);
 double truth_largest_share_of_radius(void);
 
-/* Of patch 0. */
+/* A point of patch 0. */
 int smooth_point(const riis_patches *patches, double u, double v, double *point, double *normal, double *curvature);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Walks of src/parallel as several callers make them, with a C interface: a failed assertion leaves by longjmp, which must not
- * cross TBB's frames. A walk here takes 32 numbers and adds 32 more. It is right if it met each number once. */
+ * Walks of src/parallel by several callers, with a C interface: a failed assertion leaves by longjmp, which must not cross
+ * TBB's frames. A walk here takes 32 numbers and adds 32 more. It is right if it met each number once. */
 #ifndef RIIS_TEST_ARENAS_H
 #define RIIS_TEST_ARENAS_H
 
@@ -8,31 +8,31 @@
 extern "C" {
 #endif
 
-/* What each handle of the library has: arenas are kept as long as there is one. */
+/* Each handle of the library has such a keeper. Arenas are kept as long as there is one. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);
 
-/* How many arenas there are. */
+/* Returns the number of arenas. */
 int arenas_made(void);
 
 typedef struct walk_seen {
   int is_right;
-  int arena; /* the number of threads that the arena of the bodies may have; -1 if two bodies differ */
+  int arena; /* the most threads that the bodies' arena may have; -1 if two bodies differ */
 } walk_seen;
 
 walk_seen walk_once(int n_threads);
-/* The caller allows so many threads in the process. */
+/* Walks while the caller limits the process to `limit` threads. */
 walk_seen walk_under_limit(int limit, int n_threads);
-/* Every body throws; 1 if the exception arrives. */
+/* Every body throws. Returns 1 if the exception arrives. */
 int walk_that_throws(int n_threads);
 /* The caller has n_callers threads, and each makes n_walks walks with 2 and 3 threads by turns. All are inside their first walk,
- * of 2 threads, at the same time. 1 if all walks are right. */
+ * which has 2 threads, at the same time. Returns 1 if all walks are right. */
 int walk_at_once(int n_callers, int n_walks);
-/* Each of n_tasks tasks of the caller's own TBB walks, in an arena of four threads. 1 if all walks are right and the tasks stay in
- * their arena. */
+/* Each of n_tasks tasks of the caller's own TBB walks, in an arena of four threads. Returns 1 if all walks are right and the
+ * tasks stay in their arena. */
 int walk_in_tasks(int n_tasks);
-/* 1 if TBB can be ended, which it refuses while there are arenas. */
+/* Returns 1 if TBB can be ended. TBB refuses that while there are arenas. */
 int end_tbb(void);
 
 #ifdef __cplusplus

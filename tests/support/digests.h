@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What objects are, as a number: the same for the same content, bit by bit. Include after searches.h. */
+ * The content of objects as a number: equal content, bit by bit, has an equal number. Include after searches.h. */
 #ifndef RIIS_TEST_DIGESTS_H
 #define RIIS_TEST_DIGESTS_H
 
-static riis_surface_options coarse; /* few triangles, quickly made; to be set before a digest is asked for */
+static riis_surface_options coarse; /* few triangles, quickly made; set this before making a digest */
 
 static inline uint64_t add_bytes(uint64_t digest, const void *data, size_t n) {
   const unsigned char *bytes = data;
@@ -74,7 +74,7 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
     riis_mark_result *result = new_result();
     options.search = search;
     const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
-    digest = add_bytes(digest, &status, sizeof status); /* it may have no adjacency */
+    digest = add_bytes(digest, &status, sizeof status); /* the mesh may lack an adjacency */
     if (!status) digest = add_result(digest, result);
   }
   free_owned_after(owned_before);

@@ -25,14 +25,14 @@
 
 namespace {
 
-// Where an object is mapped.
+// The addresses at which an object (executable or library) is mapped.
 struct Object {
   std::uintptr_t begin = 0, end = 0;
 
   bool has(std::uintptr_t address) const { return address >= begin && address < end; }
 };
 
-// That of a function by its name.
+// Returns the object that has the function of this name.
 Object object_of(const char *function) {
   struct Sought {
     std::uintptr_t address;
@@ -67,11 +67,11 @@ struct Objects {
     return library.has(address) ? Owner::library : embree.has(address) ? Owner::embree : Owner::other;
   }
 };
-std::atomic<const Objects *> objects{nullptr};  // null until the program starts: what is allocated before it is others'
+std::atomic<const Objects *> objects{nullptr};  // null until the program starts: earlier allocations are others'
 alignas(Objects) char objects_place[sizeof(Objects)];
 [[gnu::constructor]] void find_objects() { objects = new (objects_place) Objects; }
 
-// The first caller that is not the C++ library: std::string allocates there for whoever uses it.
+// Returns the owner of the first caller outside the C++ library: std::string allocates inside it for its users.
 Owner owner_behind_standard_library() {
   struct Walk {
     bool was_in_it = false;
@@ -100,19 +100,19 @@ Owner owner_of(void *return_address) {
   return known->standard_library.has(address) ? owner_behind_standard_library() : known->owner(address);
 }
 
-std::atomic<int> failing{-1};  // whose, or nobody's
+std::atomic<int> failing{-1};  // the owner whose memory fails, or -1
 std::atomic<std::int64_t> n_left{0}, n_failed{0};
 std::atomic<bool> fails_on{false};
 std::atomic<const void *> calling_thread{nullptr};
 std::atomic<std::int64_t> live_of_library{0}, live_of_embree{0}, live_bytes_of_embree{0};
 
-// Something that only this thread has.
+// An address that only this thread has.
 const void *this_thread() {
   thread_local char mark;
   return &mark;
 }
 
-// Counts an allocation of those that are to fail; true if it is the one, or one after it.
+// Counts an allocation of the failing owner. Returns true if this one has to fail.
 bool is_to_fail() {
   const std::int64_t left = n_left.fetch_sub(1);
   if (left > 1 || (left < 1 && !fails_on)) return false;
@@ -120,7 +120,7 @@ bool is_to_fail() {
   return true;
 }
 
-// In front of every object of operator new.
+// This header is in front of every object of operator new.
 struct alignas(16) Header {
   std::uint32_t offset;  // of the object in its block
   Owner owner;
@@ -134,7 +134,7 @@ void *allocate(std::size_t size, std::size_t alignment, void *return_address) no
     return nullptr;
   const std::size_t offset = std::max(alignment, sizeof(Header));
 #if defined(IS_SANITIZED)
-  constexpr std::size_t most = std::size_t{1} << 38;  // asked for more, the sanitizer ends the process
+  constexpr std::size_t most = std::size_t{1} << 38;  // the sanitizer ends the process at a larger request
 #else
   constexpr std::size_t most = PTRDIFF_MAX;
 #endif
@@ -195,7 +195,7 @@ void operator delete[](void *p, std::align_val_t, const std::nothrow_t &) noexce
 
 extern "C" {
 
-// Embree's, by its name in either version: neither's header is needed.
+// Replaces Embree's function of this name, which is the same in both versions. So neither header is needed.
 void *rtcNewDevice(const char *config) {
   const auto find = [](const char *name) {
     void *const function = dlsym(RTLD_NEXT, name);
@@ -213,7 +213,7 @@ void *rtcNewDevice(const char *config) {
         device,
         [](void *, ssize_t bytes, bool post) {
           const bool refused = bytes > 0 && failing == MEMORY_OF_EMBREE && is_to_fail();
-          // What is told afterwards has been allocated, whatever the answer.
+          // A report after the allocation counts whatever the answer, because the memory is allocated already.
           if (!refused || post) live_bytes_of_embree += bytes;
           return !refused;
         },

@@ -78,7 +78,7 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
-/* Vertices and triangles of a surface, as it shows them. */
+/* Vertices and triangles of a surface, as its queries give them. */
 typedef struct surface_content {
   int64_t n_vertices, n_triangles;
   const double *xyz, *uv;

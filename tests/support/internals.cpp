@@ -55,7 +55,7 @@ T *room(std::size_t n) {
   return static_cast<T *>(std::malloc(std::max<std::size_t>(n, 1) * sizeof(T)));
 }
 
-// n cubics, 12 numbers each.
+// A curve of n cubics, 12 numbers each.
 Curve chain(std::int64_t n_pieces, const double *control) {
   std::vector<Bezier> pieces;
   for (std::int64_t i = 0; i < n_pieces; ++i) pieces.push_back(curve(3, control + 12 * i));
@@ -326,7 +326,7 @@ riis_status wall_meets(const char *exception) {
       std::atomic<bool> has_failed{false};
       parallel_for(2, 2, [&](std::int64_t block, int) {
         const auto start = std::chrono::steady_clock::now();
-        // Where there is one thread only nobody else fails meanwhile.
+        // With a single thread no other block fails meanwhile, so the wait is limited.
         while (block == 0 && !has_failed && std::chrono::steady_clock::now() - start < std::chrono::milliseconds(500))
           std::this_thread::yield();
         if (block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The stages behind the public interface, for tests in C. Points are arrays of 3 doubles; what is returned by pointer
- * belongs to the caller (free). A refusal is returned as its status with the text in riis_last_error(). */
+ * The stages behind the public interface, for tests in C. Points are arrays of 3 doubles. The caller owns results that are
+ * returned by pointer and frees them with free(). A refusal is returned as its status, with the message in riis_last_error(). */
 #ifndef RIIS_TEST_INTERNALS_H
 #define RIIS_TEST_INTERNALS_H
 
@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Bézier curves: degree 2 or 3, control[3 * (degree + 1)]. */
+/* Bézier curves have degree 2 or 3 and control[3 * (degree + 1)]. */
 void bezier_evaluate(int degree, const double *control, double t, double *point);
 void bezier_derivative(int degree, const double *control, double t, double *vector);
 double bezier_arc_length(int degree, const double *control, double t0, double t1);
 void bezier_split(int degree, const double *control, double t, double *left, double *right);
 double bezier_flatness(int degree, const double *control);
-/* t: one a point; errors: one fewer. */
+/* t has one entry per point, errors one fewer. */
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
                            double **t, double **errors);
 
@@ -25,11 +25,11 @@ riis_status chain_flatten(int64_t n_pieces, const double *control, double max_er
                           double **t, double **errors);
 double chain_length(int64_t n_pieces, const double *control);
 void chain_at(int64_t n_pieces, const double *control, double share, double *point, double *tangent);
-/* part has room for 12 * n_pieces; returns how many pieces there are in it. */
+/* part has room for 12 * n_pieces. Returns the number of pieces in it. */
 int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
                       double *part);
 
-/* O(u) of a patch of arcs from a base to an edge, and the bound on how far it is from linear. */
+/* O(u) of a patch of arcs from a base to an edge, and the bound on its deviation from linear. */
 void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
               double *offset);
 double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor,
@@ -54,26 +54,26 @@ double quad_split_error(const double *p00, const double *p10, const double *p11,
 /* The decision kernel: returns the squared distance. */
 double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric);
 
-/* Whether the segment from a to b and the triangle have a point in common. */
+/* Returns 1 if the segment from a to b and the triangle have a point in common. */
 int segment_triangle_meet(const double *a, const double *b, const double *abc);
 
 /* The aortic valve's curves and patches at its default parameters, changed by one (name may be NULL). */
 typedef struct patch_set {
   int64_t n_curves, n_patches, n_images;
-  int32_t *degree;                           /* a curve */
-  double *control;                           /* 12 a curve, in the cusp's frame */
-  int64_t *sides;                            /* 4 a patch: v0, v1, u0, u1 */
-  int64_t *patch;                            /* an image: which patch it is of */
-  int32_t *leaflet_id, *patch_id, *mirrored; /* an image */
-  double *frame;                             /* 12 an image: rows of its rotation, translation */
+  int32_t *degree;                           /* one per curve */
+  double *control;                           /* 12 per curve, in the cusp's frame */
+  int64_t *sides;                            /* 4 per patch: v0, v1, u0, u1 */
+  int64_t *patch;                            /* for each image, its patch */
+  int32_t *leaflet_id, *patch_id, *mirrored; /* one per image */
+  double *frame;                             /* 12 per image: rows of its rotation, then its translation */
 } patch_set;
 riis_status aortic_patches(const char *name, double value, patch_set *set);
-/* Where an image puts a point of the cusp's frame. */
+/* Places a point of the cusp's frame as an image does. */
 void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed);
 void patch_set_free(patch_set *set);
 
-/* The quads of a valve's patches, placed, with the bound on how far each is from its smooth patch at equal (u, v): those of every
- * patch's first image. The valve is of that kind with those parameters, one value each. */
+/* The placed quads of every patch's first image, with the bound on each quad's distance from its smooth patch at equal (u, v).
+ * The valve has the given kind and the given parameters, one value each. */
 typedef struct bounded_quad {
   int32_t patch_id;
   double u[2], v[2], error;
@@ -82,9 +82,9 @@ typedef struct bounded_quad {
 riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
-/* Asks the Embree scene of the triangles xyz(9, n_triangles) and the loop over all of them with the same kernel for the
- * closest triangle to each point, by every instruction set that there is; returns how often squared distance (bits) or
- * triangle differ. Points beyond the limit must give none. */
+/* Finds the closest triangle to each point twice: by the Embree scene of the triangles xyz(9, n_triangles), with every
+ * instruction set that there is, and by a loop over all of them with the same kernel. Returns how often the squared distance
+ * (bits) or the triangle differ. Points beyond the limit must give none. */
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
@@ -96,7 +96,8 @@ int kernels_there(int set);
 int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 
-/* Squares of distances of pairs of a point and a triangle, by their positions; room for n + 7 is wanted in distance_sq. */
+/* Computes squares of distances of pairs of a point and a triangle, given by their positions. distance_sq must have room for n +
+ * 7. */
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
@@ -113,39 +114,48 @@ int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
 /* Single precision's squares of the distances of a point to its 16 lanes. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 
-/* What the library allows for: points scaled by a ratio, moved by a shift, up to a reach from the surface. */
+/* Returns the error that the library allows for. Points are scaled by a ratio, moved by a shift, and up to a reach from the
+ * surface. */
 double kernels_error(double ratio, double shift, double reach, double longest_edge);
 
-/* What a search does with up to 32 nodes (3, n_nodes) of the mesh's frame and groups that they are near to, with a limit in the
- * surface's frame. */
+/* A search's work on one leaf: up to 32 nodes (3, n_nodes) in the mesh's frame, and the groups that they are near, with a limit
+ * in the surface's frame. */
 typedef struct kernel_pair {
   int32_t node, triangle; /* 16 * group + position in it */
 } kernel_pair;
 typedef struct kernel_filter {
   double ratio, shift[3], limit;
-  uint32_t wanted; /* a bit a node */
+  uint32_t wanted; /* one bit per node */
   int n_groups;
   const kernel_group *const *groups;
   int n_nodes;
   const float *nodes;
 } kernel_filter;
-/* All pairs that the filter leaves with room for so many at a time; *n_calls is how often it took that. The pairs are to be freed. */
+/* Returns all pairs that the filter leaves, with room for `room` pairs at a time. *n_calls is the number of calls that it took.
+ * The caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Squares of the first bounds: from below by groups, lower_sq(32, n_groups), and from above, upper_sq(32). */
 void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq);
-/* A bit for each of up to 16 boxes of one node each that a group may be near to, near(n_groups). Returns what the kernel does. */
+/* Sets near(n_groups): a bit for each of up to 16 boxes, of one node each, that the group may be near. Returns the kernel's
+ * result. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
 
-/* The samples of a surface whose distances are by sampling: xyz(3, n), the surface's own, in the order that decides between equally
- * near ones. Returns n. */
+/* Gets the samples of a surface whose distances are by sampling, and returns their number n. The surface owns xyz(3, n). Their
+ * order decides between equally near ones. */
 int64_t samples_of(const riis_surface *surface, const double **xyz);
 
-/* Powell's method from (0.5, 0.5) on [0,1]^2, line searches right to step: the value that it ends at, and where. */
+/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches right to `step`. Returns the final value, and its place in
+ * uv. */
 double powell_minimum(double (*f)(double u, double v), double enough, double step, double *uv);
 
-/* What the exception wall makes of "error", a riis Error of RIIS_INVALID_MESH with the text "error 7"; "memory",
- * std::bad_alloc; "standard", another standard exception, "boom"; "other", an int; "worker", an Error thrown by a
- * worker thread of a parallel loop; "workers", two, the second block's first; "nothing", none. */
+/* Returns the status that the exception wall makes of:
+ *   "error"     a riis Error of RIIS_INVALID_MESH with the message "error 7"
+ *   "memory"    std::bad_alloc
+ *   "standard"  another standard exception, "boom"
+ *   "other"     an int
+ *   "worker"    an Error thrown by a worker thread of a parallel loop
+ *   "workers"   two of them, the second block's first
+ *   "nothing"   no exception */
 riis_status wall_meets(const char *exception);
 
 #ifdef __cplusplus

@@ -29,7 +29,7 @@ const Kernels &of(int set) {
   return kernels(static_cast<InstructionSet>(set));
 }
 
-// As cluster_search.cpp makes it.
+// The filter's task, made as in cluster_search.cpp.
 struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Every public function that allocates, each in a scenario or more of its own. Include after digests.h. */
+ * Every public function that allocates, in at least one scenario each. Include after digests.h. */
 #ifndef RIIS_TEST_MEMORY_SCENARIOS_H
 #define RIIS_TEST_MEMORY_SCENARIOS_H
 
-/* What a scenario works with; NULL for what it does not. */
+/* The objects of a scenario. Those that it does not need are NULL. */
 typedef struct world {
   riis_valve *valve, *open;
   riis_surface *surface;
@@ -13,7 +13,7 @@ typedef struct world {
   const struct scenario *scenario;
 } world;
 
-/* One call. A fresh world each time: made, called, destroyed. */
+/* One call. Each time a fresh world is made, the call runs, and the world is destroyed. */
 typedef struct scenario {
   const char *name;
   void (*make)(world *w);
@@ -24,18 +24,18 @@ typedef struct scenario {
 } scenario;
 enum {
   MAKES_A_SCENE = 1,
-  ON_WORKERS = 2,     /* threads other than the calling one allocate, too */
-  ALLOCATES_NONE = 4, /* the library's own code does not */
-  IS_FIRST = 8        /* of its kind in this process: makes, once, what all of that kind share */
+  ON_WORKERS = 2,     /* other threads than the calling one also allocate */
+  ALLOCATES_NONE = 4, /* the library's own code does not allocate */
+  IS_FIRST = 8        /* the first call of its kind in this process makes the shared data of its kind */
 };
 
 /* --- What is the same for all ---------------------------------------------------------------------------------------- */
 
 static test_mesh nodes, fewer_nodes;
-static uint8_t *mask, *marks; /* an entry a node */
+static uint8_t *mask, *marks; /* one entry per node */
 static int32_t *side;
 
-/* n * n * n around the aortic valve. */
+/* A lattice of n * n * n nodes around the aortic valve. */
 static test_mesh lattice_of(int64_t n) {
   const int64_t counts[3] = {n, n, n};
   const double lower[3] = {-1.5, -1.5, -1.2}, upper[3] = {1.5, 1.5, 1.6};
@@ -51,7 +51,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* An object that is to be made is written only on success. */
+/* A handle is written only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -109,7 +109,7 @@ static void patches_and_open(world *w) {
   CHECK_OK(make_patches(w));
   CHECK_OK(patches_valve(0.8, &w->open));
 }
-/* Has an open state, and is given another. */
+/* The valve has an open state and gets another. */
 static void patches_opened(world *w) {
   patches_and_open(w);
   CHECK_OK(open_valve(w));
@@ -143,7 +143,7 @@ static riis_status measure(world *w, int32_t distance) {
 static riis_status by_sampling(world *w) { return measure(w, RIIS_DISTANCE_SAMPLING); }
 static riis_status by_minimization(world *w) { return measure(w, RIIS_DISTANCE_MINIMIZATION); }
 
-/* A pyramid's faces, the base as a quad in 64 bits, one face without area. */
+/* The faces of a pyramid in 64 bits. The base is a quad, and one face has no area. */
 static const double corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
 static const int32_t faces[15] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 0, 4};
 static const int64_t quads[8] = {0, 1, 2, 3, 4, 4, 4, 4};
@@ -196,7 +196,7 @@ static riis_status update_from_triangles(world *w) {
   return riis_surface_update_from_arrays(w->surface, &arrays, &options);
 }
 
-/* Sides of a surface that none was asked of. */
+/* The first query of a side on a surface. */
 static riis_status closest_point(world *w) {
   const double point[3] = {0.1, 0.2, 0.3};
   riis_closest closest, before;
@@ -294,7 +294,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* Has marked, and is asked for more than it has room for, or so often that it has room for all. */
+/* The result has marked. Then it needs more room than it has, or has marked so often that it has room for everything. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));
@@ -303,7 +303,7 @@ static void marked_often(world *w) {
   ready_to_mark(w);
   for (int i = 0; i < 3; ++i) CHECK_OK(mark(w));
 }
-/* By other distances than the triangles'. */
+/* The surface's distances are by sampling. */
 static void sampled_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_sampling(w));
@@ -312,12 +312,12 @@ static void minimized_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_minimization(w));
 }
-/* The nodes' groups are there, and have to be enclosed anew. */
+/* The mesh has its balls or clusters, which have to be enclosed again. */
 static void marked_and_moved(world *w) {
   marked_often(w);
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
 }
-/* Has marked a smaller mesh: all that is as long as the mesh is too short. */
+/* The result has marked a smaller mesh, so all memory that is as long as the mesh is too short. */
 static void marked_little(world *w) {
   const riis_csr fewer = csr_of(&fewer_nodes);
   ready_to_mark(w);
@@ -331,7 +331,7 @@ static riis_status dense(world *w) {
   return riis_mark_result_dense(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL);
 }
 
-/* So thin that edges cross it between unmarked nodes. */
+/* The surface is so thin that edges cross it between unmarked nodes. */
 static void thin_and_marked(world *w) {
   ready_to_mark(w);
   riis_surface_options thin = coarse;
@@ -352,7 +352,7 @@ static void leaks_found(world *w) {
   CHECK_OK(find_leaks(w));
 }
 
-/* Not of what the call only reads, and then is called with again: that takes most of the time. */
+/* Leaves out objects that the call only reads, because digests of those take most of the time. */
 static uint64_t digest_of(const world *w) {
   uint64_t digest = UINT64_C(0xcbf29ce484222325);
   const int which = (w->valve != NULL) + 2 * (w->surface != NULL) + 4 * (w->mesh != NULL) + 8 * (w->adjacency != NULL) +

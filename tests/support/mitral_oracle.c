@@ -16,7 +16,7 @@ typedef struct cubic {
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
   real u_pm, u_al, triangle, bulge; /* bulge: tan(surface_angle) / 2 */
-  real cleft; /* parameter at which closed anterior edges have a third of their length behind them, blended */
+  real cleft; /* blended parameter at which a third of a closed anterior edge's length lies behind */
   real translation[3];
 };
 
@@ -68,7 +68,8 @@ static void measure(cubic *c) {
 
 static real length(const cubic *c) { return c->length_to[STEPS]; }
 
-/* Parameter at arc length s: Newton's method in one step of the table, bisection where it would leave the bracket. */
+/* Returns the parameter at arc length s: Newton's method in one step of the table, or bisection where Newton would leave the
+ * bracket. */
 static real parameter_at(const cubic *c, real s) {
   int first = 0, last = STEPS;
   while (last - first > 1) {
@@ -87,7 +88,7 @@ static real parameter_at(const cubic *c, real s) {
     else
       low = t;
     real next = t - excess / speed(c, t);
-    if (!(next >= low && next <= high)) next = (low + high) / 2; /* also where the curve stands still */
+    if (!(next >= low && next <= high)) next = (low + high) / 2; /* also where the curve's speed is 0 */
     if (fabsl(next - t) < 1e-16L) return next;
     t = next;
   }
@@ -109,7 +110,7 @@ static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
 
 /* ---- The annulus ---- */
 
-/* Endpoints P and tangents T of "Annulus"; P^5 as row 1 mends it. The open annulus lies in the plane z = 0. */
+/* Endpoints P and tangents T of "Annulus", with P^5 as row 1 mends it. The open annulus lies in the plane z = 0. */
 static void annulus_curves(const mitral_parameters *p, int is_open, cubic annulus[6]) {
   const real ap = p->AP_diameter, alpm = p->ALPM_diameter, ratio = p->ALPM_position_ratio, it = p->IT_distance;
   const real id = p->indent_depth, z = is_open ? 0 : 1, h_at = z * p->anterior_horn_height;
@@ -150,8 +151,8 @@ static void annulus_at(const cubic annulus[6], real u, real *point, real *tangen
 
 /* ---- The leaflets' free edges ---- */
 
-/* Rows 2 to 4: U(u, x), x away from A(u), inwards at angle 0 and down at 90 degrees. The closed state is angle 0 with
- * A's z dropped ("Closed valve"), and the open annulus has no z: both start from z = 0. */
+/* Rows 2 to 4: U(u, x) is x away from A(u), inwards at angle 0 and down at 90 degrees. The closed state is angle 0 with A's z
+ * dropped ("Closed valve"). The open annulus has no z, so both states start from z = 0. */
 static void reach(const cubic annulus[6], real u, double x, double inward_angle, real *point) {
   real a[3], tangent[3];
   annulus_at(annulus, u, a, tangent);
@@ -165,8 +166,8 @@ static real twice_area(const real *a, const real *b, const real *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane and takes S^0, S^3, S^tip to start, end,
- * tip: a point keeps its barycentric coordinates. (S^cen follows, being a mean.) */
+/* "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane and takes S^0, S^3, S^tip to start, end, tip. So a
+ * point keeps its barycentric coordinates. (S^cen follows, because it is a mean.) */
 static void leaflet_curve(const real *start, const real *tip, const real *end, double arc_angle, real curve[4][3]) {
   const real a = radians(arc_angle), k = 4.0L / 3 * tanl(a / 4);
   const real S[4][2] = {{1, 0}, {1, k}, {cosl(a) + k * sinl(a), sinl(a) - k * cosl(a)}, {cosl(a), sinl(a)}};
@@ -190,7 +191,7 @@ static void anterior_curve(const mitral_parameters *p, const cubic annulus[6], d
   leaflet_curve(start, tip, end, p->leaflet_arc_angle, curve);
 }
 
-/* The open scallops, from pm to al; rows 10 to 12: ends h_pm long and 2 u_pm / 3 apart, tips half way. */
+/* The open scallops from pm to al, rows 10 to 12. Their ends are h_pm long and 2 u_pm / 3 apart, their tips half way. */
 static void open_scallop(const mitral_parameters *p, const cubic annulus[6], int scallop, real curve[4][3]) {
   const real third = u_pm_of(p) / 3, ends[4] = {3 * third, third, 1 - third, 1 - 3 * third};
   const real tips[3] = {2 * third, 0, 1 - 2 * third};
@@ -210,7 +211,7 @@ static void blend_curve(real opening, real closed[4][3], real open[4][3], cubic 
   measure(blended);
 }
 
-typedef struct states { /* on the heap: tables of 14 curves */
+typedef struct states { /* on the heap, because it has tables of 14 curves */
   cubic closed_annulus[6], open_annulus[6], closed_anterior, open_anterior;
   cubic cleft_annulus[6], cleft_anterior;
 } states;
@@ -260,7 +261,7 @@ static void by_length(const cubic *c, real share, real *point) {
   evaluate(c, parameter_at(c, share * length(c)), point);
 }
 
-/* L_po(v), v in [0, 1] from pm to al; row 13: each scallop has a third of v. */
+/* L_po(v) for v in [0, 1] from pm to al. Row 13: each scallop has a third of v. */
 static void posterior(const mitral_oracle *o, real v, real *point) {
   const int scallop = 3 * v < 1 ? 0 : 3 * v < 2 ? 1 : 2;
   by_length(&o->scallop[scallop], 3 * v - scallop, point);
@@ -277,8 +278,8 @@ static void leaflet_at(const mitral_oracle *o, real u, real *point) {
     by_length(&o->anterior, u <= first ? 0 : u >= last ? 1 : (u - first) / (last - first), point);
 }
 
-/* A(u), K(u), L(u). Rows 14 and 15: K is tan(surface_angle) |L - A| / 2 off the chord's middle, along (L - A) x A'.
- * Where the two are parallel there is no such direction, and no offset. */
+/* A(u), K(u), L(u). Rows 14 and 15: K is tan(surface_angle) |L - A| / 2 off the chord's middle, along (L - A) x A'. If these two
+ * vectors are parallel, there is no such direction and no offset. */
 static void curve_at(const mitral_oracle *o, real u, real *a, real *k, real *l) {
   real t[3], e[3], n[3];
   annulus_at(o->annulus, u, a, t);
@@ -289,7 +290,7 @@ static void curve_at(const mitral_oracle *o, real u, real *a, real *k, real *l) 
   for (int i = 0; i < 3; ++i) k[i] = (a[i] + l[i]) / 2 + offset * n[i];
 }
 
-/* D(u, v), not translated. */
+/* D(u, v) before the translation. */
 static void quadratic(const real *a, const real *k, const real *l, real v, real *point) {
   for (int i = 0; i < 3; ++i) point[i] = (1 - v) * (1 - v) * a[i] + 2 * v * (1 - v) * k[i] + v * v * l[i];
 }
@@ -378,7 +379,7 @@ double mitral_oracle_scallop_length(const mitral_oracle *oracle, int scallop) {
 
 double mitral_oracle_area(const mitral_oracle *oracle, int n_u, int n_v) {
   real u[MITRAL_ORACLE_BREAKS], sum = 0;
-  real curve[2][3][3]; /* the curve at u before last, and at the last */
+  real curve[2][3][3]; /* the curves at the last u but one and at the last u */
   breaks(oracle, u);
   for (int b = 0; b + 1 < MITRAL_ORACLE_BREAKS; ++b)
     for (int i = 0; i <= n_u; ++i) {

@@ -45,7 +45,8 @@ static inline int same_nodes(found_nodes a, found_nodes b) {
          memcmp(a.leaflet_id, b.leaflet_id, m * sizeof *a.leaflet_id) == 0;
 }
 
-/* The same nodes, marked and within the limit, with the same bits. Asserts nothing: any thread may ask. */
+/* Returns 1 if both have the same nodes, marked and within the limit, with the same bits. Asserts nothing, so any thread may call
+ * it. */
 static inline int same_results(const riis_mark_result *a, const riis_mark_result *b) {
   const riis_mark_result *of[2] = {a, b};
   found_nodes m[2], w[2];
@@ -104,7 +105,7 @@ static inline test_mesh lattice(const int64_t *counts, const double *lower, cons
   return mesh;
 }
 
-/* A lattice with about that spacing, as wide as the surface and a margin around it. */
+/* A lattice with about the given spacing, as wide as the surface and a margin around it. */
 static inline test_mesh lattice_around(const riis_surface *surface, double spacing, double margin) {
   const riis_surface_info info = info_of(surface);
   double lower[3], upper[3];
@@ -126,7 +127,7 @@ static inline riis_csr csr_of(const test_mesh *mesh) {
   return csr;
 }
 
-/* Borrows all of it. */
+/* The mesh borrows all arrays. */
 static inline riis_mesh *mesh_from(const test_mesh *from) {
   riis_mesh *mesh = mesh_of(from->n, from->xyz);
   const riis_csr csr = csr_of(from);

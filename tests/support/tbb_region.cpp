@@ -44,7 +44,7 @@ tbb_seen tbb_run(int region, int n_tasks, void (*body)(void *data, int task), vo
             std::this_thread::yield();
           }
           for (int task = range.begin(); task < range.end(); ++task) body(data, task);
-          // How many threads are allowed is of the process: other tasks' calls under way may have raised it.
+          // The number of allowed threads belongs to the process, so calls of other tasks may have raised it meanwhile.
           n_changed += tbb::this_task_arena::max_concurrency() != arena;
           --n_running;
         },

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * What every test needs: CMocka with its headers in order, checks on doubles (CMocka 1.1.5 compares floats), random
+ * The common parts of all tests: CMocka with its headers in order, checks on doubles (CMocka 1.1.5 compares floats), and random
  * numbers with a printed seed. */
 #ifndef RIIS_TEST_SUPPORT_H
 #define RIIS_TEST_SUPPORT_H
@@ -31,7 +31,7 @@
     if (!(check_a <= check_l)) fail_msg("%s = %.17g is more than %s = %.17g", #a, check_a, #limit, check_l); \
   } while (0)
 
-/* Same bits. */
+/* a and b have the same bits. */
 #define CHECK_SAME(a, b)                                                               \
   do {                                                                                 \
     const double check_a = (a), check_b = (b);                                         \
@@ -46,7 +46,7 @@
     if (check_s != RIIS_OK) fail_msg("%s: %s: %s", #call, riis_status_name(check_s), riis_last_error()); \
   } while (0)
 
-/* The call is refused with this status and a text that holds every one of the parts (up to three, separated by '|'). */
+/* Checks that the call is refused with this status and a message that holds every part (up to three, separated by '|'). */
 static inline void check_refused(riis_status expected, riis_status got, const char *parts, const char *call) {
   char copy[256];
   if (got != expected)
@@ -58,7 +58,7 @@ static inline void check_refused(riis_status expected, riis_status got, const ch
 #define CHECK_REFUSED(status, parts, call) check_refused(status, call, parts, #call)
 #endif
 
-/* Random numbers: splitmix64. The seed is the time, or RIIS_TEST_SEED to repeat a run. */
+/* Random numbers by splitmix64. The seed is the time, or RIIS_TEST_SEED to repeat a run. */
 typedef struct random_source {
   uint64_t state;
 } random_source;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A race through each of the two seams, which the thread sanitizer has to report, and work that the seam puts in order, on which it
-// has to be silent: planted_race loop|walk race|order. Exit status 3: no two threads took part, so that nothing was shown.
+// planted_race loop|walk race|order. With race, the thread sanitizer has to report a race through one of the two seams. With
+// order, the seam orders the work and the sanitizer has to be silent. Exit status 3: no two threads took part, so nothing was
+// shown.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -12,13 +13,14 @@
 
 namespace {
 
-// What the report has to name. On its own: the sanitizer remembers few accesses of each eight bytes, and the flags have many.
+// The report has to name this variable. It is alone on its line: the sanitizer remembers few accesses of each eight bytes, and
+// the flags have many.
 alignas(64) int planted = 0;
 alignas(64) std::atomic<int> n_come{0};
 std::atomic<bool> is_written{false}, is_written_again{false};
 
-// Waits by relaxed loads, which put nothing in an order, and few of them: a thread's history, from which a report is made, is short.
-// Gives up in time, should the other thread never come.
+// Waits by relaxed loads, which order nothing. It makes few of them, because a thread's history, from which a report is made, is
+// short. It gives up after a while if the other thread never comes.
 template <class Happened>
 bool wait_until(const Happened &happened) {
   const auto start = std::chrono::steady_clock::now();
@@ -29,9 +31,9 @@ bool wait_until(const Happened &happened) {
   return true;
 }
 
-// Called four times, twice on each of two threads. Both come to their first call, and one of them writes in it; the other writes in
-// its second, long after the first's has returned: the two writes overlap nowhere, and only an order between bodies that the seam
-// does not promise could hide the race.
+// Called four times, twice on each of two threads. Both reach their first call, and one thread writes in it. The other thread
+// writes in its second call, long after the first's has returned. So the two writes never overlap, and only an order between
+// bodies that the seam does not promise could hide the race.
 void write_late() {
   thread_local int n_calls = 0, place = 0;
   ++n_calls;
@@ -73,7 +75,7 @@ bool order_in_loop() {
   return n_ran == 2 && written[0] == 50;
 }
 
-// What is added comes after what its adder wrote before, on either thread: the first body waits for the other thread to go on.
+// An added body runs after its adder's earlier writes, on either thread. The first body waits until the other thread goes on.
 bool order_in_walk() {
   static int written[1000];
   std::atomic<int> n_on_thread[2] = {};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What every test of a refusal asks: the status, a text that says what is wrong, in one line. */
+ * Checks every test of a refusal needs: the status, and a message in one line that says what is wrong. */
 #ifndef RIIS_TESTS_EXPECT_H
 #define RIIS_TESTS_EXPECT_H
 

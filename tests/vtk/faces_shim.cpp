@@ -36,7 +36,7 @@ Polygon polygon_of(vtkPolyData *faces, vtkIdType face) {
   return polygon;
 }
 
-// Corners and polygons in an order that does not depend on who made them.
+// Puts corners and polygons into an order that does not depend on their origin.
 std::vector<Polygon> sorted(std::vector<Polygon> polygons) {
   for (Polygon &polygon : polygons) std::sort(polygon.begin(), polygon.end());
   std::sort(polygons.begin(), polygons.end());
@@ -73,7 +73,7 @@ std::vector<Polygon> outside_by_vtk(vtkUnstructuredGrid *grid) {
   return polygons;
 }
 
-// Whether the middle of the cell lies before the face, seen from where its corners run against the clock.
+// Tells whether the middle of the cell lies in front of the face. The front is the side from which its corners run anticlockwise.
 bool looks_inwards(const Polygon &face, vtkCell *cell) {
   double normal[3] = {0, 0, 0}, middle[3] = {0, 0, 0}, to_middle[3];
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {

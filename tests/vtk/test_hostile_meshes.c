@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes that cannot be read: each is an error with a text that names the file, nothing is printed, nothing is
- * returned, and no file is taken for a smaller mesh than it was. */
+ * Meshes that cannot be read. Each is an error whose message names the file, nothing is printed, nothing is returned, and no
+ * file is taken for a smaller mesh than it was. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static void expect_file_error(const char *name, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-/* Read without an error, or refused with that text if there is one. */
+/* Checks that the file is read without an error, or refused with the message `error` if that is not NULL. */
 static void expect_file(const char *name, const char *error) {
   if (error) {
     expect_file_error(name, error);
@@ -60,7 +60,7 @@ static void test_not_files(void **state) {
 
 static void test_unreadable(void **state) {
   (void)state;
-  if (geteuid() == 0) skip(); /* root reads everything */
+  if (geteuid() == 0) skip(); /* root may read everything */
   scratch_write_text("locked.vtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   assert_int_equal(chmod(scratch_path("locked.vtu"), 0), 0);
   expect_file_error("locked.vtu", "Permission denied");
@@ -167,7 +167,7 @@ static void test_broken_cells(void **state) {
   expect_file_error("types.vtk", "holds no cells (is it truncated?)");
 }
 
-/* Coordinates are the core's to judge. */
+/* The core checks coordinates, not the reader. */
 static void test_not_a_number_passes(void **state) {
   (void)state;
   write_tetrahedron("nan.vtu", counts, "0 0 0  nan 0 0  0 1 0  0 0 1", "0 1 2 3", "4", "10", "");
@@ -182,8 +182,8 @@ static void test_not_a_number_passes(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Whether a file may pass without its last bytes: blanks, or in a legacy file, which has no end mark, digits of a last
- * number and whole sections behind the cells. */
+/* Tells whether a file may pass without its last bytes. These may be blanks. A legacy file has no end mark, so it may also lack
+ * digits of its last number and whole sections behind the cells. */
 static int may_be_missing(const char *bytes, size_t n, int encoding) {
   size_t i = 0;
   if (encoding == SHIM_LEGACY_ASCII) i += strspn(bytes, "0123456789.e+-");
@@ -194,7 +194,7 @@ static int may_be_missing(const char *bytes, size_t n, int encoding) {
   return i == n || section;
 }
 
-/* Cuts a real file behind every one of its bytes: the rest is refused, or is the whole mesh. */
+/* Cuts a real file behind each of its bytes. The cut file is refused, or it gives the whole mesh. */
 static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_int_equal(shim_write_box(scratch_path(whole), encoding, 2, lower, upper, 0), 1);
   size_t size = 0;
@@ -224,8 +224,8 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
-/* VTK seeks the next of the keys that INFORMATION promises for ever, once it has met what it cannot read as a number. Of keywords it
- * looks at the beginning only. */
+/* VTK looks for the next of the keys that INFORMATION promises, and never stops once it has met a word that it cannot read as a
+ * number. It reads only the beginning of a keyword. */
 static void test_endless_information(void **state) {
   (void)state;
   const struct {
@@ -259,7 +259,8 @@ static void test_endless_information(void **state) {
   }
 }
 
-/* Names as VTK reads them: the absent array's is in capitals, and what is longer than 255 characters is two words to it. */
+/* Names as VTK reads them. The name of the absent array is in capitals, and a name of more than 255 characters counts as two
+ * words. */
 static void test_names_of_arrays(void **state) {
   (void)state;
   char longest[256], too_long[257];
@@ -284,7 +285,7 @@ static void test_names_of_arrays(void **state) {
   }
 }
 
-/* Whole numbers of a text, as they are or as four bytes each, the first one first; returns how many bytes. */
+/* Writes the whole numbers of a text, either as text or as four bytes each, high byte first. Returns the number of bytes. */
 static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
   if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
   size_t n = 0;
@@ -296,8 +297,8 @@ static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary)
   return n;
 }
 
-/* VTK follows the faces of polyhedra as it reads them. As text and in bytes, by counts and, from version 5 on, by offsets; type 298 is
- * 42 in a byte. */
+/* VTK follows the faces of polyhedra unchecked while it reads them. The files are text or binary, with counts or, from version 5
+ * on, with offsets. Type 298 is 42 in a byte. */
 static void test_polyhedra(void **state) {
   (void)state;
   const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";
@@ -364,7 +365,7 @@ static void test_cells_of_polyhedra(void **state) {
   }
 }
 
-/* VTK closes a file at a word that is no number of its type, and reads on. */
+/* VTK closes a file at a word that is not a number of its type, and reads on. */
 static void test_words_for_numbers(void **state) {
   (void)state;
   const struct {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Leaflets of surface files by pieces and by arrays; marks by other names; the length of a mesh's edges. Pieces and edges
- * are compared with slow computations of them. */
+ * Leaflets of surface files from pieces and from arrays, marks with other names, and the length of a mesh's edges. Pieces and
+ * edges are compared with slow computations of them. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points, so that some of them meet. Coordinates are 0 or -0, which is the same place. The pieces come
- * from passing the lowest face's number on until nothing changes. */
+/* Random triangles on few points, so that some of them meet. Each z is 0 or -0, which is the same place. The expected
+ * pieces come from passing the lowest face's number on until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];
@@ -84,7 +84,7 @@ static void test_pieces(void **state) {
   assert_true(most_pieces > 5);
 }
 
-/* Quads, which share vertices by their numbers, and an array of leaflets, which the pieces take the place of. */
+/* Quads, which share vertices by their numbers, and an array of leaflets, which the pieces replace. */
 static const char *const quads =
     "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"10\" NumberOfCells=\"3\"><CellData>\n"
@@ -140,7 +140,7 @@ static int ascending(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Of a box of tetrahedra, all of their edges by their corners, sorted. */
+/* The expected median comes from all edges of a box of tetrahedra, by their corners, sorted. */
 static void test_median_edge(void **state) {
   (void)state;
   enum { n_side = 9, n_points = n_side * n_side * n_side, n_cells = 6 * 8 * 8 * 8, n_edges = 6 * n_cells };
@@ -168,7 +168,7 @@ static void test_median_edge(void **state) {
   expect_refused(riis_vtk_mesh_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
   riis_vtk_mesh_destroy(&mesh);
-  /* More cells than are looked at: the box is the same everywhere. And cells without edges. */
+  /* A box with more cells than are used, which is the same everywhere. Then cells without edges. */
   assert_int_equal(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 22, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("large.vtu"), &mesh));
   expect_fine(riis_vtk_mesh_median_edge(mesh, &length));
@@ -228,7 +228,7 @@ static void test_named_marks(void **state) {
   expect_refused(riis_vtk_mesh_has_point_array(mesh, "x", NULL), RIIS_INVALID_ARGUMENT, "has is NULL");
   assert_int_equal(has, 7);
   expect_array(mesh, "pressure", 1);
-  expect_array(mesh, "region", 0); /* a cell array */
+  expect_array(mesh, "region", 0); /* "region" is a cell array */
   expect_array(mesh, "Left.1_marked", 0);
   expect_fine(riis_vtk_mesh_set_named_marks(mesh, result, -1, "Left.1"));
   expect_array(mesh, "Left.1_marked", 1);

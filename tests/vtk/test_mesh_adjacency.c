@@ -12,7 +12,7 @@
 #include "vtk_shim.h"
 
 enum { n_side = 9, n_box = n_side * n_side * n_side };
-/* VTK's numbers of the cells whose edges count: tetrahedron, voxel, hexahedron, wedge, pyramid. */
+/* VTK's numbers of the types of cells whose edges count: tetrahedron, voxel, hexahedron, wedge, pyramid. */
 static const int volume_types[] = {10, 11, 12, 13, 14};
 
 static riis_vtk_mesh *read_mesh(const char *name) {
@@ -21,7 +21,7 @@ static riis_vtk_mesh *read_mesh(const char *name) {
   return mesh;
 }
 
-/* By VTK: are_joined[i * n + j]. Returns the number of pairs. */
+/* Sets are_joined[i * n + j] by VTK. Returns the number of pairs. */
 static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joined) {
   static int64_t edges[2 * 40000];
   int64_t n_pairs = 0;
@@ -39,7 +39,7 @@ static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joine
   return n_pairs;
 }
 
-/* Returns the number of columns. */
+/* Checks the rows and returns the number of columns. */
 static int64_t expect_rows(const riis_adjacency *adjacency, int64_t n_nodes, const uint8_t *are_joined) {
   riis_csr csr;
   expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
@@ -96,7 +96,7 @@ static void test_every_cell(void **state) {
   expect_adjacency("zoo.vtu", n_shim_zoo, 100);
 }
 
-/* One triangle, whose bounds are a box. */
+/* Makes a triangle whose bounds are a box. */
 static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   const double xyz[9] = {lower[0], lower[1], lower[2], upper[0], upper[1], lower[2], upper[0], lower[1], upper[2]};
   const int32_t ids[3] = {0, 1, 2};
@@ -109,7 +109,7 @@ static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   return surface;
 }
 
-/* Of the pairs that VTK joins, those that are long enough and beside no side of the box. */
+/* Expects the pairs that VTK joins, that are long enough, and that lie beyond no side of the box. */
 static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
                               double longer_than, int64_t n_left_out) {
   uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
@@ -147,7 +147,7 @@ static void test_long_edges(void **state) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0); /* within a billionth */
+  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0); /* equal within a billionth */
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 3 * 3);
 }
@@ -170,7 +170,7 @@ static void test_long_edges_refused(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* A quad's diagonals are no edges, and a voxel's nodes run another way than a hexahedron's. */
+/* A quad's diagonals are not edges, and a voxel orders its nodes differently from a hexahedron. */
 static void test_voxel(void **state) {
   (void)state;
   scratch_write_text("voxel.vtk",
@@ -189,7 +189,7 @@ static void test_voxel(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Meshes without a cell of volume: empty rows; the neighbour search still finds all. */
+/* Meshes without volume cells have empty rows. The neighbour search still finds all nodes. */
 static void test_no_volume(void **state) {
   (void)state;
   const char *cells[] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n",

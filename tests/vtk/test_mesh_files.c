@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes through files: nodes in the file's order, points as doubles, every array kept, marks as the core gives them.
- */
+ * Meshes through files: nodes keep the file's order, points are doubles, every array is kept, and marks are the core's. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -20,7 +19,7 @@ static riis_vtk_mesh *read_mesh(const char *name) {
   return mesh;
 }
 
-/* The array of one file equals that of another, in type, shape and every value. */
+/* Checks that the arrays of two files are equal in type, shape and every value. */
 static void expect_same_array(const char *before, const char *after, char where, const char *name, int has_numbers) {
   static double values[2][3 * n_cells];
   char type[2][32];
@@ -91,7 +90,7 @@ static void test_round_trips(void **state) {
   }
 }
 
-/* The nodes are shuffled: order is only kept by keeping it. */
+/* The box's nodes are shuffled, so only a reader that keeps their order passes. */
 static void test_nodes_are_shuffled(void **state) {
   (void)state;
   static double xyz[3 * n_nodes];
@@ -102,7 +101,7 @@ static void test_nodes_are_shuffled(void **state) {
   assert_true(n_descents > n_nodes / 4);
 }
 
-/* Every keyword of the legacy format that an unstructured grid may have, in the older versions' words. */
+/* Every keyword of the legacy format that an unstructured grid may have, as older versions spell them. */
 static void test_legacy_keywords(void **state) {
   (void)state;
   scratch_write_text(
@@ -136,7 +135,7 @@ static void test_legacy_keywords(void **state) {
   assert_true(rank[0] == 7 && rank[1] == 8);
 }
 
-/* Blocks of METADATA, which VTK's writer puts behind arrays whose range was asked for, and bits. */
+/* Bits, and blocks of METADATA, which VTK's writer puts behind arrays whose range was queried. */
 static void test_legacy_metadata(void **state) {
   (void)state;
   for (int i = 0; i < 4; ++i) {
@@ -160,7 +159,7 @@ static void test_legacy_metadata(void **state) {
 
 #define LEGACY(version) "# vtk DataFile Version " version "\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
 
-/* Lines that end with a carriage return, a mesh without cells, METADATA where VTK puts none. */
+/* Lines that end with a carriage return, a mesh without cells, and METADATA at places where VTK puts none. */
 static void test_legacy_layouts(void **state) {
   (void)state;
   const char *texts[] = {
@@ -180,7 +179,7 @@ static void test_legacy_layouts(void **state) {
   }
 }
 
-/* "Array" in a name or a comment is no array. */
+/* The word "Array" in a name or a comment is not an array. */
 static void test_word_array(void **state) {
   (void)state;
   scratch_write_text(
@@ -259,7 +258,7 @@ static void test_marks(void **state) {
   expect_same_mesh(scratch_path("in.vtu"), scratch_path("marked.vtu"));
   expect_same_array(scratch_path("in.vtu"), scratch_path("marked.vtu"), 'p', "pressure", 1);
 
-  /* Again, with other values, into the same mesh, and into one that was read with marks. */
+  /* Other values go into the same mesh, and into a mesh that was read with marks. */
   riis_mark_result *wider = mark(mesh, 0.25, 0.4);
   expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The neighbour search on unstructured meshes from files, by VTK's Delaunay filter and by gmsh: the same nodes as the
- * exhaustive search, to the last bit. */
+ * The neighbour search on unstructured meshes from files, made by VTK's Delaunay filter and by gmsh. It finds the same nodes as
+ * the exhaustive search, to the last bit. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -29,7 +29,8 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   return surface;
 }
 
-/* Marks by both searches, cold and warm, with several limits and numbers of threads. Returns how many were marked first. */
+/* Marks by both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes marked
+ * first. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_mark_result *warm) {
   const int owned_before = n_owned();
   riis_mark_result *expected = new_result(), *cold = new_result();
@@ -133,7 +134,7 @@ static void mitral_in_a_delaunay_mesh(void **state) {
 }
 
 #ifdef RIIS_GMSH
-/* A cylinder around the valve, fine at some place of it and coarser away from there. */
+/* A cylinder around the valve, with a mesh that is fine at one place and coarser away from it. */
 static void graded_by_gmsh(const char *kind) {
   double lower[3], upper[3], fine[3];
   char text[2048], command[2048];

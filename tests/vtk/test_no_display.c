@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Without a display a picture is refused; VTK on its own would abort the process. */
+ * A picture is refused without a display. VTK on its own would abort the process. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Pictures, under a virtual display: of the size that was asked for, not blank, one panel or two, different for each
- * view. */
+ * Pictures under a virtual display have the requested size, are not blank, have one panel or two, and differ for each view. */
 #include <riis/riis_vtk.h>
 #include <signal.h>
 #include <stdint.h>
@@ -68,7 +67,7 @@ static void draw(const char *name, const riis_vtk_mesh *drawn, int32_t view, int
   assert_int_equal(n_printed, 0);
 }
 
-/* The picture has this size, many colours, and colour on a good part of both halves. */
+/* Checks that the picture has this size, many colours, and colour on a good part of both halves. */
 static void expect_picture(const char *name, int expected_width, int expected_height) {
   int width = 0, height = 0, n_colours = 0, n_coloured[2] = {0, 0};
   assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_coloured), 1);
@@ -129,7 +128,7 @@ static void draw_texts(const char *name, const char *title, const char *const *n
   assert_int_equal(n_printed, 0);
 }
 
-/* The texts are seen; what is no ASCII is drawn as ?, and nothing is taken for a formula. */
+/* The texts are visible. Letters that are not ASCII are drawn as ?, and no text is taken for a formula. */
 static void test_texts(void **state) {
   (void)state;
   const char *names[3] = {"right", "left", "leaflet 2"};
@@ -147,7 +146,7 @@ static void test_texts(void **state) {
   assert_true(same_file("odd.png", "marked.png"));
 }
 
-/* A mesh of which nothing is marked still gives a picture. */
+/* A mesh without marked nodes still gives a picture. */
 static void test_nothing_marked(void **state) {
   (void)state;
   const double lower[3] = {5, 5, 5}, upper[3] = {6, 6, 6};
@@ -157,7 +156,7 @@ static void test_nothing_marked(void **state) {
   riis_vtk_mesh_destroy(&other);
 }
 
-/* Pixels of a picture, from below. */
+/* The pixels of a picture, from the bottom row up. */
 typedef struct {
   int width, height;
   unsigned char *rgb;
@@ -181,7 +180,7 @@ static int is_red(const unsigned char *rgb) { return rgb[0] > 180 && rgb[1] < 40
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
-/* Much colour, or little. */
+/* These tell full colours from pale ones. */
 static int is_full(const unsigned char *rgb) {
   const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
   const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);
@@ -192,7 +191,7 @@ static int is_pale(const unsigned char *rgb) {
   return most > 100 && most - least > 20 && !is_full(rgb);
 }
 
-/* How many pixels of a panel, 0 or 1, are of a kind. */
+/* Returns the number of pixels of one kind in a panel, 0 or 1. */
 static int count_pixels(const char *name, int panel, int (*is_kind)(const unsigned char *)) {
   pixels picture = read_pixels(name);
   int n = 0;
@@ -202,7 +201,7 @@ static int count_pixels(const char *name, int panel, int (*is_kind)(const unsign
   return n;
 }
 
-/* Views of one scene are the pictures that calls of their own draw. */
+/* Each view of one scene equals the picture that a separate call draws. */
 static void test_one_scene(void **state) {
   (void)state;
   const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_OBLIQUE, RIIS_VTK_VIEW_TOP};
@@ -226,7 +225,7 @@ static void test_one_scene(void **state) {
   assert_false(same_file("s0.png", "s1.png"));
 }
 
-/* In a mesh too coarse for whole cells the marked nodes are seen all the same; in a fine one whole cells are not covered. */
+/* A mesh that is too coarse for whole cells still shows the marked nodes. In a fine mesh whole cells are not covered. */
 static void test_partly_marked(void **state) {
   (void)state;
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
@@ -244,7 +243,7 @@ static void test_partly_marked(void **state) {
   riis_vtk_mesh_destroy(&coarse);
 }
 
-/* Where two nodes are marked, the number of each; the mesh has no nodes at the same place. */
+/* Finds the numbers of two nodes by their places. No two nodes of the mesh are at the same place. */
 static void two_nodes(int64_t edge[2]) {
   const double *xyz = NULL;
   int64_t n = 0;
@@ -265,7 +264,7 @@ static void two_nodes(int64_t edge[2]) {
   assert_true(edge[0] != edge[1]);
 }
 
-/* An edge in the middle of the mesh is seen from everywhere; the caption mentions leaks only where they are known. */
+/* A leaking edge in the middle of the mesh is visible in every view. The caption mentions leaks only if they are known. */
 static void test_leaks(void **state) {
   (void)state;
   const char *paths[3] = {scratch_path("l0.png"), scratch_path("l1.png"), scratch_path("l2.png")};
@@ -304,7 +303,8 @@ static int longest_dark_run(const pixels *picture, int from, int to) {
   return longest;
 }
 
-/* From above the mesh is 3.4 wide: that gives the pixels of the scale bar, which is 1 long. No mesh is behind the texts. */
+/* Seen from above the mesh is 3.4 wide, which gives the pixels of the scale bar of length 1. No part of the mesh is behind the
+ * texts. */
 static void test_scale_and_bands(void **state) {
   (void)state;
   draw("bands.png", mesh, RIIS_VTK_VIEW_TOP, 1600, 800);
@@ -330,7 +330,7 @@ static void test_scale_and_bands(void **state) {
 
 static int is_line(const unsigned char *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] < 200; }
 
-/* How often a row of the right panel changes between line and no line. */
+/* The most changes between line and no line in a row of the right panel. */
 static int most_changes_in_a_row(const pixels *picture, int *row) {
   int most = 0;
   for (int y = lower_band; y < picture->height - upper_band; ++y) {
@@ -343,7 +343,8 @@ static int most_changes_in_a_row(const pixels *picture, int *row) {
   return most;
 }
 
-/* Of a tube 20 times as long as wide, the valve's neighbourhood is shown as large as in a short one, and cut at dashes. */
+/* In a tube 20 times as long as wide, the valve's neighbourhood looks as large as in a short tube. Dashes show where the tube is
+ * cut. */
 static void test_long_mesh(void **state) {
   (void)state;
   const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
@@ -355,7 +356,7 @@ static void test_long_mesh(void **state) {
   pixels picture = read_pixels("long.png");
   int row = 0;
   assert_true(most_changes_in_a_row(&picture, &row) > 40);
-  /* Between the dashes and the panel's edge there is nothing of the mesh. */
+  /* No part of the mesh is between the dashes and the panel's edge. */
   const int end = row < picture.height / 2 ? lower_band + 4 : picture.height - upper_band - 5;
   for (int x = picture.width / 2; x < picture.width; ++x) assert_true(pixel_at(&picture, x, end)[0] > 250);
   free(picture.rgb);
@@ -365,7 +366,7 @@ static void test_long_mesh(void **state) {
   riis_vtk_mesh_destroy(&tube);
 }
 
-/* With room for n_bytes a file, as on a disk that fills up, there is no picture and nothing beside it. */
+/* If files have room for only n_bytes, as on a disk that fills up, there is no picture and nothing beside it. */
 static void test_full_disk(void **state) {
   (void)state;
   struct rlimit limit, small;

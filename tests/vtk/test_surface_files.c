@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Surfaces through files: what is written is what is queried; what is read keeps winding, order and leaflets. */
+ * Surfaces through files: written files hold the same surface as queries give, and surfaces that are read keep winding, order
+ * and leaflets. */
 #include <locale.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -35,7 +36,7 @@ static double *numbers(int64_t n) {
   return values;
 }
 
-/* A cell array of the file has one value a triangle, of this type, equal to the expected ones. */
+/* Checks that a cell array of the file has one value per triangle, of this type and equal to the expected ones. */
 static void expect_cell_array(const char *path, const char *name, const char *expected_type, int64_t n,
                               const int32_t *narrow, const int64_t *wide) {
   char type[32];
@@ -109,7 +110,7 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
   return surface;
 }
 
-/* The valve read back is the same surface: bitwise the same closest points. */
+/* A valve that is written and read back is the same surface: closest points have the same bits. */
 static void test_round_trip(void **state) {
   (void)state;
   riis_surface *valve = make_valve();
@@ -128,12 +129,12 @@ static void test_round_trip(void **state) {
   riis_surface_destroy(&valve);
 }
 
-/* Six points in a plane z = 0, counter-clockwise round the square and a bit outside. */
+/* Points in the plane z = 0: anticlockwise round the square, then some outside it. */
 static const char *const plane_points = "0 0 0  1 0 0  1 1 0  0 1 0  2 0 0  2 1 0  0.5 1.5 0";
 
 static void write_polydata(const char *name, const char *verts, const char *polys, const char *strips,
                            const char *cell_data) {
-  /* Each of verts, polys and strips: N "corners" "offsets" as attributes and text that the caller wrote. */
+  /* The caller gives verts, polys and strips, each as attributes and as text with corners and offsets. */
   char text[4096];
   snprintf(text, sizeof text,
            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
@@ -172,7 +173,7 @@ static void test_quads_stay_quads(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Checks areas and normals by the core: every triangle faces +z, the areas add up, leaflets went along. */
+/* Checks areas and normals by the core: every triangle faces +z, the areas add up, and faces keep their leaflets. */
 static void expect_faces(const char *name, int64_t n_triangles, double area, const int32_t *leaflets) {
   riis_surface_arrays arrays;
   riis_surface_info info;
@@ -203,8 +204,8 @@ static void test_mixed_polygons(void **state) {
   expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
 }
 
-/* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle: cut inside, area 0.2 each, the winding
- * kept. One with the inward corner at 0 or 2 keeps its order. */
+/* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle. They are cut inside, have an area of 0.2 each
+ * and keep their winding. A quad with the inward corner at 0 or 2 keeps its order. */
 static void test_concave_quads(void **state) {
   (void)state;
   const int32_t leaflets[3] = {0, 0, 0};
@@ -270,7 +271,7 @@ static void write_ascii_stl(const char *name, int n_written, int with_end) {
   scratch_write_text(name, text);
 }
 
-/* A triangle without area keeps its place, so that the ids of those behind it stay. */
+/* A triangle without area keeps its place, so that the ids of later triangles stay. */
 static void expect_stl(const char *name) {
   riis_surface_options options;
   riis_surface_arrays arrays;
@@ -307,7 +308,7 @@ static void test_stl(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Letters, blanks and lines that other programs write; keywords count at the beginning of a line only. */
+/* Letters, blanks and lines as other programs write them. Keywords count only at the beginning of a line. */
 static void test_ascii_stl_layouts(void **state) {
   (void)state;
   const char *const facet =
@@ -319,7 +320,7 @@ static void test_ascii_stl_layouts(void **state) {
   expect_faces("upper.stl", 1, 0.75, leaflets);
 }
 
-/* A host program may have set a locale whose decimal separator is a comma; it keeps it. */
+/* The host program may have set a locale whose decimal separator is a comma. It keeps that locale. */
 static void test_decimal_comma(void **state) {
   (void)state;
   static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"};
@@ -331,7 +332,7 @@ static void test_decimal_comma(void **state) {
                      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1.5 0 0\nvertex 0 1 0\nendloop\n"
                      "endfacet\nendsolid x\n");
   expect_faces("comma.stl", 1, 0.75, leaflets);
-  /* VTK's legacy reader sets the process's locale. */
+  /* VTK's legacy reader changes the process's locale. */
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   riis_vtk_mesh *mesh = NULL;
   assert_int_equal(shim_write_box(scratch_path("comma.vtk"), SHIM_LEGACY_BINARY, 2, lower, upper, 0), 1);
@@ -342,7 +343,7 @@ static void test_decimal_comma(void **state) {
   setlocale(LC_ALL, "C");
 }
 
-/* A surface from arrays with skipped triangles is written as it is queried, without uv. */
+/* A surface from arrays with skipped triangles is written as queries give it, without uv. */
 static void test_user_surface_is_written(void **state) {
   (void)state;
   riis_surface_options options;
@@ -436,7 +437,7 @@ static void test_truncated_polydata(void **state) {
   free(scratch_read(scratch_path("whole.vtp"), &size));
   int n_refused = 0;
   scratch_watch_output();
-  /* The last byte is a line break, and may go. */
+  /* The last byte is a line break, which may be missing. */
   for (size_t kept = size - 2; kept > 0; kept -= kept > 4000 ? 997 : 1) {
     riis_vtk_surface *surface = NULL;
     assert_int_equal(truncate(scratch_path("whole.vtp"), (off_t)kept), 0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Closest distances of random points against VTK's own searches on the same triangles: an implementation by others, in
- * double. RIIS_TEST_SEED repeats a run. */
+ * Closest distances of random points, compared with VTK's own searches on the same triangles: another implementation in double
+ * precision. RIIS_TEST_SEED repeats a run. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -62,7 +62,7 @@ static void compare(double scale, double shift, int method, const char *name) {
   expect_fine(riis_surface_vertices(surface, &n_vertices, &vertices));
   expect_fine(riis_surface_triangles(surface, &n_triangles, &corners, NULL, NULL, NULL));
   shim_distances(method, n_vertices, vertices, n_triangles, corners, n_points, points, by_vtk);
-  /* Relative to the coordinates' size, which bounds what double can tell apart. */
+  /* The tolerance is relative to the coordinates' size, which limits the resolution of doubles. */
   const double size = fabs(shift) + 20 * scale;
   double worst = 0;
   for (int i = 0; i < n_points; ++i) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * NULL pointers, structs that no init function filled, options out of range; and what the caller's floating-point
- * environment keeps. */
+ * Refusals of NULL pointers, of structs that no init function filled and of options out of range, and the caller's
+ * floating-point environment, which stays. */
 #include <fenv.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -91,7 +91,7 @@ static void test_struct_sizes(void **state) {
   }
 }
 
-/* A caller of the first release: its struct ends where the fields do that came later, and what lies behind it is its own. */
+/* A caller of the first release: its struct ends before the later fields, and the memory behind it belongs to the caller. */
 static void test_first_picture_options(void **state) {
   (void)state;
   enum { first_size = 48 };
@@ -101,7 +101,7 @@ static void test_first_picture_options(void **state) {
   expect_fine(riis_vtk_picture_options_init(options, first_size));
   assert_int_equal(options->struct_size, first_size);
   for (size_t i = first_size; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0xA5);
-  /* What the library makes of it is taken: the refusal is that of the file. */
+  /* The struct that the library initialised is accepted: the refusal is about the file. */
   expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.jpg")), RIIS_FILE_ERROR, "must be .png");
   options->width = 1;
   expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
@@ -180,7 +180,7 @@ static void test_picture_options(void **state) {
                  "leaflet_names[1] is NULL");
 }
 
-/* A name with a line break still gives an error text of one line, and a very long one keeps the reason. */
+/* A name with a line break still gives a message of one line. The message for a very long name keeps the reason. */
 static void test_odd_names(void **state) {
   (void)state;
   riis_vtk_mesh *other = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Memory that runs out at every allocation of the component's own code: the status says so, no file is left half written, nothing of
- * its own leaks, and the same call succeeds afterwards. What VTK does when its own memory runs out is not asked. */
+ * Memory runs out at every allocation of the component's own code. The status says so, no file is left half written, nothing of
+ * its own leaks, and the same call succeeds afterwards. Failures of VTK's own allocations are not tested. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -12,11 +12,11 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* One object at a time, made by a call or before it. */
+/* There is one object at a time, made by the call or before it. */
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;
-/* There for all. */
+/* The surface exists for all scenarios. */
 static riis_surface *surface;
 static riis_mark_result *result;
 
@@ -60,7 +60,7 @@ static void the_components_memory_runs_out(void **state) {
   for (size_t i = 0; i < sizeof scenarios / sizeof scenarios[0]; ++i) {
     const char *name = scenarios[i].name;
     int64_t n_failed = 1, n = 0;
-    scenarios[i].make(); /* makes what VTK makes once, and shows that the call is fine */
+    scenarios[i].make(); /* makes the objects that VTK makes once, and shows that the call succeeds */
     expect_fine(scenarios[i].call());
     destroy();
     const int n_files = scratch_n_files();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the parameters of the aortic valve measure, on the left cusp (docs/theory.md, section 3)."""
+"""The meaning of the aortic valve's parameters, drawn on the left cusp (docs/theory.md, section 3)."""
 
 import math
 
@@ -19,7 +19,7 @@ def section(p):
 
 
 def power_of(curve):
-    """The exponent of the profile whose tangent the curve has at its end: that tangent's slope over the chord's."""
+    """The exponent of the profile that has the curve's tangent at its end: the tangent's slope over the chord's."""
     first, _, before, last = curve[0]
     return ((last[0] - before[0]) / (last[1] - before[1])) / ((last[0] - first[0]) / (last[1] - first[1]))
 
@@ -55,7 +55,7 @@ def draw_plan(sheet, cusp):
 def half(panel, kind, curve, color, up):
     """The parameters of the free edge (above, up = 1) or of the bending curve (below, the mirrored half, up = -1)."""
     sheet, (first, after, before, last) = panel.sheet, [plan(p) for p in curve[0]]
-    # The frame's y is up above and down below.
+    # The frame's y points up in the drawing above and down in the one below.
     panel.line(first, after, color=color, width=1.1, style=":")
     panel.line(last, before, color=color, width=1.1, style=":")
     panel.points(first, after, before, last, color=color, size=4, filled=False)
@@ -64,7 +64,7 @@ def half(panel, kind, curve, color, up):
     panel.length(f"{kind}_radius_in", axis_point, first, at, shift=shift, color=color, ha="right", share=0.2)
     panel.length(f"{kind}_radius_out", axis_point, last, (-0.24, 0.92 * up), color=color, ha="right", share=0.42)
     panel.angle(f"{kind}_angle", axis_point, (1, 0), last, 0.3, (-0.24, 0.56 * up), color=color, ha="right", sense=up, share=0.8)
-    # Only the share along y of the inner control points' way from the ends is t0 and t3.
+    # t0 and t3 are only the share along y of the inner control points' way from the ends.
     level = (first[0], after[1])
     panel.length(f"t0_{kind}", first, level, T0_PLACE[kind], shift=(0.1, 0), color=color)
     level = (last[0], before[1])
@@ -115,7 +115,7 @@ def along_curve(pieces, t, offset):
 
 
 def first_inner(panel, root, low, inner):
-    """xq and zq: where the first inner control point is, from the middle of root and bending curve."""
+    """xq and zq: the place of the first inner control point, from the middle of root and bending curve."""
     sheet, middle = panel.sheet, along(root, low, 0.5)
     width, height = root[0] - low[0], low[1] - root[1]
     for p, q in (((low[0], root[1]), low), (low, (root[0], low[1])), ((root[0], low[1]), root)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bézier curves from riis-figures --curves: a piece is the list of its control points, a curve the list of its pieces."""
+"""Bézier curves from riis-figures --curves. A piece is the list of its control points, a curve the list of its pieces."""
 
 import math
 
@@ -19,7 +19,7 @@ def samples(pieces, n=64):
 
 
 def length_until(piece, end):
-    """Arc length up to a parameter: chords, extrapolated."""
+    """Arc length up to a parameter, extrapolated from chords."""
 
     def chords(n):
         points = [point(piece, end * i / n) for i in range(n + 1)]
@@ -30,7 +30,7 @@ def length_until(piece, end):
 
 
 def length(pieces, until=None):
-    """Arc length; until: only up to that point of the curve."""
+    """Arc length, or the length up to the point `until` of the curve."""
     total = 0.0
     for piece in pieces:
         if until is not None:
@@ -60,7 +60,7 @@ def at_share(pieces, share):
 
 
 def parameter(piece, where):
-    """Where the piece is nearest to a point, by sections of the best of many samples."""
+    """The place where the piece is nearest to a point, by sections around the best of many samples."""
     n = 64
     best = min(range(n + 1), key=lambda i: math.dist(point(piece, i / n), where))
     low, high = max(0, best - 1) / n, min(n, best + 1) / n

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Leaves aortic_parameters.png and mitral_parameters.png
-there, the same as .svg, and parameters.json, by which riis-figures puts them on its page. Refuses a drawing that leaves a
-parameter out, shows another value than the parameter's, or has labels that overlap."""
+draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Writes aortic_parameters and mitral_parameters to the
+folder, each as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
+a parameter out, shows another value than the parameter's, or has labels that overlap."""
 
 import json
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the parameters of the mitral valve measure (docs/theory.md, section 4)."""
+"""The meaning of the mitral valve's parameters, drawn (docs/theory.md, section 4)."""
 
 import math
 
@@ -14,7 +14,7 @@ def plan(p):
 
 
 def side(p):
-    """From the posteromedial side: anterior on the right, ventricle below."""
+    """The view from the posteromedial side, with anterior on the right and the ventricle below."""
     return p[1], p[2]
 
 
@@ -23,7 +23,7 @@ def mirrored(p):
 
 
 class Valve:
-    """The curves of one opening, and where along the annulus its parts begin."""
+    """The curves of one opening, and the places where the annulus' parts begin."""
 
     def __init__(self, state):
         self.opening = state["opening"]
@@ -38,11 +38,11 @@ class Valve:
         self.anterior_tip, self.posterior_tip = ends[0], ends[-1]
 
     def at(self, share):
-        """The point of the annulus at a share of its length from the posterior point, counter-clockwise."""
+        """The point of the annulus at a share of its length, anticlockwise from the posterior point."""
         return bezier.at_share(self.annulus, share % 1)
 
     def share(self, point):
-        """Share of the annulus' length from the posterior point to another one, counter-clockwise."""
+        """The share of the annulus' length from the posterior point to another one, anticlockwise."""
         return bezier.length(self.annulus, point) / bezier.length(self.annulus)
 
     def part(self, begin, end, outwards):
@@ -84,7 +84,7 @@ def draw_annulus(sheet, valve):
 
 
 def shares(panel, valve):
-    """Parts of the annulus' length: of the anterior leaflet, and of the commissures' triangles."""
+    """The parts of the annulus' length that the anterior leaflet and the commissures' triangles have."""
     sheet, begin = panel.sheet, valve.share(valve.commissure)
     width = valve.share(valve.triangle) - begin
     sheet.check("anterior_ratio", 1 - 2 * begin)
@@ -181,13 +181,13 @@ def draw_section(sheet, closed, half_open, valve):
 
 
 def hang(panel, arc, name, at, color, inwards):
-    """One leaflet in the symmetry plane: its arc from the annulus to the free edge, and the chord. inwards: 1 where the middle is
+    """One leaflet in the symmetry plane: its arc from the annulus to the free edge, and the chord. inwards is 1 if the middle is
     on the left."""
     start, inner, end = (side(p) for p in arc[0])
     panel.curve(arc, side, color, 2.6)
     panel.points(start, end, color=color, size=5)
     panel.line(start, end, color=color, width=0.8, style="--")
-    # Along the chord, moved away to the outer side.
+    # A line along the chord, moved to the outer side.
     across = [0.5 * inwards * a / distance(start, end) for a in (start[1] - end[1], end[0] - start[0])]
     panel.length(name, start, end, at, shift=tuple(across), ha="left" if inwards > 0 else "right", color=color, share=0.7)
     panel.line(start, (start[0] - 1.0 * inwards, start[1]), color=GREY, width=0.6, style="--")
@@ -207,9 +207,10 @@ def draw_arc(sheet, valve):
     (edge,) = valve.anterior
     chord = [b - a for a, b in zip(edge[0], edge[3])]
     inner = [b - a for a, b in zip(edge[1], edge[2])]
-    # Of the chord's half, how far the inner control points are from its middle: (1 - that) = 2/3 (1 - tan(angle / 4)^2).
+    # share: the inner control points' distance from the chord's middle, over half the chord.
+    # 1 - share = 2/3 (1 - tan(angle / 4)^2).
     share = sum(a * b for a, b in zip(inner, chord)) / sum(a * a for a in chord)
-    height = math.sqrt(1 - 1.5 * (1 - share))  # of the tip over the half chord, where the arc is a circle's
+    height = math.sqrt(1 - 1.5 * (1 - share))  # of the tip, over half the chord, if the arc is a circle's
     angle = 4 * math.atan(height)
     sheet.check("leaflet_arc_angle", math.degrees(angle))
     cubic = [(-1, 0), (-share, -4 / 3 * height), (share, -4 / 3 * height), (1, 0)]
@@ -236,7 +237,7 @@ def draw_unrolled(sheet, valve):
     width = valve.share(valve.triangle) - begin
     for turned in (1, -1):
         outline(panel, valve, whole, turned)
-    # From the annulus at a share of its length to a point of a free edge.
+    # Lines from the annulus, at a share of its length, to a point of a free edge.
     scallop, middle = valve.posterior[0], valve.posterior[1]
     anterior, pm = "anterior_length", "posteromedial_commissure_height"
     hanging = (
@@ -264,7 +265,7 @@ def draw_unrolled(sheet, valve):
 
 
 def outline(panel, valve, whole, turned):
-    """Lengths of the straight ways from the annulus to the free edges; turned: 1 as it is, -1 the mirrored half."""
+    """The lengths of the straight ways from the annulus to the free edges. turned is 1, or -1 for the mirrored half."""
     for leaflet, color in ((0, ANTERIOR), (1, POSTERIOR)):
         lines = [line for line in valve.lines if line["leaflet"] == leaflet]
         points = []

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Technical drawings that name parameters: dimension lines, angles, leaders, labels.
 
-Whatever is named is measured between the very points that are drawn, and compared with the parameter's value: a drawing that
-would show another length or angle than the library makes is refused, as is one that leaves a parameter out or has labels that
-overlap."""
+Every named length or angle is measured between the points that are drawn, and compared with the parameter's value. A drawing
+is refused if it would show another length or angle than the library makes, if it leaves a parameter out, or if labels overlap."""
 
 import io
 import math
@@ -17,7 +16,7 @@ from PIL import Image, PngImagePlugin
 
 import bezier
 
-# Told apart with any colour vision (Okabe, Ito 2008), as in the other figures; dimension lines and names are dark.
+# People with any colour vision tell these apart (Okabe, Ito 2008), as in the other figures. Dimension lines and names are dark.
 BLUE, GREEN, PURPLE, VERMILION = "#0072b2", "#009e73", "#b5548f", "#d55e00"
 DARK, GREY, PALE = "#2d2d2d", "#828282", "#c4c4c4"
 SMALL, NORMAL, LARGE = 9, 10, 11.5  # points
@@ -28,7 +27,7 @@ class Refused(Exception):
 
 
 def plain(value):
-    """As short as the value is, with a minus sign."""
+    """The number as short as it can be, with a real minus sign."""
     return f"{value:.6g}".replace("-", "−")
 
 
@@ -41,7 +40,7 @@ def distance(p, q):
 
 
 class Sheet:
-    """A drawing of several panels for one kind of valve. cusp: the one that is drawn where the three differ."""
+    """A drawing of several panels for one kind of valve. If the three cusps differ, `cusp` is drawn."""
 
     def __init__(self, title, parameters, size, cusp=None):
         self.parameters = {each["name"]: each for each in parameters}
@@ -57,7 +56,7 @@ class Sheet:
         return [each for full, each in self.parameters.items() if full.partition(".")[2] == name]
 
     def value(self, name):
-        """The default of what is drawn."""
+        """The default of the drawn parameter."""
         if name in self.parameters:
             values = self.parameters[name]["values"]
             return values[0] if len(values) == 1 else values[("right", "left", "non_coronary").index(self.cusp)]
@@ -80,7 +79,7 @@ class Sheet:
         return {"length": " cm", "degree": "°", "1": ""}[each["unit"]]
 
     def value_text(self, name):
-        """Defaults with their unit: one value, or those of the three cusps."""
+        """Defaults with their unit: one value, or the three cusps' values."""
         if name in self.parameters:
             values = self.parameters[name]["values"]
         else:
@@ -96,7 +95,7 @@ class Sheet:
     # ------------------------------------------------------------------------------------------------------------ texts
 
     def text(self, x, y, text, axis=None, **style):
-        """Every text goes through here, to be compared with the others. x, y: of the axis, else shares of the figure."""
+        """Adds any text, to be compared with the others. x, y are the axis' coordinates, or else shares of the figure."""
         made = (axis.text if axis else self.figure.text)(x, y, text, **{"fontsize": NORMAL, "color": DARK, **style})
         self.texts.append(made)
         return made
@@ -132,7 +131,7 @@ class Sheet:
             raise Refused("; ".join(self.overlaps()))
 
     def save(self, path):
-        """PATH.png, of few colours, so that it is small, with names and defaults in it as text; PATH.svg, of lines and texts."""
+        """Writes PATH.png, small by few colours, with names and defaults as text, and PATH.svg, of lines and texts."""
         self.check_whole()
         drawn, about = io.BytesIO(), PngImagePlugin.PngInfo()
         self.figure.savefig(drawn, dpi=100, format="png")
@@ -145,7 +144,7 @@ class Sheet:
 
 
 class Panel:
-    """One view: plane coordinates in centimetres from left_bottom; so many centimetres an inch of the sheet, both ways."""
+    """One view: plane coordinates in centimetres from left_bottom, with as many centimetres per inch of the sheet both ways."""
 
     def __init__(self, sheet, corner, size, title, left_bottom, centimetres):
         self.sheet = sheet
@@ -182,7 +181,7 @@ class Panel:
     # ----------------------------------------------------------------------------------------------------------- labels
 
     def label(self, name, at, to=None, ha="left", color=DARK, shown=None, value=None):
-        """Name and value at a place, with a leader to what they are of. shown: the name inside of a formula."""
+        """Adds name and value at a place, with a leader to the thing that they describe. shown is the name inside a formula."""
         self.sheet.mark_named(name)
         if at is None:  # named elsewhere in the panel
             return
@@ -198,7 +197,7 @@ class Panel:
             self.points(to, color=color, size=2.2, zorder=6)
 
     def edge_towards(self, to, *texts):
-        """Where a leader to a point leaves texts: the nearest point of the box around them."""
+        """The point where a leader leaves texts: the nearest point of the box around them."""
         renderer = self.sheet.figure.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in texts]
         x, y = self.axis.transData.transform(to)
@@ -207,8 +206,8 @@ class Panel:
         return tuple(self.axis.transData.inverted().transform((x, y)))
 
     def length(self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5):
-        """A length from p to q: a dimension line moved by shift, with extension lines, named at a place. factor: the drawn length
-        is so many times the parameter. share: where on the dimension line the leader ends."""
+        """A length from p to q: a dimension line moved by shift, with extension lines, named at a place. The drawn length is
+        `factor` times the parameter. The leader ends at `share` of the dimension line."""
         self.sheet.check(name, distance(p, q) / abs(factor))
         moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]
         if shift != (0, 0):
@@ -220,7 +219,7 @@ class Panel:
     def angle(
         self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None
     ):
-        """An angle at centre from the direction of begin to that of end, counter-clockwise where sense is 1, drawn as an arc."""
+        """An angle at centre from the direction of begin to that of end, anticlockwise if sense is 1, drawn as an arc."""
         start, stop = (math.degrees(math.atan2(p[1] - centre[1], p[0] - centre[0])) for p in (begin, end))
         measured = (stop - start) * sense
         measured = (measured + 180) % 360 - 180
