@@ -88,7 +88,7 @@ Picture::Picture(PictureSize size, const View &view, const Points &to_fit, doubl
   pixel_ = std::max(2 * x.half() / (size.width - 2 * margin), 2 * y.half() / (size.height - title_height - 2 * margin));
   focus_ = x.middle() * right_ + (y.middle() + 0.5 * title_height * pixel_) * up_ + z.middle() * direction_;
   depth_ = std::max({x.half(), y.half(), z.half()});
-  // From the eye and from the upper left of it: what is turned away from both is dim, nothing is black.
+  // One lamp is at the eye, one to its upper left. Parts that face away from both are dim, but not black.
   const double lamps[2][4] = {{0, 0, 1, 0.62}, {-0.6, 0.8, 1, 0.45}};
   for (const auto &[x_of_eye, y_of_eye, z_of_eye, intensity] : lamps) {
     vtkNew<vtkLight> light;

@@ -243,7 +243,7 @@ class ClusterSearch {
 
 void ClusterScratch::prepare(int n_threads) {
   if (view(threads).size() < n_threads) resize(threads, n_threads);
-  // As for FoundNodes: shares between threads differ from step to step.
+  // The threads' shares differ from step to step, so each list gets room for twice the longest, as in FoundNodes.
   const auto make_room = [this](auto member) {
     std::size_t largest = 0;
     for (const Thread &thread : threads)

@@ -22,7 +22,7 @@ class CellDimensions {
  public:
   explicit CellDimensions(vtkUnstructuredGrid *grid);
   int largest() const { return largest_; }  // 0 to 3
-  // Only for types of cells that are in the grid.
+  // The type must be in the grid.
   bool is_largest(int type) const { return view(of_type_)[type] == largest_; }
 
  private:

@@ -33,7 +33,7 @@
 namespace riis::vtk {
 namespace {
 
-constexpr double pale = 0.62;  // how much white partly marked cells have in their colour
+constexpr double pale = 0.62;  // the share of white in the colour of partly marked cells
 constexpr double outline_grey = 0.45;
 
 enum MarkedPart : std::uint8_t { not_marked, partly_marked, whole_marked };
@@ -68,7 +68,7 @@ void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, do
 
 vtkSmartPointer<vtkActor> coloured_actor(vtkPolyData *faces) {
   const vtkSmartPointer<vtkActor> actor = coloured_actor_of(faces);
-  // Some light of its own, so that what faces away from the lamps keeps its colour.
+  // The surface has some light of its own, so that parts that face away from the lamps keep their colour.
   actor->GetProperty()->SetAmbient(0.25);
   actor->GetProperty()->SetDiffuse(0.85);
   actor->GetProperty()->SetSpecular(0.15);
