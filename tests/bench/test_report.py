@@ -248,6 +248,23 @@ class Text(unittest.TestCase):
         for value, text in cases.items():
             self.assertEqual(report_text.number(value), text)
 
+    def test_template(self):
+        template = report_text.Template("{{#parts}}\n- {{name}}{{^is_last}},{{/is_last}}\n{{/parts}}\n\n{{^none}}no{{/none}} {{x}}\n")
+        parts = [{"name": "a", "is_last": False}, {"name": "b", "is_last": True}]
+        self.assertEqual(template.fill({"parts": parts, "none": None, "x": 1}), "- a,\n- b\n\nno 1\n")
+        self.assertEqual(template.fill({"parts": parts, "none": None, "x": 1}, only="parts"), "- a,\n- b\n")
+        with self.assertRaises(KeyError):
+            template.fill({"parts": [], "none": []})
+        for text in ("{{#a}}", "{{/a}}", "{{#a}}{{/b}}{{/a}}"):
+            with self.assertRaises(ValueError):
+                report_text.Template(text)
+
+    def test_prose_is_wrapped_and_tables_are_not(self):
+        long = "word " * 30
+        lines = report_text.wrapped(f"{long}\n\n- {long}\n- short\n\n| {long}|\n").splitlines()
+        self.assertLessEqual(max(len(line) for line in lines if not line.startswith("|")), 100)
+        self.assertEqual([line[:2] for line in lines], ["wo", "wo", "", "- ", "  ", "- ", "", "| "])
+
     def test_a_row_of_another_length_is_refused(self):
         with self.assertRaises(ValueError):
             report_text.table(["a", "b"], [["1"]])
