@@ -149,24 +149,20 @@ def table_of_other_searches(data):
     return table(heads, rows)
 
 
-def asked_values(data, valve):
-    """What share of the nodes the plain neighbour search asks, by size."""
-    sizes, sample = [], None
+def queried_values(data, valve):
+    """What share of the nodes the plain neighbour search queries, by size."""
+    rows, sample = [], None
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
         if threads != 1:
             continue
-        here, asked = runs["exhaustive"], runs["paper_neighbor"]
+        here, queried = runs["exhaustive"], runs["paper_neighbor"]
         sample = runs["paper_exhaustive"]
-        sizes.append(
-            {
-                "nodes": grouped(here["nodes"]), "share": f"{100 * here['marked'] / here['nodes']:.1f}",
-                "ratio": f"{asked['nodes'] / asked['asked']:.1f}", "paper_ratio": f"{exhaustive / neighbor:.1f}", "is_last": False,
-            }
-        )  # fmt: skip
-    if not sizes:
+        marked = f"{100 * here['marked'] / here['nodes']:.1f} %"
+        rows.append([grouped(here["nodes"]), marked, f"{queried['nodes'] / queried['asked']:.1f}", f"{exhaustive / neighbor:.1f}"])
+    if not rows:
         return None
-    sizes[-1]["is_last"] = True
-    return {"valve": valve, "triangles": grouped(sample["triangles"]), "sizes": sizes}
+    heads = ["nodes", "marked", "nodes for each query", "paper's ratio"]
+    return {"valve": valve, "triangles": grouped(sample["triangles"]), "queried_table": table(heads, rows)}
 
 
 def sampled_values(data):
@@ -182,7 +178,7 @@ def searches_values(data, plots):
         "sampled": sampled_values(data),
         "valves": [
             {
-                "Valve": valve.capitalize(), "paper_table": table_of_paper(data, valve), "asked": asked_values(data, valve),
+                "Valve": valve.capitalize(), "paper_table": table_of_paper(data, valve), "queried": queried_values(data, valve),
                 "threads_table": table_of_threads(data, valve),
             }
             for valve in VALVES
@@ -197,10 +193,10 @@ def once_values(data):
     if not data.searches:
         return None
     what = (
-        ("groups", "groups of the nodes, in a mesh's first neighbour search"),
+        ("groups", "balls of the nodes, in a mesh's first neighbour search"),
         ("adjacency_of_tetrahedra", "adjacency from tetrahedra, if the library makes it"),
-        ("adjacency_of_faces", "from faces (owner, neighbour)"),
-        ("adjacency_of_grid", "from a structured grid"),
+        ("adjacency_of_faces", "adjacency from faces (owner, neighbour)"),
+        ("adjacency_of_grid", "adjacency from a structured grid"),
     )
     rows = []
     for name, label in what:
@@ -219,13 +215,13 @@ def stages_values(data):
         return None
     stages = (
         ("patches", "control points of all curves, from parameters"),
-        ("curves", "subdivision of the curves into polylines, all of the error theirs"),
-        ("quads", "surface generation: curves as fine as it takes, Coons patches, quads"),
-        ("triangles", "the same, and the triangulation"),
+        ("curves", "subdivision of the curves into polylines that may use the whole error"),
+        ("quads", "surface generation: curves as fine as needed, Coons patches, quads"),
+        ("triangles", "the same with the triangulation"),
         ("scene", "Embree scene, built"),
-        ("scene_again", "Embree scene, made again for triangles that moved (refit)"),
-        ("surface", "`riis_surface_create`, which is all of this"),
-        ("surface_again", "`riis_surface_update`, the same for a valve that moved"),
+        ("scene_again", "Embree scene, refitted to triangles that moved"),
+        ("surface", "`riis_surface_create`: all of these"),
+        ("surface_again", "`riis_surface_update`: the same for a valve that moved"),
     )
     rows = []
     for name, label in stages:
@@ -324,7 +320,8 @@ def marking_values(data):
     missed = [bar for bar in data.marking["bars"] if not bar["met"]]
     return {
         "run": data.run_values("marking"),
-        **{name: grouped(counts[name]) for name in ("triangles", "fine_triangles", "nodes", "asked_by_paper")},
+        **{name: grouped(counts[name]) for name in ("triangles", "fine_triangles", "nodes")},
+        "queried_by_paper": grouped(counts["asked_by_paper"]),
         "marked_share": f"{100 * counts['marked'] / counts['nodes']:.1f}",
         "thick_share": f"{100 * counts['marked_with_0.3'] / counts['nodes']:.1f}",
         "pair_ns": f"{pair_ns(data):.2f}",
@@ -489,11 +486,11 @@ def write_figures(data, folder):
                 "title": "Cost and scaling of a marking",
                 "columns": 1,
                 "panels": [{"png": "searches.png", "caption": drawn["searches"] + "."}, *threads],
-                "caption": "Dashed, the paper's own seconds, from its tables, on its machine. <i>Plain</i>: its two algorithms, the "
-                "distance to every triangle, written plainly and run here. The others are this library's searches, which mark the "
-                "same nodes: exhaustive, neighbour and clusters. Tolerance 5 %, half thickness 0.1 cm. Where shaded, "
-                "there are more threads than processors here (oversubscribed): no search can gain by them. The paper's lines are of its "
-                "own machine. " + measured_text(data, "searches"),
+                "caption": "Dashed lines are the paper's own seconds, from its tables, on its machine. <i>Plain</i> lines are its two "
+                "algorithms, written plainly and run here; they compute the distance to every triangle. The others are this library's "
+                "searches: exhaustive, neighbour and clusters. All mark the same nodes. The tolerance is 5 %, the half thickness 0.1 cm. "
+                "A shaded part has more threads than processors here (oversubscribed), so no search can gain there. "
+                + measured_text(data, "searches"),
                 "paper": "tables <i>Scaling of mesh traversal functions</i> of the aortic and of the mitral valve (section 4.2.3).",
             }
         )
@@ -504,9 +501,9 @@ def write_figures(data, folder):
                 "columns": 1,
                 "panels": [{"png": "peers.png", "caption": drawn["peers"] + "."}],
                 "caption": f"{grouped(data.peers['aortic']['nodes'])} nodes, one thread, the same triangles. "
-                "docs/performance.md has who is asked within the half thickness only, and which nodes are marked differently. "
+                "docs/performance.md says which libraries answer only within the half thickness, and which nodes are marked differently. "
                 + measured_text(data, "peers"),
-                "paper": "nothing: it compares with itself only.",
+                "paper": "nothing: the paper compares only with itself.",
             }
         )
     left_out = [plot_left_out(data, name, title) for name, _, title in PLOTS if name not in drawn]
