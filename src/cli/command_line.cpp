@@ -279,7 +279,7 @@ std::optional<double> parse_opening(const Texts &texts, const std::vector<std::s
     throw Refusal{exit_wrong_usage, "--opening: " + texts.opening + " is not from 0 to 1"};
   }
   if (sets_opening(settings)) {
-    throw Refusal{exit_wrong_usage, "--opening and --set opening: only one of them"};
+    throw Refusal{exit_wrong_usage, "--opening and --set opening exclude each other"};
   }
   return opening;
 }
@@ -320,7 +320,7 @@ void parse_units(const Texts &texts, Options &options) {
     refuse("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
            words_of(*options.surface_unit));
   }
-  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the mesh's");
+  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the unit of the mesh");
   if (!options.unit) return;
   if (is_file && !options.surface_unit) {
     refuse("--unit needs --surface-unit, the unit of " + (options.surface.empty() ? options.valve : options.surface));
@@ -345,7 +345,7 @@ void parse_mark_options(const Texts &texts, riis_mark_options &options) {
 
 std::vector<Picture> pair_pictures(const Texts &texts) {
   if (texts.views.size() > texts.pictures.size()) {
-    throw Refusal{exit_wrong_usage, "--view: more views than pictures"};
+    throw Refusal{exit_wrong_usage, "--view: there are more views than pictures"};
   }
   std::vector<Picture> pictures;
   for (const std::string &path : texts.pictures) pictures.push_back({path, RIIS_VTK_VIEW_OBLIQUE});
@@ -405,7 +405,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
              options.stats.empty()) {
-    refuse("nothing to do: --quiet, and no output asked for");
+    refuse("nothing to do: --quiet is given and no output is named");
   }
 }
 

@@ -58,7 +58,7 @@ std::string conversion_hint(const std::string &path, Content wanted) {
   if (wanted == Content::mesh) {
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
-    return surfaces_only.count(ending) != 0 ? "; a surface goes behind --surface" : "";
+    return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
   }
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";

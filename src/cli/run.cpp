@@ -180,8 +180,8 @@ Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis
 // Said however quiet the user wants it: the marks may be fewer than they should.
 void warn_of_incomplete_marks() {
   std::fputs(
-      "riis-mark: the marks may be incomplete: --search paper misses what is not connected to its one start; "
-      "--search neighbor does not\n",
+      "riis-mark: the marks may be incomplete: --search paper misses nodes that are not connected to its one start; "
+      "--search neighbor finds them\n",
       stderr);
 }
 
@@ -193,8 +193,8 @@ void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
     check(riis_vtk_mesh_has_point_array(mesh, (options.prefix + what).c_str(), &has));
     if (!has) continue;
     throw Refusal{exit_wrong_usage,
-                  options.mesh + " has an array " + options.prefix + what +
-                      " already: write --replace to replace it, or --prefix NAME for other arrays beside it"};
+                  options.mesh + " already has an array " + options.prefix + what +
+                      ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
   }
 }
 

@@ -76,7 +76,7 @@ class Reader {
     check_object(open, "\"open\"", {"curves"});
     const Curves found = curves_of(open, "open: ");
     for (const std::string &name : found.names) {
-      if (closed.position.count(name) == 0) refuse("open: curve " + quoted(name) + " is not one of the closed state");
+      if (closed.position.count(name) == 0) refuse("open: curve " + quoted(name) + " is not a curve of the closed state");
     }
     Curves ordered{closed.names, closed.position, {}, {}};
     std::vector<std::size_t> begins = {0};
