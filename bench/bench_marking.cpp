@@ -238,7 +238,7 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
 int main(int argc, char **argv) {
   const std::int64_t about_n_nodes = 1000 * (argc > 2 ? std::strtoll(argv[2], nullptr, 10) : 1000);
   if (about_n_nodes < 10000) {
-    std::fprintf(stderr, "%s: not a number of thousands of nodes, 10 or more: %s\n", argv[0], argv[2]);
+    std::fprintf(stderr, "%s: %s is not a number of thousands of nodes, 10 or more\n", argv[0], argv[2]);
     return 2;
   }
   Contest contest;

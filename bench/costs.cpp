@@ -187,7 +187,7 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
 int main(int argc, char **argv) {
   const std::int64_t about_n_nodes = 1000 * (argc > 1 ? std::strtoll(argv[1], nullptr, 10) : 1000);
   if (about_n_nodes < 1000) {
-    std::fprintf(stderr, "%s: not a number of thousands of nodes: %s\n", argv[0], argv[1]);
+    std::fprintf(stderr, "%s: %s is not a number of thousands of nodes\n", argv[0], argv[1]);
     return 2;
   }
   Table table;

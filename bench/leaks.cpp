@@ -242,7 +242,7 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
 int main(int argc, char **argv) {
   const std::int64_t about_n_nodes = 1000 * (argc > 1 ? std::strtoll(argv[1], nullptr, 10) : 1000);
   if (about_n_nodes < 1000) {
-    std::fprintf(stderr, "%s: not a number of thousands of nodes: %s\n", argv[0], argv[1]);
+    std::fprintf(stderr, "%s: %s is not a number of thousands of nodes\n", argv[0], argv[1]);
     return 2;
   }
   std::printf(
@@ -252,7 +252,8 @@ int main(int argc, char **argv) {
   print_leaks("mitral");
   print_leaks("aortic");
   std::printf(
-      "\nAortic valve at opening 0, seen along its axis: of a disc of radius\n\n| radius | is open |\n|---|---|\n");
+      "\nAortic valve at opening 0: how much of a disc stays open, seen along the axis\n\n"
+      "| radius of the disc | stays open |\n|---|---|\n");
   const Surface aortic = surface_of("aortic", 0);
   for (const double radius : {0.6, 0.9, 1.2})
     std::printf("| %.1f | %.1f %% |\n", radius, 100 * open_share(aortic, radius, 1200));

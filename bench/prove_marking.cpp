@@ -211,7 +211,7 @@ std::int64_t prove(const CylinderNodes &nodes, riis_mesh *mesh, StepOptions opti
 int main(int argc, char **argv) {
   const std::int64_t about_n_nodes = 1000 * (argc > 1 ? std::strtoll(argv[1], nullptr, 10) : 1000);
   if (about_n_nodes < 10000) {
-    std::fprintf(stderr, "%s: not a number of thousands of nodes, 10 or more: %s\n", argv[0], argv[1]);
+    std::fprintf(stderr, "%s: %s is not a number of thousands of nodes, 10 or more\n", argv[0], argv[1]);
     return 2;
   }
   std::printf(

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""./run bench: runs the benchmark programs, leaves their JSON in out/bench. report.py makes the page from that.
+"""./run bench: runs the benchmark programs and leaves their JSON in out/bench. report.py makes the page from it.
 
-What was measured on which machine, when and by which command is in out/bench/machine.json."""
+out/bench/machine.json has the machine, the dates and the commands."""
 
 import argparse
 import datetime
@@ -92,7 +92,7 @@ class Study:
         if before.get("machine") == self.record["machine"]:
             self.record["runs"] = before["runs"]
         elif before:
-            print("==> the machine, or what it builds with, is another than that of the figures in out/bench: these go", flush=True)
+            print("==> out/bench has figures of another machine or another build: they are removed", flush=True)
             for name in OWN_JSON:
                 if os.path.exists(self.path(name)):
                     os.remove(self.path(name))
@@ -160,7 +160,7 @@ class Study:
             for package in ("numpy", "libigl", "fcpw", "point-cloud-utils", "open3d"):
                 pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", package]
                 if subprocess.run(pip, check=False).returncode:
-                    print(f"==> {package} cannot be installed: it is left out", flush=True)
+                    print(f"==> {package} cannot be installed and is left out", flush=True)
             open(os.path.join(environment, "complete"), "w", encoding="ascii").close()
         here = os.path.dirname(os.path.abspath(__file__))
         self.run("peers_python", [python, os.path.join(here, "peers.py"), os.path.join(self.out, "peers"), "OUT"])
@@ -169,7 +169,7 @@ class Study:
         """Measures the costs that the figures' page plots and that out/bench lacks; what is there may be of a longer run."""
         for name, measure in (("searches", lambda: self.searches(False)), ("peers", self.peers)):
             if os.path.exists(self.path(name)):
-                print(f"==> {self.path(name)} is there: not measured again", flush=True)
+                print(f"==> {self.path(name)} is there and is not measured again", flush=True)
             else:
                 measure()
 
@@ -190,8 +190,8 @@ class Study:
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", choices=("short", "full", "search", "marking", "accuracy", "peers", "compare", "baseline", "figures"))
-    parser.add_argument("file", nargs="?", help="the baseline of compare and baseline")
-    parser.add_argument("--factor", default="1.3", help="of compare: slower by more than this fails (%(default)s)")
+    parser.add_argument("file", nargs="?", help="the file of compare or baseline")
+    parser.add_argument("--factor", default="1.3", help="compare fails if something is slower by more than this (%(default)s)")
     parser.add_argument("--build", default="build")
     parser.add_argument("--out", default=os.path.join("out", "bench"))
     options = parser.parse_args(arguments)
