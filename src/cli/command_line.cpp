@@ -105,7 +105,7 @@ const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor",
 // At the position of their RIIS_DISTANCE_*.
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
-// What CLI11 collects, as text: numbers are parsed here, whatever the locale.
+// CLI11 collects text; numbers are parsed here, whatever the locale.
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
@@ -274,7 +274,7 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
   app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")->group(group);
 }
 
-// RIIS_AUTO is a negative number: a user's must not pass for it.
+// RIIS_AUTO is a negative number, and a user's number must not pass for it.
 double parse_length(const std::string &text, const std::string &subject) {
   const double length = parse_number(text, subject);
   if (!(length > 0)) throw Refusal{exit_wrong_usage, subject + ": " + text + " is not above 0"};
@@ -322,7 +322,7 @@ void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   }
 }
 
-// The scale and the default half thickness, from the units.
+// Derives the scale and the default half thickness from the units.
 void parse_units(const Texts &texts, Options &options) {
   options.unit = unit_of(texts.unit);
   options.surface_unit = unit_of(texts.surface_unit);
@@ -371,7 +371,7 @@ std::vector<Picture> pair_pictures(const Texts &texts) {
   throw Refusal{exit_wrong_usage, name + ": the value is empty"};
 }
 
-// Of "--output= mesh.vtu" CLI11 would make "--output=mesh.vtu".
+// CLI11 would turn "--output= mesh.vtu" into "--output=mesh.vtu".
 void check_equals_signs(int argc, char **argv) {
   for (int i = 1; i < argc && argv[i] != std::string("--"); ++i) {
     const std::string argument = argv[i];
@@ -390,7 +390,7 @@ void check_values(const std::vector<const CLI::Option *> &given) {
   }
 }
 
-// Refuses what would have no effect.
+// Refuses options without effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
@@ -423,7 +423,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   }
 }
 
-// For what is left over on the command line: mostly a value in several words, of an option that takes one.
+// Explains words that are left over on the command line. Mostly they are a value in several words for an option that takes one.
 std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
@@ -450,8 +450,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// What CLI11 did not understand, in the order in which it was typed, which is not CLI11's. The value of an unknown option is left
-// over as well, or passes for the mesh: only the options are named then.
+// The words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an unknown
+// option is also left over, or passes for the mesh, so only the options are named then.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
