@@ -197,7 +197,7 @@ json machine() {
 int run(int argc, char **argv) {
   const long long n_points = argc > 2 ? std::strtoll(argv[2], nullptr, 10) : 20000;
   if (n_points < 100) {
-    std::fprintf(stderr, "%s: not a number of points, 100 or more: %s\n", argv[0], argv[2]);
+    std::fprintf(stderr, "%s: %s is not a number of points, 100 or more\n", argv[0], argv[2]);
     return 2;
   }
   const json here = machine();

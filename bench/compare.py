@@ -58,8 +58,8 @@ def compare(base, now):
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("base", help="a baseline, or Google Benchmark's JSON")
-    parser.add_argument("now", help="the same of the run to be judged")
-    parser.add_argument("--factor", type=float, default=1.3, help="slower by more than this fails (%(default)s)")
+    parser.add_argument("now", help="the same for the run to be judged")
+    parser.add_argument("--factor", type=float, default=1.3, help="fail if something is slower by more than this (%(default)s)")
     options = parser.parse_args(arguments)
     if not options.factor > 0:
         parser.error(f"argument --factor: {options.factor} is not above 0")
@@ -73,7 +73,7 @@ def main(arguments):
     for name, factor in machine.items():
         print(f"{name}: {factor:.2f} times the baseline's")
     spread = max(machine.values()) / min(machine.values())
-    print(f"A loss of less than {spread:.2f} times may stay unseen, as much as the calibrations differ.\n")
+    print(f"A loss of less than {spread:.2f} times may stay unseen, because the calibrations differ by as much.\n")
     bad = False
     for name, factor in sorted(factors.items(), key=lambda item: -item[1]):
         slower = factor > options.factor
@@ -88,7 +88,7 @@ def main(arguments):
     for name in sorted(set(now) - set(base)):
         print(f"      new  {name}")
     n_slower = sum(factor > options.factor for factor in factors.values())
-    print(f"\n{n_slower} of {len(factors)} slower by more than {options.factor:g}")
+    print(f"\n{n_slower} of {len(factors)} are slower by more than {options.factor:g}")
     return 1 if bad else 0
 
 

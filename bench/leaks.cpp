@@ -250,7 +250,8 @@ int main(int argc, char **argv) {
   print_leaks("mitral");
   print_leaks("aortic");
   std::printf(
-      "\nAortic valve at opening 0, seen along its axis: of a disc of radius\n\n| radius | is open |\n|---|---|\n");
+      "\nAortic valve at opening 0: how much of a disc stays open, seen along the axis\n\n"
+      "| radius of the disc | stays open |\n|---|---|\n");
   const Surface aortic = surface_of("aortic", 0);
   for (const double radius : {0.6, 0.9, 1.2})
     std::printf("| %.1f | %.1f %% |\n", radius, 100 * open_share(aortic, radius, 1200));

@@ -144,7 +144,7 @@ bool stays(const Case &of, int n_threads, int n_markings) {
 int main(int argc, char **argv) {
   const int n_markings = argc > 1 ? std::atoi(argv[1]) : 5000;
   if (n_markings < 300) {
-    std::fprintf(stderr, "%s: not a number of markings, 300 or more: %s\n", argv[0], argv[1]);
+    std::fprintf(stderr, "%s: %s is not a number of markings, 300 or more\n", argv[0], argv[1]);
     return 2;
   }
   const BusyProcessors busy;  // it forks, so it comes before the first thread

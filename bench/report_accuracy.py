@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The section on accuracy of docs/performance.md, from out/bench/accuracy.json, which ./run bench accuracy writes.
+"""The numbers on accuracy in docs/performance.md, from what ./run bench accuracy leaves in out/bench/accuracy.json.
 
-accuracy_section(data) returns it as markdown. As a program this file prints it: bench/report_accuracy.py [FILE.json]
+accuracy_values(data) returns them by the names that performance.template.md has for them.
 """
-
-import json
-import sys
-import textwrap
 
 
 def _count(n):
@@ -34,11 +30,6 @@ def _time(microseconds):
 
 def _row(cells):
     return "| " + " | ".join(cells) + " |"
-
-
-def _paragraph(text, **indents):
-    # No line may begin with a per cent sign.
-    return textwrap.fill(" ".join(text.split()).replace(" %", "~%"), width=100, **indents).replace("~%", " %")
 
 
 def _leaflet_title(leaflet):
@@ -70,7 +61,7 @@ def _results(runs):
 
 
 def _findings(data):
-    """The findings. Each sentence is made from the numbers."""
+    """What the numbers say."""
     used = [run[where]["max"] / run["tolerance"] for run in _runs(data, "triangulation")
             for where in ("on_surface", "off_surface")]
     sampled = [run["on_surface"]["max"] / run["tolerance"] for run in _runs(data, "sampling")]
@@ -84,55 +75,43 @@ def _findings(data):
     def spread(times):
         return max(time["p95"] / time["median"] for time in times)
 
-    return "\n".join(_paragraph(line, initial_indent="- ", subsequent_indent="  ") for line in (
-        f"""*Triangulation* uses {100 * min(used):.0f} to {100 * max(used):.0f} % of its tolerance;
-        {_count(n_over['triangulation'])} points are over it.""",
-        f"""*Sampling* uses {100 * min(sampled):.0f} to {100 * max(sampled):.0f} % of it on the surface, and {100 * min(sampled_off):.0f} to {100 * max(sampled_off):.0f} % off it; {_count(n_over['sampling'])} points are over it.""",
-        f"""*Minimisation* is off by {_share(min(result['median'] for result in minimized))} to
-        {_share(max(result['median'] for result in minimized))} in the middle (medians), and by up to
-        {_share(max(result['max'] for result in minimized))} where it ended in a local minimum, or short of one. Its tolerance ends
-        iterations and bounds nothing: up to {100 * max(result['share_over_tolerance'] for result in minimized):.2f} %
-        of the points are over it.""",
-        f"""*Times* of single queries: the slowest twentieth of a run begins at up to {spread(fast):.1f} times its
-        median with triangles, {spread(slow):.1f} times with minimisation."""))
+    return {
+        "least_used": f"{100 * min(used):.0f}", "most_used": f"{100 * max(used):.0f}",
+        "n_over_triangulation": _count(n_over["triangulation"]),
+        "least_sampled": f"{100 * min(sampled):.0f}", "most_sampled": f"{100 * max(sampled):.0f}",
+        "least_sampled_off": f"{100 * min(sampled_off):.0f}", "most_sampled_off": f"{100 * max(sampled_off):.0f}",
+        "n_over_sampling": _count(n_over["sampling"]),
+        "least_minimized": _share(min(result["median"] for result in minimized)),
+        "most_minimized": _share(max(result["median"] for result in minimized)),
+        "worst_minimized": _share(max(result["max"] for result in minimized)),
+        "share_over": f"{100 * max(result['share_over_tolerance'] for result in minimized):.2f}",
+        "spread_triangulation": f"{spread(fast):.1f}", "spread_minimisation": f"{spread(slow):.1f}",
+    }  # fmt: skip
 
 
-def accuracy_section(data: dict) -> str:
-    """Returns markdown, from the heading to the last table, for the content of accuracy.json."""
+def _leaflet_values(leaflet):
+    truth = leaflet["truth"]
+    return {
+        "title": _leaflet_title(leaflet),
+        "n_on": _count(truth["n_on_surface"]),
+        "n_off": _count(truth["n_off_surface"]),
+        "n_curved": _count(truth["n_left_out_curved"]),
+        "largest_share": f"{truth['largest_share_of_curvature_radius']:g}",
+        "n_nearer": _count(truth["n_left_out_other_part_nearer"]),
+        "n_fine": _count(truth["n_fine_triangles"]),
+        "fine_error": _share(truth["fine_error"]),
+        "most_from_fine": _share(truth["most_from_fine"]),
+        "accuracy_table": _table(leaflet),
+    }
+
+
+def accuracy_values(data: dict) -> dict:
+    """For the content of accuracy.json."""
     machine, first = data["machine"], data["leaflets"][0]["truth"]
-    offsets = ", ".join(f"{offset:g}" for offset in first["offsets_half_thicknesses"])
-    parts = [
-        "## How far off distances are",
-        _paragraph(f"""`./run bench accuracy`, after the paper's "Performance evaluation": a leaflet of either valve
-            by itself, with the paper's parameters, the mitral one open. Points *on* the smooth surface, evenly by
-            area, whose distance is 0, and points *off* it, {offsets} half thicknesses along its normal. The
-            smooth surface is evaluated from the Bézier curves themselves, with neither polylines nor a tolerance.
-            Errors are in per cent of the half thickness, {data['half_thickness']:g} cm; "over" are points that are
-            off by more than the tolerance."""),
-        _paragraph(f"""{machine['cpu']}, {machine['cores']} cores, {machine['compiler']}; riis {machine['riis']}. Times
-            are the mean of all points by one thread. Sampling is asked through boxes of boxes of samples,
-            triangles through Embree; the paper's loops over all of them take time in proportion to their
-            number."""),
-    ]
-    for leaflet in data["leaflets"]:
-        truth = leaflet["truth"]
-        parts += [
-            f"### {_leaflet_title(leaflet)}",
-            _paragraph(f"""{_count(truth['n_on_surface'])} points on the surface, {_count(truth['n_off_surface'])} off
-                it. Left out off it: {_count(truth['n_left_out_curved'])} whose offset is more than
-                {truth['largest_share_of_curvature_radius']:g} of the curvature radius,
-                {_count(truth['n_left_out_other_part_nearer'])} to which another part of the leaflet is nearer than
-                their foot. Both were checked with {_count(truth['n_fine_triangles'])} triangles, within
-                {_share(truth['fine_error'])} of the smooth surface: distances to them differ from the true ones by at
-                most {_share(truth['most_from_fine'])}."""),
-            _table(leaflet),
-        ]
-    parts += ["### What it means", _findings(data),
-              _paragraph("""`./run figures` paints the errors on both leaflets and draws how they are
-                  distributed.""")]
-    return "\n\n".join(parts) + "\n"
-
-
-if __name__ == "__main__":
-    with open(sys.argv[1] if len(sys.argv) > 1 else "out/bench/accuracy.json", encoding="utf-8") as file:
-        print(accuracy_section(json.load(file)), end="")
+    return {
+        "offsets": ", ".join(f"{offset:g}" for offset in first["offsets_half_thicknesses"]),
+        "half_thickness": f"{data['half_thickness']:g}",
+        **{name: machine[name] for name in ("cpu", "cores", "compiler", "riis")},
+        "leaflets": [_leaflet_values(leaflet) for leaflet in data["leaflets"]],
+        **_findings(data),
+    }

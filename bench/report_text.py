@@ -1,16 +1,88 @@
 # SPDX-License-Identifier: Apache-2.0
 """Markdown and plots for report.py."""
 
+import re
 import textwrap
 
+_TAG = re.compile(r"^[ \t]*\{\{([#^/])(\w+)\}\}[ \t]*\n|\{\{([#^/]?)(\w+)\}\}", re.MULTILINE)
 
-def paragraph(text):
-    """Wraps text like all pages. Code in backticks and links may be cut only at spaces."""
-    return textwrap.fill(text, width=100, break_long_words=False, break_on_hyphens=False) + "\n"
+
+class Template:
+    """Markdown with places for values, as Mustache has them.
+
+    {{name}} is a value. {{#name}} ... {{/name}} is there if the value is not empty, once for each item of a list, with the names
+    of a dict within reach. {{^name}} ... {{/name}} is there if the value is empty. A name without a value is an error.
+    """
+
+    def __init__(self, text):
+        self._parts, stack, end = [], [("", [])], 0
+        for found in _TAG.finditer(text):
+            kind, name = found[1] or found[3] or "", found[2] or found[4]
+            stack[-1][1].append(text[end : found.start()])
+            end = found.end()
+            if kind in ("#", "^"):
+                stack.append((name, []))
+                stack[-2][1].append((kind, name, stack[-1][1]))
+            elif kind == "/":
+                if stack.pop()[0] != name or not stack:
+                    raise ValueError(f"{{{{/{name}}}}} ends a part that was not begun last")
+            else:
+                stack[-1][1].append((kind, name, None))
+        if len(stack) > 1:
+            raise ValueError(f"{{{{#{stack[-1][0]}}}}} has no end")
+        self._parts = stack[0][1] + [text[end:]]
+
+    def fill(self, values, only=None):
+        """The whole text, or only the parts of that name; its prose is wrapped."""
+        parts = [part for part in self._parts if only is None or part[1:2] == (only,)]
+        return wrapped(_filled(parts, [values]))
+
+
+def _value(name, scopes):
+    for scope in reversed(scopes):
+        if name in scope:
+            return scope[name]
+    raise KeyError(f"the template asks for {name}, which has no value")
+
+
+def _filled(parts, scopes):
+    text = []
+    for part in parts:
+        if isinstance(part, str):
+            text.append(part)
+            continue
+        kind, name, inner = part
+        value = _value(name, scopes)
+        if kind == "":
+            text.append(str(value))
+        elif kind == "^":
+            text += [] if value else [_filled(inner, scopes)]
+        else:
+            for item in value if isinstance(value, list) else [value] if value else []:
+                text.append(_filled(inner, scopes + [item] if isinstance(item, dict) else scopes))
+    return "".join(text)
+
+
+def wrapped(text):
+    """Paragraphs and list items wrapped as all pages are, tables and the like as they are, one empty line between."""
+    blocks = [block.strip("\n") for block in re.split(r"\n(?:[ \t]*\n)+", text)]
+    return "\n\n".join(block if block.startswith(("|", "#", "!", "<!--")) else _wrapped_block(block) for block in blocks if block) + "\n"
+
+
+def _wrapped_block(block):
+    items = re.split(r"\n(?=- )", block)
+    return "\n".join(_wrapped_item(item, "- " if item.startswith("- ") else "") for item in items)
+
+
+def _wrapped_item(item, mark):
+    # No line begins with a per cent sign. Code in backticks and links may be cut at spaces only.
+    text = " ".join(item[len(mark) :].split()).replace(" %", "~%")
+    indents = {"initial_indent": mark, "subsequent_indent": " " * len(mark)}
+    return textwrap.fill(text, width=100, break_long_words=False, break_on_hyphens=False, **indents).replace("~%", " %")
 
 
 def number(value):
-    """Formats with three significant digits."""
+    """Three digits that count."""
     if value >= 999.5:
         return grouped(value)
     digits = 0 if value >= 99.95 else 1 if value >= 9.995 else 2 if value >= 0.9995 else 3
@@ -35,7 +107,7 @@ def table(heads, rows):
 
 
 class figure:
-    """Plots with logarithmic axes. Without matplotlib there are none, and a line says so."""
+    """Plots with logarithmic axes, if there is matplotlib; without it there are none, and a line says so."""
 
     @staticmethod
     def _pyplot():
@@ -56,15 +128,15 @@ class figure:
 
     @staticmethod
     def _save(pyplot, plot, path):
-        # The program's version is left out, so that the same data gives the same bytes.
+        # Without the program's version in it the same data gives the same bytes.
         plot.savefig(path, dpi=110, metadata={"Software": None})
         pyplot.close(plot)
         return True
 
     @staticmethod
     def lines(panels, across, up, path, ticks=None, limit=None):
-        """panels: titles and lines. A line is a label, points and a style, and has the same colour in all panels. ticks: the
-        horizontal ones, in place of powers of ten. limit: (at, text), with the area beyond shaded and labelled with the text."""
+        """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those across,
+        in place of powers of ten. limit: (at, text), what lies beyond is shaded and has that text in it."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""./run bench: runs the benchmark programs and writes their JSON to out/bench. report.py makes the page from it.
+"""./run bench: runs the benchmark programs and leaves their JSON in out/bench. report.py makes the page from it.
 
-out/bench/machine.json has the machine, the time and the command of each measurement."""
+out/bench/machine.json has the machine, the dates and the commands."""
 
 import argparse
 import datetime
@@ -19,12 +19,12 @@ PAPER_THREADS = (1, 2, 4, 8, 12)
 SEARCHES = "exhaustive|clusters|neighbor_warm|neighbor_cold|paper|all_distances|paper_exhaustive|paper_neighbor"
 ONCE = "^search_(every_triangle|groups|adjacency)"
 STAGES = "^(calibration|pipeline|distance_query|surface_update|closest_point|mark_exhaustive|brute_force)"
-# Baselines keep the benchmarks that take no more than a second or so, on the smallest mesh.
+# What is kept in baselines: all that takes no more than a second or so, on the smallest mesh.
 GUARDED = (
     r"^(calibration|pipeline|surface_update|closest_point/|mark_exhaustive|distance_query/.*/(method:0/|method:1/tolerance:50/))"
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
 )
-# These files are removed. Files that others wrote, or that are made again, are not.
+# What others wrote, or is made anew, is not removed.
 OWN_JSON = ("searches", "stages", "marking", "accuracy", "peers", "peers_python")
 
 
@@ -52,7 +52,7 @@ def operating_system():
 
 
 def caches():
-    """The sizes of the first processor's caches, by level."""
+    """Sizes of the first processor's, by level."""
     folder, found = "/sys/devices/system/cpu/cpu0/cache", []
     try:
         for index in sorted(os.listdir(folder)):
@@ -92,7 +92,7 @@ class Study:
         if before.get("machine") == self.record["machine"]:
             self.record["runs"] = before["runs"]
         elif before:
-            print("==> the machine, or what it builds with, is another than that of the figures in out/bench: these go", flush=True)
+            print("==> out/bench has figures of another machine or another build: they are removed", flush=True)
             for name in OWN_JSON:
                 if os.path.exists(self.path(name)):
                     os.remove(self.path(name))
@@ -104,7 +104,7 @@ class Study:
         return os.path.join(self.build, "bench", name)
 
     def run(self, name, command):
-        """Runs a command that writes out/bench/NAME.json, which is replaced only if it succeeds. Records the time."""
+        """Runs what writes out/bench/NAME.json, which is replaced only if it succeeds, and takes down when that was."""
         print(f"==> {name}: {' '.join(command)}", flush=True)
         load = os.getloadavg()[0]
         date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
@@ -120,7 +120,7 @@ class Study:
             file.write("\n")
 
     def google_benchmark(self, name, regex, seconds, repetitions):
-        # The order is random, so other work of the machine falls on all alike.
+        # In random order: what else the machine does then falls on all alike.
         self.run(
             name,
             [
@@ -145,7 +145,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # The packages of PyPI were measured beside the last peers.
+        # Those of PyPI were measured beside the last ones.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)
@@ -160,16 +160,16 @@ class Study:
             for package in ("numpy", "libigl", "fcpw", "point-cloud-utils", "open3d"):
                 pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", package]
                 if subprocess.run(pip, check=False).returncode:
-                    print(f"==> {package} cannot be installed: it is left out", flush=True)
+                    print(f"==> {package} cannot be installed and is left out", flush=True)
             open(os.path.join(environment, "complete"), "w", encoding="ascii").close()
         here = os.path.dirname(os.path.abspath(__file__))
         self.run("peers_python", [python, os.path.join(here, "peers.py"), os.path.join(self.out, "peers"), "OUT"])
 
     def missing_for_figures(self):
-        """Measures the costs that the figures' page plots and that out/bench lacks. Existing files may be of a longer run."""
+        """Measures the costs that the figures' page plots and that out/bench lacks; what is there may be of a longer run."""
         for name, measure in (("searches", lambda: self.searches(False)), ("peers", self.peers)):
             if os.path.exists(self.path(name)):
-                print(f"==> {self.path(name)} is there: not measured again", flush=True)
+                print(f"==> {self.path(name)} is there and is not measured again", flush=True)
             else:
                 measure()
 
@@ -190,8 +190,8 @@ class Study:
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", choices=("short", "full", "search", "marking", "accuracy", "peers", "compare", "baseline", "figures"))
-    parser.add_argument("file", nargs="?", help="the baseline of compare and baseline")
-    parser.add_argument("--factor", default="1.3", help="of compare: slower by more than this fails (%(default)s)")
+    parser.add_argument("file", nargs="?", help="the file of compare or baseline")
+    parser.add_argument("--factor", default="1.3", help="compare fails if something is slower by more than this (%(default)s)")
     parser.add_argument("--build", default="build")
     parser.add_argument("--out", default=os.path.join("out", "bench"))
     options = parser.parse_args(arguments)

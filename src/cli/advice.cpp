@@ -12,17 +12,17 @@
 namespace riis::cli {
 namespace {
 
-// Of a valve in the mesh that it stands in: the mesh is from half as large to 40 times as large, its edges are up to 0.3 of the
-// valve, and both overlap.
+// A mesh fits the valve in it if it is from half as large to 40 times as large, its edges are up to 0.3 of the valve, and both
+// overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
-// Of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
+// Shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
-// Of an edge of the mesh: below, the band between two layers of nodes holds few of either.
+// A share of an edge of the mesh. Below it, the band between two layers of nodes holds few of either.
 constexpr double smallest_half_thickness = 0.3;
 
 constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
 
-// The boxes as if the surface had been scaled by 1 / factor: its translation is in the mesh's unit, and stays.
+// Compares the boxes as if the surface had been scaled by 1 / factor. Its translation is in the mesh's unit and stays.
 bool overlap_at(double factor, const Situation &s) {
   for (int k = 0; k < 3; ++k) {
     const double shift = s.options.surface_options.translation[k];
@@ -43,15 +43,15 @@ bool sizes_fit_at(double factor, const Situation &s) {
 
 bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// The default half thickness goes with a parametric valve: edges that are much longer speak for another unit of the mesh.
+// The default half thickness belongs to a parametric valve, so much longer edges speak for another unit of the mesh.
 bool edges_fit_at(double factor, const Situation &s) {
   return s.options.has_half_thickness || !is_parametric(s.options) || !is_too_small(s.half_thickness / factor, s);
 }
 
-// The factor that the mesh's lengths want before they go with the surface's; none if they go, or if no power of ten helps.
+// The factor by which the mesh's lengths must grow to fit the surface's. None if they fit, or if no power of ten helps.
 std::optional<double> missing_factor(const Situation &s) {
   if (sizes_fit_at(1, s) && edges_fit_at(1, s) && overlap_at(1, s)) return std::nullopt;
-  // Sizes that differ as much as these are not in one unit, wherever they are.
+  // Sizes that differ this much are not in one unit, whatever the places.
   const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
   std::optional<double> best;
   for (const bool must_overlap : {true, false}) {
@@ -98,7 +98,7 @@ double better_half_thickness(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// What makes the scale, and what the sizes look like then.
+// The options that make the scale, and what the sizes look like then.
 struct Cure {
   std::string look, write;
 };
@@ -124,7 +124,7 @@ Cure cure_for_scale(const Options &options, double scale) {
   return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
 }
 
-// What the user wrote of the scale, which is to go.
+// The user's own options for the scale, which must go.
 std::string in_place_of(const Options &options) {
   if (options.unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
@@ -175,7 +175,7 @@ std::optional<std::string> advice_on_half_thickness(const Situation &s) {
   std::string text = "the half thickness is " + shown(s.half_thickness);
   text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                    : ", the median edge of the mesh " + shown(s.median_edge);
-  // A file whose unit nobody has named, and the default for centimetres.
+  // Nobody has named the file's unit, and the half thickness is the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: sizes that do not go together. Out: what they look like, and the options that would make them go together.
+// In: sizes that do not fit each other. Out: what they look like, and the options that would make them fit.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace riis::cli {
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 
-// For a mesh and a surface whose sizes look like different units: what they look like and what to write, such as "the mesh
-// looks as if it were in metres, ...: write --unit m".
+// If the sizes of a mesh and a surface look like different units: says which, and what to write, such as "the mesh looks as if
+// it were in metres, ...: write --unit m".
 std::optional<std::string> advice_on_units(const Situation &situation);
 
 // The same for a half thickness that is too large or too small.

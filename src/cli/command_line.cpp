@@ -18,8 +18,7 @@ namespace riis::cli {
 namespace {
 
 constexpr const char *description =
-    "Marks the nodes of a mesh that lie near a heart valve: those whose distance to the valve's surface is at most its "
-    "half thickness.";
+    "Marks the nodes of a mesh whose distance to the surface of a heart valve is at most the half thickness.";
 
 constexpr const char *footer = R"(Examples:
   riis-mark mesh.vtu --output marked.vtu --picture valve.png
@@ -31,58 +30,72 @@ constexpr const char *footer = R"(Examples:
   riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
 
-The marked mesh is a copy of the input with its nodes in the input's order and the point arrays riis_marked (UInt8: 0 or 1),
-riis_distance (Float64) and riis_leaflet (Int32: -1 for none). With --prefix NAME they are NAME_marked and so on: a mesh takes
-the marks of several valves. Arrays that the mesh has already are replaced only with --replace.
+Marked mesh
+  The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
+  1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
+  can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
 
-Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of the
-mitral valve are in centimetres. For a file of a surface or of patches --unit needs --surface-unit, the file's own unit. With
---unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit nothing is known of
-units, and --scale is the factor from the surface's unit to the mesh's.
+Units
+  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of
+  the mitral valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
+  own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
+  program knows no units, and --scale is the factor from the surface's unit to the mesh's.
 
-A line on stderr tells what looks wrong and what to write instead: when no node is marked, when all are, or hardly any, and when
-the half thickness does not go with the surface or with the edges of the mesh. --quiet does not silence it, since wrong marks
-look like right ones. --allow-none is for valves that are near no node at times.
+Warnings
+  A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
+  are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
+  wrong marks look like right ones. --allow-none is for valves that are near no node at times.
 
-Parameters are those of the valve (right.leaflet_angle) or, without a cusp's name (leaflet_angle), of all its cusps. A JSON
-file sets the latter first, whatever their order in the file; --set comes after the file, from left to right; --opening
-last, and not together with --set opening.
+Parameters
+  A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
+  cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
+  left to right. --opening comes last, and excludes --set opening.
 
-The mitral valve's parameters make it closed and open, and it is open unless --opening says otherwise. The aortic valve stays
-at opening 0 without --params-open. With it, the options above make the closed state, and the defaults with that file's
-parameters the open one; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the default
-parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open.
+Opening
+  The mitral valve's parameters make it closed and open. It is open unless --opening says otherwise. The aortic valve stays at
+  opening 0 without --params-open. With --params-open, the options above make the closed state. The defaults with that file's
+  parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
+  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open.
 
-The surface leaks where an edge of the mesh crosses it between two unmarked nodes; a line on stderr and --stats say how many
-edges do, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Gaps between leaflets are
-found by nothing here.
+Leaks
+  The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
+  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
+  between leaflets.
 
---valve FILE.json is a valve from patches by the curves that bound them:
+Valve from patches
+  --valve FILE.json is a valve from patches, by the curves that bound them:
   {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
                "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
    "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
-2, 3 or 4 points control a curve of degree 1, 2 or 3; 1 point is a side collapsed to it; a minus runs a curve the other way.
-v0 and v1 run from u0 to u1, u0 and u1 from v0 to v1. "leaflet" may be left out (0). "open": {"curves": {...}} beside
-"patches" has all curves as they are at --opening 1; without it the valve stays at 0. Its only parameter is opening.
+  2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
+  way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
+  beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
 
---search exhaustive asks every node near the valve for its distance; neighbor walks from marked nodes to their neighbours and
-then proves that the rest is far; clusters takes nodes that are near each other together: the same marks. They want to know
-the neighbours, the mesh's adjacency, or to sort the nodes, which costs more than it saves where a mesh is marked once, as here:
-auto is exhaustive. paper is the published search, for comparison: from one
-start, through marked nodes only. What is not connected to that is missed, so it is never complete, and a line on stderr
-says so. Neighbours are nodes joined by an edge of a tetrahedron, pyramid, wedge, hexahedron or voxel.
+Searches
+  exhaustive  queries the distance of every node near the valve
+  neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
+  clusters    takes nodes that are near each other together
+  paper       the published search, for comparison: from one start, through marked nodes only
+  The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
+  Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
+  connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
+  tetrahedron, pyramid, wedge, hexahedron or voxel.
 
---distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for; minimization
-Powell's method on every patch, which may miss the closest point. Both are the paper's, slow, and here for comparison.
+Distances
+  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for.
+  --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
+  and here for comparison.
 
-On a terminal, what takes longer than a second is announced on stderr, unless --quiet.
-While a file is written, Ctrl-C waits until it is whole; the second one does not wait.
+While it runs
+  On a terminal, a line on stderr announces a stage that takes longer than a second, unless --quiet is given. While a file is
+  written, the first Ctrl-C waits until the file is whole; the second does not wait.
+
 Exit status; one line on stderr says what was wrong:
   0  fine
   1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
      value (in a file or by --set), no display for a picture, no memory
   2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
-     that would replace an input, another output, or arrays of the mesh)
+     that would replace an input, another output, or arrays of the mesh
   3  no node is marked, without --allow-none; the outputs are written all the same)";
 
 const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at the position of their RIIS_VTK_VIEW_*
@@ -92,7 +105,7 @@ const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor",
 // At the position of their RIIS_DISTANCE_*.
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
-// What CLI11 collects, as text: numbers are parsed here, whatever the locale.
+// CLI11 collects text; numbers are parsed here, whatever the locale.
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
@@ -111,52 +124,52 @@ int32_t position_of(const std::string &name, const std::vector<std::string> &nam
 void declare_surface(CLI::App &app, Options &options, Texts &texts) {
   const char *group = "Surface";
   CLI::Option *surface =
-      app.add_option("--surface", options.surface, "Surface from a file (.vtp, .vtu, .stl) instead of a valve")
+      app.add_option("--surface", options.surface, "Surface from a file (.vtp, .vtu, .stl) in place of a valve")
           ->type_name("FILE")
           ->group(group);
   app.add_option(
          "--leaflets", options.leaflets,
-         "Leaflets of --surface: its connected pieces, or the values of a cell array (riis_leaflet, if there is one)")
+         "Leaflets of --surface: its connected pieces, or the values of a cell array (default riis_leaflet, if present)")
       ->type_name("connected|ARRAY")
       ->group(group)
       ->needs(surface);
-  app.add_option("--valve", options.valve, "Kind of the parametric valve: aortic (the default), mitral; or its patches")
+  app.add_option("--valve", options.valve, "Kind of the parametric valve, aortic (default) or mitral, or a file of patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--opening", texts.opening, "How far the valve is open: 0 closed, 1 open")
+  app.add_option("--opening", texts.opening, "How far the valve is open, from 0, closed, to 1, open")
       ->type_name("X")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--params,--params-closed", options.params, "Valve parameters from a JSON file; of the closed state")
+  app.add_option("--params,--params-closed", options.params, "Valve parameters from a JSON file; those of the closed state")
       ->type_name("FILE.json")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--params-open", options.params_open, "Parameters of the state that --opening opens to")
+  app.add_option("--params-open", options.params_open, "Valve parameters of the state that --opening opens to")
       ->type_name("FILE.json")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--set", options.settings, "One valve parameter, a number or X,Y,Z; may be repeated")
+  app.add_option("--set", options.settings, "Set one valve parameter to a number or X,Y,Z; may be repeated")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->group(group)
       ->excludes(surface);
   app.add_flag("--print-params", options.print_params,
-               "Print all valve parameters as JSON for --params, after --params, --set and --opening, and exit")
+               "Apply --params, --set and --opening, print all valve parameters as JSON for --params, and exit")
       ->group(group)
       ->excludes(surface);
   app.add_flag("--describe-params", options.describe_params,
-               "Print the same as a table, with units, ranges and descriptions, and exit")
+               "Print the same parameters as a table, with units, ranges and descriptions, and exit")
       ->group(group)
       ->excludes(surface)
       ->excludes(app.get_option("--print-params"));
   app.add_option("--tolerance", texts.tolerance,
-                 "Triangles deviate from the smooth valve by at most F half thicknesses (0.05)")
+                 "Largest deviation of triangles from the smooth valve, in half thicknesses (default 0.05)")
       ->type_name("F")
       ->group(group)
       ->excludes(surface);
   app.add_flag("--skip-zero-area", texts.skip_zero_area,
-               "Leave triangles without area out of --surface, not refuse them")
+               "Leave out triangles of --surface that have no area, in place of refusing them")
       ->group(group)
       ->needs(surface);
   app.add_flag("--flip-normals", texts.flip_normals, "Turn every triangle over")->group(group);
@@ -164,58 +177,59 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
 
 void declare_placement(CLI::App &app, Texts &texts) {
   const char *group = "Placement: x -> scale * rotation * x + translation";
-  CLI::Option *scale = app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (1)")
+  CLI::Option *scale = app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (default 1)")
                            ->type_name("S")
                            ->group(group);
-  app.add_option("--unit", texts.unit, "Unit of the mesh, m, cm or mm, in place of --scale")
+  app.add_option("--unit", texts.unit, "Unit of the mesh, in place of --scale")
       ->type_name("UNIT")
       ->check(CLI::IsMember(unit_names()))
       ->group(group)
       ->excludes(scale);
-  app.add_option("--surface-unit", texts.surface_unit, "Unit of the surface's or of the patches' file")
+  app.add_option("--surface-unit", texts.surface_unit, "Unit of the file that holds the surface or the patches")
       ->type_name("UNIT")
       ->check(CLI::IsMember(unit_names()))
       ->group(group);
-  app.add_option("--rotate", texts.rotate, "Axis and angle in degrees")->type_name("X,Y,Z,DEG")->group(group);
-  app.add_option("--translate", texts.translate, "In the mesh's unit")->type_name("X,Y,Z")->group(group);
+  app.add_option("--rotate", texts.rotate, "Rotate about an axis by an angle in degrees")->type_name("X,Y,Z,DEG")->group(group);
+  app.add_option("--translate", texts.translate, "Translate by a vector in the mesh's unit")->type_name("X,Y,Z")->group(group);
 }
 
 void declare_marking(CLI::App &app, Texts &texts) {
   const char *group = "Marking";
   app.add_option("--half-thickness", texts.half_thickness,
-                 "Nodes up to this distance are marked (0.1 times the scale; with --unit 0.1 cm)")
+                 "Mark nodes up to this distance (default 0.1 times the scale; with --unit 0.1 cm)")
       ->type_name("L")
       ->group(group);
-  app.add_option("--distance-limit", texts.distance_limit, "Distances are wanted up to here (the half thickness)")
+  app.add_option("--distance-limit", texts.distance_limit, "Report distances up to this one (default the half thickness)")
       ->type_name("L")
       ->group(group);
   app.add_option("--resistance", texts.resistance,
-                 "write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
-      ->type_name("R");
-  app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (1e30)")
+                 "Write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
+      ->type_name("R")
+      ->group(group);
+  app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (default 1e30)")
       ->type_name("X")
       ->group(group);
-  app.add_option("--distance", texts.distance, "By triangles (the default), sampling or minimization")
+  app.add_option("--distance", texts.distance, "Measure distances by triangles (default), sampling or minimization")
       ->type_name("HOW")
       ->check(CLI::IsMember(distance_names))
       ->group(group)
       ->excludes(app.get_option("--surface"));
   app.add_option("--distance-tolerance", texts.distance_tolerance,
-                 "Of --distance sampling or minimization: F half thicknesses (--tolerance)")
+                 "Tolerance of --distance sampling or minimization, in half thicknesses (default --tolerance)")
       ->type_name("F")
       ->group(group);
-  app.add_option("--search", texts.search, "auto (the default), exhaustive, neighbor, clusters or paper")
+  app.add_option("--search", texts.search, "Search by auto (default), exhaustive, neighbor, clusters or paper")
       ->type_name("HOW")
       ->check(CLI::IsMember(search_names))
       ->group(group);
-  app.add_option("--threads", texts.threads, "Number of threads (the processors that the program may use)")
+  app.add_option("--threads", texts.threads, "Number of threads (default the processors that the program may use)")
       ->type_name("N")
       ->group(group);
 }
 
 void declare_steps(CLI::App &app, Texts &texts) {
   app.add_option("--steps", texts.steps,
-                 "Also time N steps of a moving valve: the opening changes by 0.02, the nodes are marked again")
+                 "Also time N steps of a moving valve: each changes the opening by 0.02 and marks the nodes again")
       ->type_name("N")
       ->group("Marking")
       ->excludes(app.get_option("--surface"));
@@ -231,36 +245,36 @@ int32_t parse_steps(const std::string &text) {
 void declare_output(CLI::App &app, Options &options, Texts &texts) {
   const char *group = "Output";
   CLI::Option *output =
-      app.add_option("--output", options.output, "The marked mesh")->type_name("OUT.vtu")->group(group);
+      app.add_option("--output", options.output, "Write the marked mesh")->type_name("OUT.vtu")->group(group);
   app.add_option("--prefix", options.prefix,
-                 "Arrays of the marked mesh: NAME_marked, NAME_distance, NAME_leaflet (riis)")
+                 "Name the arrays of the marked mesh NAME_marked, NAME_distance, NAME_leaflet (default riis)")
       ->type_name("NAME")
       ->group(group)
       ->needs(output);
-  app.add_flag("--replace", options.replace, "Replace arrays of these names that the mesh has already")
+  app.add_flag("--replace", options.replace, "Replace arrays of these names that the mesh already has")
       ->group(group)
       ->needs(output);
-  app.add_flag("--allow-none", options.allow_none, "Exit status 0 and no warning even if no node is marked")
+  app.add_flag("--allow-none", options.allow_none, "Exit with status 0 and without a warning if no node is marked")
       ->group(group);
-  app.add_option("--surface-output", options.surface_output, "The placed triangles")
+  app.add_option("--surface-output", options.surface_output, "Write the placed triangles")
       ->type_name("OUT.vtp")
       ->group(group);
-  app.add_option("--picture", texts.pictures, "Surface and marked cells side by side; may be repeated")
+  app.add_option("--picture", texts.pictures, "Draw the surface and the marked cells side by side; may be repeated")
       ->type_name("OUT.png")
       ->allow_extra_args(false)
       ->group(group);
-  app.add_option("--view", texts.views, "side, top or oblique (the default): one for each --picture, in their order")
+  app.add_option("--view", texts.views, "View of a --picture, side, top or oblique (default); one for each, in their order")
       ->type_name("VIEW")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(view_names))
       ->group(group);
-  app.add_option("--stats", options.stats, "Counts and seconds as JSON; - for stdout, which then holds nothing else")
+  app.add_option("--stats", options.stats, "Write counts and seconds as JSON; - is stdout, which then holds nothing else")
       ->type_name("FILE.json|-")
       ->group(group);
-  app.add_flag("--quiet", options.quiet, "No table on stdout, no progress on stderr; warnings stay")->group(group);
+  app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")->group(group);
 }
 
-// RIIS_AUTO is a negative number: a user's must not pass for it.
+// RIIS_AUTO is a negative number, and a user's number must not pass for it.
 double parse_length(const std::string &text, const std::string &subject) {
   const double length = parse_number(text, subject);
   if (!(length > 0)) throw Refusal{exit_wrong_usage, subject + ": " + text + " is not above 0"};
@@ -279,7 +293,7 @@ std::optional<double> parse_opening(const Texts &texts, const std::vector<std::s
     throw Refusal{exit_wrong_usage, "--opening: " + texts.opening + " is not from 0 to 1"};
   }
   if (sets_opening(settings)) {
-    throw Refusal{exit_wrong_usage, "--opening and --set opening: only one of them"};
+    throw Refusal{exit_wrong_usage, "--opening and --set opening exclude each other"};
   }
   return opening;
 }
@@ -308,7 +322,7 @@ void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   }
 }
 
-// The scale and the default half thickness, from the units.
+// Derives the scale and the default half thickness from the units.
 void parse_units(const Texts &texts, Options &options) {
   options.unit = unit_of(texts.unit);
   options.surface_unit = unit_of(texts.surface_unit);
@@ -320,7 +334,7 @@ void parse_units(const Texts &texts, Options &options) {
     refuse("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
            words_of(*options.surface_unit));
   }
-  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the mesh's");
+  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the unit of the mesh");
   if (!options.unit) return;
   if (is_file && !options.surface_unit) {
     refuse("--unit needs --surface-unit, the unit of " + (options.surface.empty() ? options.valve : options.surface));
@@ -345,7 +359,7 @@ void parse_mark_options(const Texts &texts, riis_mark_options &options) {
 
 std::vector<Picture> pair_pictures(const Texts &texts) {
   if (texts.views.size() > texts.pictures.size()) {
-    throw Refusal{exit_wrong_usage, "--view: more views than pictures"};
+    throw Refusal{exit_wrong_usage, "--view: there are more views than pictures"};
   }
   std::vector<Picture> pictures;
   for (const std::string &path : texts.pictures) pictures.push_back({path, RIIS_VTK_VIEW_OBLIQUE});
@@ -357,7 +371,7 @@ std::vector<Picture> pair_pictures(const Texts &texts) {
   throw Refusal{exit_wrong_usage, name + ": the value is empty"};
 }
 
-// Of "--output= mesh.vtu" CLI11 would make "--output=mesh.vtu".
+// CLI11 would turn "--output= mesh.vtu" into "--output=mesh.vtu".
 void check_equals_signs(int argc, char **argv) {
   for (int i = 1; i < argc && argv[i] != std::string("--"); ++i) {
     const std::string argument = argv[i];
@@ -376,7 +390,7 @@ void check_values(const std::vector<const CLI::Option *> &given) {
   }
 }
 
-// Refuses what would have no effect.
+// Refuses options without effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
@@ -405,11 +419,11 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
              options.stats.empty()) {
-    refuse("nothing to do: --quiet, and no output asked for");
+    refuse("nothing to do: --quiet is given and no output is named");
   }
 }
 
-// For what is left over on the command line: mostly a value in several words, of an option that takes one.
+// Explains words that are left over on the command line. Mostly they are a value in several words for an option that takes one.
 std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
@@ -436,8 +450,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// What CLI11 did not understand, in the order in which it was typed, which is not CLI11's. The value of an unknown option is left
-// over as well, or passes for the mesh: only the options are named then.
+// The words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an unknown
+// option is also left over, or passes for the mesh, so only the options are named then.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: argc and argv. Out: what the user asked for, its form checked; whether the values are good is the library's to
-// say.
+// In: argc and argv. Out: the user's request, with its form checked. The library decides whether the values are good.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -43,10 +42,10 @@ struct Options {
   bool quiet = false;
 };
 
-// For a command line without arguments: what the program is for, in five lines.
+// For a command line without arguments: the purpose of the program, in five lines.
 std::string short_help();
 
-// Empty when the command line asked for nothing but the help or the version, which have then been printed.
+// Returns nothing if the command line requested only the help or the version, which it has then printed.
 // Throws a Refusal for wrong usage.
 std::optional<Options> parse_command_line(int argc, char **argv);
 

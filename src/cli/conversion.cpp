@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every ending here was tried: tests/cli/test_cli_conversions.c does it again where the tool is installed.
+// Every ending here was tried. tests/cli/test_cli_conversions.c tries it again if the tool is installed.
 const std::set<std::string> meshes_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh"};
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
@@ -23,7 +23,7 @@ std::string ending_of(const std::string &path) {
   return ending;
 }
 
-// As a shell takes it for one word, which is no option.
+// Quotes the path so that a shell takes it for one word, and a program does not take it for an option.
 std::string shell_word(std::string path) {
   if (path[0] == '-') path.insert(0, "./");
   const auto is_plain = [](unsigned char c) {
@@ -53,12 +53,12 @@ std::string by_meshio(const std::string &path, const char *format) {
 
 std::string conversion_hint(const std::string &path, Content wanted) {
   const std::string ending = ending_of(path);
-  // In the one line of a refusal they would not be what they are.
+  // Control characters would not survive in the one line of a refusal.
   if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
   if (wanted == Content::mesh) {
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
-    return surfaces_only.count(ending) != 0 ? "; a surface goes behind --surface" : "";
+    return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
   }
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";

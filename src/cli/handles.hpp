@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's handles with their destruction.
+// The library's handles, which destroy themselves.
 #pragma once
 
 #include <riis/riis.h>

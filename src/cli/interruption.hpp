@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and its like while a file is written. Every file is written beside its place and then moved; a process that
-// ends in between leaves the unfinished one behind.
+// Ctrl-C and its like while a file is written. Every file is written beside its place and then moved. A process that ends in
+// between leaves the unfinished file behind.
 #pragma once
 
 #include <csignal>
 
 namespace riis::cli {
 
-// As long as one of these lives, the first SIGINT, SIGTERM or SIGHUP waits for its end, where it ends the process as it
-// would have; the second, of a user who will not wait, acts at once. Signals that were ignored stay ignored. One at a
-// time.
+// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object ends. A
+// second signal, from a user who will not wait, acts at once. Signals that were ignored stay ignored. Only one object may live
+// at a time.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();

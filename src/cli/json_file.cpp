@@ -25,13 +25,13 @@ std::string text_of(const std::string &path) {
   return text.str();
 }
 
-// Watches the parser for what it lets pass.
+// Refuses what the parser would let pass.
 class Guard {
  public:
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
 
   void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
-    // Files need up to five levels below the root; what handles a value recursively must not meet a bottomless one.
+    // Files need up to five levels below the root. Recursive code must not meet a value without a bottom.
     constexpr int deepest = 8;
     if (depth > deepest) refuse_file(path_, "is nested deeper than " + content_ + " can be");
     if (event == Json::parse_event_t::object_start) {
@@ -48,7 +48,7 @@ class Guard {
     // The library takes names up to a 0 byte.
     const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
-    // The parser keeps the last of several equal keys; here they are refused, as the user cannot have meant both.
+    // The parser keeps the last of several equal keys. They are refused here, because the user cannot have meant both.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file. Out: its value, with what the parser would let pass refused: deep nesting, keys given twice, control
-// characters in keys.
+// In: a JSON file. Out: its value. Deep nesting, keys given twice and control characters in keys are refused, which the parser
+// would let pass.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,10 +10,10 @@ namespace riis::cli {
 
 using Json = nlohmann::ordered_json;
 
-// Refuses the file. The reason may hold pieces of it, of any length.
+// Refuses the file. The reason may hold pieces of the file, of any length.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
 
-// content, such as "parameters", is what the file should hold, for the refusal of one that is nested too deep.
+// content, such as "parameters", names what the file should hold. The refusal of a file that is nested too deep uses it.
 Json parse_json_file(const std::string &path, const std::string &content);
 
 }  // namespace riis::cli

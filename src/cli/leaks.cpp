@@ -13,7 +13,7 @@
 namespace riis::cli {
 namespace {
 
-// Looks at the edges that may leak; longer_than as riis_vtk_mesh_long_edges has it.
+// Examines the edges that may leak. longer_than is the argument of riis_vtk_mesh_long_edges.
 riis_leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
                     int64_t *n_cells_left_out) {
   riis_adjacency *handle = nullptr;
@@ -26,12 +26,12 @@ riis_leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, 
   riis_leaks leaks;
   const riis_status status =
       riis_find_leaks(marked.surface, marked.mesh, &options, marked.result, &leaks, sizeof leaks);
-  check(riis_mesh_set_adjacency(marked.mesh, nullptr));  // before the rows go; changes no error text
+  check(riis_mesh_set_adjacency(marked.mesh, nullptr));  // before the rows go; changes no error message
   check(status);
   return leaks;
 }
 
-// To three digits, never below x: what a user types has to close what it is said to close.
+// Rounds to three digits, never below x, so that the number that a user types closes the leaks.
 double rounded_up(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
   for (int steps = 0;; ++steps) {
@@ -43,7 +43,7 @@ double rounded_up(double x) {
   }
 }
 
-// Marks once more, with another half thickness; what leaks then.
+// Marks once more, with another half thickness, and finds what leaks then.
 riis_leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
@@ -62,7 +62,7 @@ riis_leaks leaks_with(const Options &options, const MarkedMesh &marked, double h
                   is_by_triangles ? 2 * half_thickness : 0, nullptr);
 }
 
-// The triangles of a valve follow the half thickness, so the number is tried; those of a file stay. 0: none was found.
+// The triangles of a valve follow the half thickness, so the number is tried. The triangles of a file stay. 0: none was found.
 double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_leaks &leaks) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(leaks.half_thickness);
@@ -74,12 +74,12 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
       wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The marks are good, and so is the warning, without advice: a surface may not be made with any half thickness.
+    // The marks and the warning are good without advice: some half thicknesses do not make a surface.
   }
   return 0;
 }
 
-// Said however quiet the user wants it: the valve does not hold.
+// Not even --quiet silences this: the valve does not hold.
 void warn_of_leaks(const LeakReport &report, double half_thickness) {
   const riis_leaks &leaks = report.found;
   const double *at = leaks.longest_middle;
@@ -102,7 +102,7 @@ void warn_of_leaks(const LeakReport &report, double half_thickness) {
 void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Where nodes may be missing, or distances are not those to the triangles, short edges may leak as well.
+  // Short edges may also leak if marks may be missing, or if distances are not those to the triangles.
   const bool is_by_triangles = options.surface_options.distance == RIIS_DISTANCE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;

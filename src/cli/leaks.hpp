@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh that was marked. Out: how many of its edges cross the surface between unmarked nodes, and what would close them.
+// In: a mesh that was marked. Out: how many of its edges cross the surface between unmarked nodes, and the half thickness that
+// would close them.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -13,7 +14,7 @@ struct MarkedMesh {
   const riis_surface *surface;
   const riis_valve *valve;  // that the surface was made of; null for a surface from a file
   const riis_vtk_mesh *file;
-  riis_mesh *mesh;  // its adjacency is taken away
+  riis_mesh *mesh;  // loses its adjacency
   riis_mark_result *result;
 };
 

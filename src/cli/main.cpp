@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark: from the command line to an exit status. Whatever goes wrong ends in one line on stderr; a command line without
-// arguments gets a few lines of help there, since nobody can have meant it.
+// riis-mark: from the command line to an exit status. Every error ends in one line on stderr. A command line without arguments
+// gets a few lines of help there, because nobody can have meant it.
 #include <fcntl.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace {
 
-// Names of files and parameters may hold line breaks: one line stays one line.
+// Names of files and parameters may hold line breaks, which are replaced: one line stays one line.
 int give_up(int exit_code, std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
@@ -23,8 +23,8 @@ int give_up(int exit_code, std::string text) {
   return exit_code;
 }
 
-// The number of a stream that is closed would go to the next file opened, and what is printed into it. Opened for
-// reading, it still refuses what is printed.
+// The number of a closed stream would go to the next file that is opened, and prints would go into that file. A stream opened
+// for reading still refuses prints.
 void occupy_closed_streams() {
   for (const int stream : {0, 1, 2}) {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
@@ -35,7 +35,7 @@ void occupy_closed_streams() {
 
 int main(int argc, char **argv) {
   occupy_closed_streams();
-  // A file that grows over the limit of its size is then an error of its write, not the end of the process.
+  // A file that grows over the limit of its size then fails its write and does not end the process.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     if (argc < 2) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what stands on the command line. Out: numbers, whatever the locale; anything left over is wrong usage, named by
-// subject.
+// In: words of the command line. Out: numbers, whatever the locale. Left-over characters are wrong usage, named by subject.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ double parse_number(const std::string &text, const std::string &subject);
 std::int32_t parse_integer(const std::string &text, const std::string &subject);
 // Numbers between commas.
 std::vector<double> parse_list(const std::string &text, const std::string &subject);
-// The same with a fixed length; form shows what was expected, such as "X,Y,Z".
+// The same with a fixed length. form shows the expected form, such as "X,Y,Z".
 std::vector<double> parse_list(const std::string &text, const std::string &subject, std::size_t n,
                                const std::string &form);
 

@@ -32,7 +32,7 @@ std::string system_text(int error) { return std::generic_category().message(erro
   throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
 }
 
-// Where the file itself is: links to existing files are followed.
+// The place of the file itself: links to existing files are followed.
 fs::path place_of(const std::string &path) {
   std::error_code error;
   const fs::path place = fs::canonical(path, error);
@@ -82,12 +82,12 @@ bool is_same_file(const std::string &a, const std::string &b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  // Of files that are not there yet only the names can be compared.
+  // Files that do not exist yet can be compared only by name.
   const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
   return !error && place == fs::weakly_canonical(fs::absolute(b), error) && !error;
 }
 
-// An input is replaced only by what was made of it, and only where the user names it twice.
+// An output replaces an input only if it was made of it and the user names the file twice.
 bool may_replace(const NamedFile &output, const NamedFile &input) {
   return (output.option == "--output" && input.option == "MESH") ||
          (output.option == "--surface-output" && input.option == "--surface");
@@ -99,14 +99,14 @@ void check_distinct(const Options &options) {
     for (const NamedFile &other : others) {
       if (is_same_file(output.path, other.path) && !may_replace(output, other)) {
         throw Refusal{exit_wrong_usage,
-                      output.option + ": " + output.path + " is the file of " + other.option + " too"};
+                      output.option + ": " + output.path + " is also the file of " + other.option};
       }
     }
     others.push_back(output);
   }
 }
 
-// The component says the same, but only when it comes to draw, after all other work.
+// The component refuses the same, but only when it draws, after all other work.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (display && *display) return;
@@ -115,7 +115,7 @@ void check_display() {
                 "xvfb-run -a PROGRAM"};
 }
 
-// Returns the system's error, 0 for none.
+// Returns the system's error, or 0 if there is none.
 int write_through(const std::string &path, const char *mode, const std::string &text) {
   std::FILE *file = std::fopen(path.c_str(), mode);
   if (!file) return errno;
@@ -128,7 +128,7 @@ int replace_file(const std::string &path, const std::string &text) {
   const UnbrokenWrite unbroken;
   const fs::path place = place_of(path);
   const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-text.tmp")).string();
-  std::remove(temporary.c_str());  // a file of this name is of a process that has ended
+  std::remove(temporary.c_str());  // a file of this name belongs to a process that has ended
   int error = write_through(temporary, "wx", text);
   if (!error && std::rename(temporary.c_str(), place.c_str()) != 0) error = errno;
   if (error) std::remove(temporary.c_str());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of a run: how long each takes, and a line on the terminal for one that takes longer than a second.
+// The stages of a run: the time of each, and a line on the terminal for a stage that takes longer than a second.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the program gives up: an exit code and one line for stderr.
+// The program gives up with an exit code and one line for stderr.
 #pragma once
 
 #include <riis/riis.h>
@@ -16,7 +16,7 @@ struct Refusal {
   std::string text;
 };
 
-// The library's text with the option of the command line in the place of the struct field that it begins with.
+// The library's message, with the option of the command line in place of the struct field that it begins with.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {
       {"options.scale ", "--scale "},
@@ -36,9 +36,8 @@ inline std::string with_option_named(const std::string &text) {
   return text;
 }
 
-// Throws the library's own text. Files, arrays and parameters are data; an argument that the library refuses is an
-// option of the command line that is out of range. subject, such as a file's name, goes before texts that do not name
-// it themselves.
+// Throws the library's own message. Files, arrays and parameters are data. An argument that the library refuses is an option of
+// the command line that is out of range. subject, such as a file's name, goes before messages that do not name it themselves.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

@@ -56,7 +56,7 @@ void add_marks(const Report &report, std::ostringstream &out) {
   if (report.distance != RIIS_DISTANCE_TRIANGLES) out << ", distances by " << distance_name(report.distance);
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
-  if (!marks.complete) out << "complete  unknown: what is not connected to the search's one start is missing\n";
+  if (!marks.complete) out << "complete  unknown: nodes that are not connected to the search's one start are missing\n";
 }
 
 void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
@@ -67,7 +67,7 @@ void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
     out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
         << leaks.found.longest_length;
   if (leaks.n_cells_left_out > 0)
-    out << "; unknown for " << counted(leaks.n_cells_left_out, "cell") << " of other kinds than riis knows edges of";
+    out << "; unknown for " << counted(leaks.n_cells_left_out, "cell") << " of kinds whose edges riis does not know";
   out << "\n";
 }
 
@@ -153,7 +153,7 @@ std::string table_of(const Report &report) {
   out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle");
   if (report.n_leaflets > 0) out << ", " << counted(report.n_leaflets, "leaflet");
   out << ", area " << report.surface.area;
-  // A valve always has some where a side is collapsed, a file should not.
+  // A valve always has such triangles at a collapsed side; a file should have none.
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";

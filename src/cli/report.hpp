@@ -19,7 +19,7 @@ struct Seconds {
   double mesh = 0;     // checking the nodes
   double adjacency = 0;
   double search = 0;
-  double leaks = 0;  // edges, and the half thickness that would close them
+  double leaks = 0;  // edges and the half thickness that would close them
   double write = 0;  // files
   double picture = 0;
 };
@@ -32,12 +32,12 @@ struct LeakReport {
 
 struct Report {
   std::string surface_name;       // the valve's kind, or a file
-  std::optional<double> opening;  // of a valve; a surface from a file has none
+  std::optional<double> opening;  // a surface from a file has none
   std::string mesh_name;          // "": no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;
   int32_t distance = RIIS_DISTANCE_TRIANGLES;
-  int64_t n_leaflets = 0;  // of a surface from a file, where --leaflets makes them; 0: not to be told
+  int64_t n_leaflets = 0;  // of a surface from a file, if --leaflets makes them; 0: not printed
   riis_surface_info surface{};
   riis_mark_stats marks{};
   LeakReport leaks;

@@ -76,7 +76,7 @@ Surface surface_of_valve(const Options &options, const riis_valve *valve) {
   return Surface(surface);
 }
 
-// The component's refusal of a file, with the command that makes one that is not refused.
+// Adds to the component's refusal of a file the command that makes a readable one.
 void check_read(riis_status status, const std::string &path, Content content) {
   try {
     check(status);
@@ -120,7 +120,7 @@ Surface surface_of_file(const Options &options, Seconds &seconds) {
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
-// K of every node for --resistance.
+// Computes K of every node for --resistance.
 std::vector<double> resistance_of(const Options &options, const riis_mark_result *result, int64_t n_nodes) {
   riis_resistance how;
   check(riis_resistance_init(&how, sizeof how));
@@ -130,7 +130,7 @@ std::vector<double> resistance_of(const Options &options, const riis_mark_result
   return coefficient;
 }
 
-// Marks a single node: what the library refuses of the options is then refused before a large mesh is read and marked.
+// Marks a single node, so that the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const Options &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
   riis_mesh *mesh_handle = nullptr;
@@ -178,15 +178,15 @@ Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis
   return adjacency;
 }
 
-// Said however quiet the user wants it: the marks may be fewer than they should.
+// Not even --quiet silences this: some marks may be missing.
 void warn_of_incomplete_marks() {
   std::fputs(
-      "riis-mark: the marks may be incomplete: --search paper misses what is not connected to its one start; "
-      "--search neighbor does not\n",
+      "riis-mark: the marks may be incomplete: --search paper misses nodes that are not connected to its one start; "
+      "--search neighbor finds them\n",
       stderr);
 }
 
-// Neither marks nor anything else of the user's is replaced by chance.
+// The program replaces no array of the user's by chance.
 void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
   if (options.output.empty() || options.replace) return;
   for (const char *what : {"_marked", "_distance", "_leaflet", options.resistance ? "_resistance" : "_marked"}) {
@@ -194,19 +194,19 @@ void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
     check(riis_vtk_mesh_has_point_array(mesh, (options.prefix + what).c_str(), &has));
     if (!has) continue;
     throw Refusal{exit_wrong_usage,
-                  options.mesh + " has an array " + options.prefix + what +
-                      " already: write --replace to replace it, or --prefix NAME for other arrays beside it"};
+                  options.mesh + " already has an array " + options.prefix + what +
+                      ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
   }
 }
 
-// K of every node, as an array of the mesh.
+// Gives the mesh an array with K of every node.
 void set_resistance(const Options &options, const riis_mark_result *result, riis_vtk_mesh *file, int64_t n_nodes) {
   if (!options.resistance) return;
   const std::vector<double> coefficient = resistance_of(options, result, n_nodes);
   check(riis_vtk_mesh_set_point_array(file, (options.prefix + "_resistance").c_str(), n_nodes, 1, coefficient.data()));
 }
 
-// Returns the marks, which pictures may want by other names than the output's.
+// Returns the marks, because pictures may need them under other names than the output.
 MarkResult mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
                 Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
@@ -256,7 +256,7 @@ std::vector<const char *> leaflet_names(const Options &options) {
   return {};
 }
 
-// Whether the valve is the paper's aortic valve as it stands there, which nobody should take for a closed one (docs/meshes.md).
+// Says whether the valve is the paper's aortic valve, which nobody should take for a closed one (docs/meshes.md).
 bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
   int64_t n_parameters = 0;
@@ -271,7 +271,7 @@ bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
   return true;
 }
 
-// Of a file the name without its folders; of a kind of valve the name with a capital, like the other captions.
+// A file has its name without folders as title. A kind of valve has its name with a capital, like the other captions.
 std::string picture_title(const Options &options, const riis_valve *valve, const Report &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);
@@ -280,7 +280,7 @@ std::string picture_title(const Options &options, const riis_valve *valve, const
   return title;
 }
 
-// Leaking edges are drawn red. A picture of a mesh without them says so if the edges of all cells are known.
+// Leaking edges are drawn red. A picture of a mesh without leaks says so if the edges of all cells are known.
 void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vtk_picture_options &how) {
   static constexpr int64_t none = 0;
   check(riis_mark_result_leaking_edges(result, &how.n_leaking_edges, &how.leaking_edges, nullptr, nullptr));
@@ -344,12 +344,12 @@ ExitCode run(const Options &options) {
   if (options.n_steps > 0) report.step = time_steps(options, valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
-    // The component draws the marks of these names; the file with the other ones is written.
+    // The component draws the marks under these names. The file with the other names is written by now.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance));
     draw_pictures(options, valve.get(), surface.get(), mesh.get(), result.get(), report);
   } catch (const Refusal &) {
-    // The marks are good all the same.
+    // The marks are still good.
     write_stats(options, report);
     throw;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what the user asked for. Out: the files, and the report on stdout. The stages in order: surface, mesh, marks,
-// files, pictures, report.
+// In: the user's request. Out: the files, and the report on stdout. The stages are, in order: surface, mesh, marks, files,
+// pictures, report.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -8,7 +8,7 @@
 
 namespace riis::cli {
 
-// exit_fine, or exit_none_marked where that was not to be expected. Throws a Refusal.
+// Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.
 ExitCode run(const Options &options);
 
 }  // namespace riis::cli

@@ -13,7 +13,7 @@
 namespace riis::cli {
 namespace {
 
-// The first steps sort the mesh's nodes, and allocate what later ones use again.
+// The first steps sort the mesh's nodes, and allocate memory that later steps reuse.
 constexpr int n_first_steps = 2;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -57,7 +57,7 @@ class KeptOpening {
   double opening_;
 };
 
-// A mesh with what the search asks for.
+// A mesh with the data that the search needs.
 struct Steps {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   Mesh mesh;

@@ -10,11 +10,11 @@ namespace riis::cli {
 
 enum class Unit { metre, centimetre, millimetre };
 
-// As they are written behind an option, and in words: "m", "metres".
+// Units as an option has them, "m", and in words, "metres".
 const std::vector<std::string> &unit_names();
 const char *name_of(Unit unit);
 const char *words_of(Unit unit);
-// The unit of one of unit_names(), none for "".
+// The unit of one of unit_names(); none for "".
 std::optional<Unit> unit_of(const std::string &name);
 
 // The factor from one unit to the other: 0.01 from centimetres to metres.
@@ -24,7 +24,7 @@ double paper_half_thickness(Unit unit);
 
 // The unit to which the factor leads from a unit; none if there is no such unit.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// The pair of units, surface and mesh, that a factor from one to the other stands for; none for other factors and for 1.
+// The pair of units, surface and mesh, for a factor from one to the other. None for other factors and for 1.
 struct UnitPair {
   Unit surface, mesh;
 };

@@ -21,10 +21,10 @@ constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
 
 std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
-// A value as it stands in the file; refuse_file cuts what is long.
+// A value as it stands in the file. refuse_file cuts long ones.
 std::string shown(const Json &value) { return value.dump(); }
 
-// The curves of one state, and of what the library needs, what comes from them.
+// The curves of one state, and the arrays that the library needs of them.
 struct Curves {
   std::vector<std::string> names;
   std::unordered_map<std::string, std::int32_t> position;
@@ -40,7 +40,7 @@ class Reader {
  public:
   explicit Reader(const std::string &path) : path_(path) {}
 
-  // where goes before the names of what is refused: "" or "open: ".
+  // where, "" or "open: ", goes before names in refusals.
   Curves curves_of(const Json &root, const std::string &where) const {
     const Json &list = member(root, "curves", where);
     if (!list.is_object())
@@ -77,7 +77,7 @@ class Reader {
     check_object(open, "\"open\"", {"curves"});
     const Curves found = curves_of(open, "open: ");
     for (const std::string &name : found.names) {
-      if (closed.position.count(name) == 0) refuse("open: curve " + quoted(name) + " is not one of the closed state");
+      if (closed.position.count(name) == 0) refuse("open: curve " + quoted(name) + " is not a curve of the closed state");
     }
     Curves ordered{closed.names, closed.position, {}, {}};
     std::vector<std::size_t> begins = {0};
@@ -135,7 +135,7 @@ class Reader {
     }
     for (std::size_t i = 0; i < points.size(); ++i)
       add_point(points[i], curve + ": point " + std::to_string(i), curves);
-    // A side collapsed to a point is a line of no length.
+    // A side collapsed to a point is a line without length.
     if (points.size() == 1) add_point(points[0], curve, curves);
     curves.degrees.push_back(std::max(1, static_cast<std::int32_t>(points.size()) - 1));
   }
@@ -168,7 +168,7 @@ class Reader {
 
   std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    // As unsigned, a negative number is too large as well.
+    // A negative number is also too large, as an unsigned one.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
       refuse(subject + ": leaflet is " + shown(value) + "; it must be a whole number from 0 to " +
              std::to_string(most));
@@ -179,7 +179,7 @@ class Reader {
   const std::string &path_;
 };
 
-// The library counts curves and names sides by their parameter; here both have names of the file.
+// The library counts curves and names sides by their parameter. Here both get the names of the file.
 std::string with_names(std::string text, const Curves &curves, const Patches &patches) {
   std::smatch match;
   if (std::regex_search(text, match, std::regex("curve ([0-9]+)"))) {

@@ -11,7 +11,7 @@
 namespace riis::cli {
 namespace {
 
-// Fewer nodes may well lie near the surface, all of them.
+// With fewer nodes, all of them may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
 Box box_of(int64_t n_nodes, const double *xyz) {
@@ -34,7 +34,7 @@ std::string text_of(const Box &box) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// A single layer of nodes all over the surface would be about area / edge^2.
+// A single layer of nodes all over the surface would have about area / edge^2 nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -52,7 +52,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Where sizes explain nothing: the places.
+// Tells the places, for the case that sizes explain nothing.
 std::string places_text(const Situation &s) {
   return "the mesh is in " + text_of(s.mesh) + ", the surface in " + text_of(s.surface) + ", the half thickness is " +
          shown(s.half_thickness) + ": see --translate, --rotate, --scale, --half-thickness";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what was marked, and how large everything is. Out: the line that tells what looks wrong and what to write instead.
+// In: the number of marks and all sizes. Out: the line that tells what looks wrong and what to write instead.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -15,7 +15,7 @@ struct Box {
   double largest_side() const;
 };
 
-// A marking, with the sizes of what took part in it, in the mesh's unit.
+// A marking with the sizes of its mesh and surface, in the mesh's unit.
 struct Situation {
   const Options &options;
   int64_t n_nodes, n_marked;
@@ -31,7 +31,7 @@ Situation situation_of(const Options &options, const riis_surface_info &surface,
 // "" if nothing looks wrong. Without line breaks.
 std::string warning_of(const Situation &situation);
 
-// Says it on stderr, however quiet the user wants the program: marks that are wrong look like marks that are right.
+// Prints the line on stderr. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
 
 }  // namespace riis::cli

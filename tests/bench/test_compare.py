@@ -46,7 +46,7 @@ class Compare(unittest.TestCase):
     def test_the_same_passes(self):
         status, text = self.judge(BASE)
         self.assertEqual(status, 0, text)
-        self.assertIn("0 of 2 slower", text)
+        self.assertIn("0 of 2 are slower", text)
 
     def test_a_slower_one_fails_and_is_named(self):
         status, text = self.judge({**BASE, "mark": 13.1})

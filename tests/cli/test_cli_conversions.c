@@ -22,7 +22,7 @@ static void test_texts(void **state) {
   RUN_REFUSED(1, "gmsh -save 'my heart.msh' -format vtk -o 'my heart.vtk'\n", "my heart.msh");
   RUN_REFUSED(1, "gmsh -save 'it'\\''s.msh' -format vtk -o 'it'\\''s.vtk'\n", "it's.msh");
   RUN_REFUSED(1, "gmsh -save ./-x.msh -format vtk -o ./-x.vtk\n", "--", "-x.msh");
-  RUN_REFUSED(1, "valve.stl: a mesh must be a .vtu or .vtk file; a surface goes behind --surface\n", "valve.stl");
+  RUN_REFUSED(1, "valve.stl: a mesh must be a .vtu or .vtk file; --surface takes a surface\n", "valve.stl");
   RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "heart.doc");
   RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "he\nart.msh");
   RUN_REFUSED(1,

@@ -115,7 +115,7 @@ static void test_two_valves(void **state) {
   snprintf(both, sizeof both, "%s", scratch_path("both.vtu"));
   RUN_FINE(scratch_path("in.vtu"), "--output", first, "--stats", "-");
   const double n_aortic = json_number(program_out, "n_marked");
-  RUN_REFUSED(2, "first.vtu has an array riis_marked already: write --replace to replace it, or --prefix NAME", first,
+  RUN_REFUSED(2, "first.vtu already has an array riis_marked: write --replace to replace it, or --prefix NAME", first,
               "--valve", "mitral", "--output", both);
   assert_int_equal(scratch_exists("both.vtu"), 0);
   RUN_FINE(first, "--valve", "mitral", "--prefix", "mitral", "--output", both, "--stats", "-");
@@ -125,7 +125,7 @@ static void test_two_valves(void **state) {
   assert_true(n_marked_in(both, "mitral_marked") == n_mitral);
   assert_int_equal(shim_read_array(both, 'p', "mitral_distance", NULL, NULL, NULL, NULL), 1);
   assert_int_equal(shim_read_array(both, 'p', "mitral_leaflet", NULL, NULL, NULL, NULL), 1);
-  RUN_REFUSED(2, "both.vtu has an array mitral_marked already", both, "--prefix", "mitral", "--output", both);
+  RUN_REFUSED(2, "both.vtu already has an array mitral_marked", both, "--prefix", "mitral", "--output", both);
   RUN_FINE(both, "--replace", "--prefix", "mitral", "--output", both, "--quiet");
   assert_true(n_marked_in(both, "mitral_marked") == n_aortic);
   RUN_FINE(both, "--valve", "mitral", "--replace", "--output", both, "--quiet");

@@ -201,7 +201,7 @@ static void test_other_cells(void **state) {
   assert_true(json_number(json, "n_cells_without_known_edges") == 9);
   free(json);
   run_program(scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
-  assert_non_null(strstr(program_out, "between unmarked nodes; unknown for 9 cells of other kinds"));
+  assert_non_null(strstr(program_out, "between unmarked nodes; unknown for 9 cells of kinds whose edges"));
 }
 
 int main(void) {

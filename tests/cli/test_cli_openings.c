@@ -151,7 +151,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--opening: nan is not from 0 to 1", mesh, "--opening", "nan");
   RUN_REFUSED(2, "--opening: 'half' is not a number", mesh, "--opening", "half");
   RUN_REFUSED(1, "--set: parameter 'opening' is 1.5", mesh, "--set", "opening=1.5");
-  RUN_REFUSED(2, "--opening and --set opening: only one of them", mesh, "--opening", "0", "--set", "opening=0");
+  RUN_REFUSED(2, "--opening and --set opening exclude each other", mesh, "--opening", "0", "--set", "opening=0");
   RUN_REFUSED(2, "--surface excludes --opening", mesh, "--opening", "0", "--surface", "a.stl");
   RUN_REFUSED(2, "--params-open", mesh, "--params-open", file, "--surface", "a.stl");
   RUN_REFUSED(2, "--params-open needs --opening", mesh, "--params-open", file);
@@ -167,8 +167,8 @@ static void test_refusals(void **state) {
               "left.leaflet_angle=3");
   RUN_REFUSED(1, "is not a kind of valve; there are: aortic, mitral, and files of patches, FILE.json", mesh, "--valve",
               "tricuspid");
-  /* An output must not replace an input. */
-  RUN_REFUSED(2, "is the file of --params-open too", mesh, "--params-open", file, "--opening", "0", "--stats", file);
+  /* No input is replaced. */
+  RUN_REFUSED(2, "is also the file of --params-open", mesh, "--params-open", file, "--opening", "0", "--stats", file);
 }
 
 static int make_mitral_box(void **state) {

@@ -232,7 +232,7 @@ static void test_changed_files(void **state) {
       {1, "[[1, 0.5, -1]]", "[[1, 0.5]]", "v.json: open: curve \"tip\": point 0 is [1,0.5]"},
       {1, "\"tip\": [[1, 0.5, -1]],", "", "v.json: open: curve \"tip\" is missing"},
       {1, "\"tip\": [[1, 0.5, -1]]", "\"top\": [[1, 0.5, -1]]",
-       "v.json: open: curve \"top\" is not one of the closed state"},
+       "v.json: open: curve \"top\" is not a curve of the closed state"},
   };
   for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
@@ -241,8 +241,8 @@ static void test_changed_files(void **state) {
   /* A curve without length becomes a side that opens, and the other way round. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE(scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
-  /* An output must not replace an input. */
-  RUN_REFUSED(2, "is the file of --valve too", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--stats",
+  /* No input is replaced. */
+  RUN_REFUSED(2, "is also the file of --valve", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--stats",
               scratch_path("v.json"));
 }
 

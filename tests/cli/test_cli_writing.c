@@ -28,19 +28,19 @@ static void test_same_file_twice(void **state) {
   char *before = scratch_read(mesh, &size[0]);
   scratch_write_text("v.json", "{\"root_radius\": 1.3}");
   RUN_REFUSED(2, "--stats: ", mesh, "--stats", mesh, "--quiet");
-  assert_non_null(strstr(program_err, "is the file of MESH too"));
-  RUN_REFUSED(2, "is the file of --params too", mesh, "--params", params, "--stats", params);
-  RUN_REFUSED(2, "is the file of --surface too", mesh, "--surface", "s.stl", "--stats", "s.stl");
-  RUN_REFUSED(2, "is the file of --surface too", mesh, "--surface", "s.vtu", "--output", "s.vtu");
-  RUN_REFUSED(2, "is the file of --output too", mesh, "--output", out, "--stats", out);
-  RUN_REFUSED(2, "is the file of --picture too", mesh, "--picture", "a.png", "--picture", "./a.png");
-  RUN_REFUSED(2, "is the file of --surface-output too", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
-  /* The same file by another name. */
+  assert_non_null(strstr(program_err, "is also the file of MESH"));
+  RUN_REFUSED(2, "is also the file of --params", mesh, "--params", params, "--stats", params);
+  RUN_REFUSED(2, "is also the file of --surface", mesh, "--surface", "s.stl", "--stats", "s.stl");
+  RUN_REFUSED(2, "is also the file of --surface", mesh, "--surface", "s.vtu", "--output", "s.vtu");
+  RUN_REFUSED(2, "is also the file of --output", mesh, "--output", out, "--stats", out);
+  RUN_REFUSED(2, "is also the file of --picture", mesh, "--picture", "a.png", "--picture", "./a.png");
+  RUN_REFUSED(2, "is also the file of --surface-output", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
+  /* By another name. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
-  RUN_REFUSED(2, "is the file of MESH too", mesh, "--stats", scratch_path("link.vtu"));
-  RUN_REFUSED(2, "is the file of MESH too", mesh, "--stats", scratch_path("./in.vtu"));
-  RUN_REFUSED(2, "is the file of --params too", mesh, "--params", params, "--stats", scratch_path("hard.json"));
+  RUN_REFUSED(2, "is also the file of MESH", mesh, "--stats", scratch_path("link.vtu"));
+  RUN_REFUSED(2, "is also the file of MESH", mesh, "--stats", scratch_path("./in.vtu"));
+  RUN_REFUSED(2, "is also the file of --params", mesh, "--params", params, "--stats", scratch_path("hard.json"));
   expect_text("v.json", "{\"root_radius\": 1.3}");
   char *after = scratch_read(mesh, &size[1]);
   assert_int_equal(size[0], size[1]);
