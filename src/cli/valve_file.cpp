@@ -22,7 +22,7 @@ constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
 std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
 // A value as it stands in the file. refuse_file cuts long ones.
-std::string shown(const Json &value) { return value.dump(); }
+std::string json_text(const Json &value) { return value.dump(); }
 
 // The curves of one state, and the arrays that the library needs of them.
 struct Curves {
@@ -143,7 +143,7 @@ class Reader {
   void add_point(const Json &point, const std::string &subject, Curves &curves) const {
     const bool is_point = point.is_array() && point.size() == 3 &&
                           std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
-    if (!is_point) refuse(subject + " is " + shown(point) + "; it must be three numbers, [x, y, z]");
+    if (!is_point) refuse(subject + " is " + json_text(point) + "; it must be three numbers, [x, y, z]");
     for (const Json &x : point) curves.control.push_back(x.get<double>());
   }
 
@@ -152,7 +152,7 @@ class Reader {
     check_object(patch, subject, {"v0", "v1", "u0", "u1", "leaflet"});
     for (const char *key : side_keys) {
       const Json &side = member(patch, key, subject + ": ");
-      if (!side.is_string()) refuse(subject + ": " + key + " is " + shown(side) + "; it must be the name of a curve");
+      if (!side.is_string()) refuse(subject + ": " + key + " is " + json_text(side) + "; it must be the name of a curve");
       const std::string &text = side.get_ref<const std::string &>();
       const bool reversed = !text.empty() && text[0] == '-';
       const auto found = curves.position.find(text.substr(reversed ? 1 : 0));
@@ -170,7 +170,7 @@ class Reader {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
     // A negative number is also too large, as an unsigned one.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
-      refuse(subject + ": leaflet is " + shown(value) + "; it must be a whole number from 0 to " +
+      refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
              std::to_string(most));
     }
     return value.get<std::int32_t>();
@@ -247,7 +247,7 @@ void ValveFile::check_opening() const {
   double opening = 0;
   check(riis_valve_get(valve_.get(), "opening", 1, &opening));
   if (opening != 0 && !can_open_) {
-    refuse_file(path_, "opening is " + shown(opening) + ", but the file has no \"open\" state");
+    refuse_file(path_, "opening is " + json_text(opening) + ", but the file has no \"open\" state");
   }
 }
 
