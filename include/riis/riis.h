@@ -17,30 +17,35 @@
  *   riis_mark_nodes(surface, mesh, NULL, result);                                  (once a time step)
  *   riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL);
  *
- * Conventions for every function:
+ * Rules for every function, not repeated below:
  *
- * - Lengths have one unit of the caller's choice. The valve tables are in centimetres; a placement's scale
- *   turns them into the mesh's unit (0.01 for metres). Angles are in degrees.
- * - Anything called *_id counts from 0, also in messages. Ids that the caller gives count from index_base.
- * - A function that can fail returns a riis_status. 0 is success. A positive status refuses the call, and no
- *   object changed. A negative status leaves an object passed for writing fit for destruction only.
+ * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valve tables are in
+ *   centimetres; a placement's scale turns them into the mesh's unit (0.01 for metres).
+ * - Ids: anything called *_id counts from 0, also in messages. Ids that the caller gives count from a field
+ *   index_base, 0 (default) or 1. A field *_bits tells their width: 32 (default) or 64.
+ * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride is
+ *   at least 1, in doubles: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2.
+ * - Status: a function that can fail returns a riis_status. 0 is success. A positive status refuses the call,
+ *   and no object changed. A negative status leaves an object passed for writing fit for destruction only.
  *   riis_last_error() has the message. No function aborts, prints, throws, or lets an exception out.
- * - Every function may return these, not repeated below: RIIS_INVALID_ARGUMENT for a NULL that is not allowed
- *   or an option out of range, RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
- * - A new object is the last argument, written only on success. Destroying takes the address of the handle,
+ * - Errors: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out of range,
+ *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
+ * - Handles: a new object is the last argument, written only on success. Destroying takes a handle's address,
  *   sets it to NULL, and accepts NULL. A handle of another kind is refused; destroying leaves it alone.
- * - An argument struct_size is sizeof of the struct as the caller compiled it; a call writes no more. An
- *   option struct begins with it, and its init function sets it. A NULL options pointer means all defaults.
- *   Fields are only ever appended.
- * - Any number of threads may read a handle (const) at once. One thread may write it while no other reads it.
- *   Different handles never interfere. Results are bitwise the same for any number of threads.
- * - n_threads is 1 to 1024. 0, its default, stands for the processors in the affinity mask of the calling
- *   thread; OMP_NUM_THREADS and omp_set_num_threads do not matter. With 1 no thread is started, except that
- *   Embree builds its scene on threads of TBB. A child of fork() may use 1 only. Where the system refuses a
- *   thread, or its memory, the run-times of OpenMP and TBB end the process (docs/building.md).
- * - Each call, including a log function, runs with the default floating-point environment and restores the
- *   caller's: its traps, rounding mode and flush-to-zero have no effect. The caller's OpenMP and TBB settings
- *   stay.
+ * - Memory: a call reads its arguments and their arrays only while it runs, unless they are borrowed. Arrays
+ *   that it gives belong to the handle, until the handle's next update or its destruction. Empty arrays are
+ *   NULL, and any pointer to receive them may be NULL.
+ * - Structs: struct_size is sizeof of the struct as the caller compiled it; a call writes no more. An init
+ *   function sets struct_size, the defaults, and all else to 0 or NULL. A NULL options pointer means all
+ *   defaults. Fields are only ever appended.
+ * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
+ *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
+ * - n_threads: 1 to 1024, or 0, the default: the processors in the calling thread's affinity mask, whatever
+ *   OMP_NUM_THREADS and omp_set_num_threads say. With 1 no thread is started, except that Embree builds its
+ *   scene on threads of TBB. A child of fork() may use 1 only. Where the system refuses a thread, or its
+ *   memory, the run-times of OpenMP and TBB end the process (docs/building.md).
+ * - Environment: each call, including a log function, runs with the default floating-point environment and
+ *   restores the caller's. The caller's OpenMP and TBB settings stay.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from
  * parametric surface models: application to cardiac valves" (2025); docs/theory.md lists every departure.
@@ -69,26 +74,21 @@ extern "C" {
  * Status, errors, log, version
  * -------------------------------------------------------------------------------------------------------- */
 
-/* What a call returns. The values are part of the ABI and never change; new ones are appended at either
- * end. */
+/* What a call returns. Values are part of the ABI and never change; new ones are appended at either end. */
 typedef int32_t riis_status;
 /* Values of riis_status. */
 enum {
   RIIS_OK = 0,                  /* success */
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
-  RIIS_INVALID_STRUCT_SIZE = 2, /* struct_size fits no release of this struct: its init function did not fill
-                                   it, or the caller was compiled against a newer riis.h than the library */
-  RIIS_INVALID_PARAMETER = 3,   /* a valve or one of its parameters: unknown name, value out of range, values
-                                   that do not go together */
-  RIIS_INVALID_SURFACE = 4,     /* the caller's surface arrays: empty, non-finite, index out of range, zero
-                                   area */
+  RIIS_INVALID_STRUCT_SIZE = 2, /* fits no release: struct not initialised, or riis.h newer than library */
+  RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that clash */
+  RIIS_INVALID_SURFACE = 4,     /* the caller's surface: empty, non-finite, index out of range, zero area */
   RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is sound but larger than the library takes on */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
   RIIS_FILE_ERROR = 8,          /* a file is unreadable, unwritable or of other content (riis_vtk.h) */
   RIIS_UNAVAILABLE = 9,         /* something outside the library is missing, such as a display (riis_vtk.h) */
-  RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it; destroy the objects passed for
-                                   writing */
+  RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it */
 };
 
 /* Returns the status's own name, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
@@ -103,8 +103,7 @@ RIIS_API void riis_version(int32_t *major, int32_t *minor, int32_t *patch);
 /* Returns the same as static text, such as "0.1.0". */
 RIIS_API const char *riis_version_string(void);
 
-/* Receives the library's messages, on any thread that calls the library. It must not call the library, throw
- * or jump out.
+/* Receives messages on any thread that calls the library. It must not call the library, throw or jump out.
  *   user_data  what riis_set_log was given
  *   level      RIIS_LOG_INFO or RIIS_LOG_WARNING
  *   message    one line without a newline; valid during the call only */
@@ -112,12 +111,10 @@ typedef void (*riis_log_function)(void *user_data, int32_t level, const char *me
 /* The levels of a message. */
 enum {
   RIIS_LOG_INFO = 0,   /* what was built and how large */
-  RIIS_LOG_WARNING = 1 /* the library did something that the caller may not expect, such as skipping
-                          triangles */
+  RIIS_LOG_WARNING = 1 /* what the caller may not expect: skipped triangles, sizes in different units */
 };
 /* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
- * under way in another thread may still reach the former function. Warnings come from surfaces that skip
- * triangles, and from riis_mark_nodes, where sizes look like different units.
+ * under way in another thread may still reach the former function.
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
@@ -132,8 +129,7 @@ RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the paper's parameter values.
- *   kind  "aortic", three cusps, or "mitral", two leaflets
- * Errors: RIIS_INVALID_PARAMETER for an unknown kind. */
+ *   kind  "aortic", three cusps, or "mitral", two leaflets; any other is RIIS_INVALID_PARAMETER */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Each is destroyed on its own. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
@@ -141,62 +137,50 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by the paper's name. To move a valve, set "opening" and call riis_surface_update.
- *   name      "root_radius" or "AP_diameter" for the whole valve, "right.leaflet_angle" or "left.rotation"
- *             for one cusp ("right", "left", "non_coronary"). A cusp's parameter without a cusp's name sets
- *             all three cusps.
- *   n_values  the parameter's own length: 1, or 3 for rotation and translation (x, y, z) and t0_*, t3_*
- *             (right, left, non-coronary cusp)
- *   values    copied; each within the parameter's range
- * "opening", from 0 to 1, is the coefficient of motion of every kind: control points are blended from a
- * closed to an open state. The mitral valve's parameters make both states, and it is open, 1, by default.
- * Other valves stay at 0 until riis_valve_set_open_state. riis_surface_create checks whether values go
- * together, such as a bending height below the leaflet height, so their order does not matter.
+ *   name      such as "root_radius" of a valve, "right.leaflet_angle" of one cusp ("right", "left",
+ *             "non_coronary"), "leaflet_angle" of all three
+ *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp), else 1
+ *   values    each within the parameter's range; riis_surface_create checks whether values go together
+ * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. The mitral valve has both
+ * states and is open, 1, by default. Other valves stay at 0 until riis_valve_set_open_state.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
 /* Sets a parameter that has one value. */
 RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
-/* Copies a parameter's values out; arguments as in riis_valve_set. A name that stands for all cusps is
- * refused (RIIS_INVALID_PARAMETER), because they may differ. */
+/* Copies a parameter's values out; arguments as in riis_valve_set.
+ * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Gives the valve a second state to open to: its own state is the one at opening 0, the other valve's at
- * opening 1. Between them the control points of every curve are blended linearly. So are aortic rotations and
- * translations, and of the mitral valve anterior_ratio, triangle_size_ratio, translation and the tangent of
- * surface_angle. A mitral valve's closed curves come from the first state, its open ones from the second; at
- * its default opening, 1, only the second counts.
- *   open  copied. It is of the same kind; a valve from patches has the same curves, degrees (1 and 2 mix) and
- *         sides. Its own opening, leaflet ids and second state do not matter
- * A second call replaces the state; none takes it away.
- * Errors: RIIS_INVALID_PARAMETER for a valve of another kind or build. */
+/* Gives the valve a second state to open to: its own state is at opening 0, the other valve's at opening 1.
+ * Control points blend linearly (docs/theory.md, section 5). A second call replaces the state; none removes
+ * it.
+ *   open  of the same kind, else RIIS_INVALID_PARAMETER; from patches, with the same curves, degrees (1 and 2
+ *         mix) and sides. The opening, leaflet ids and second state of open do not matter */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
-/* The caller's own valve, such as a prosthesis: Coons patches by their four boundary curves (paper, 3.3).
- * Arrays are read during the call only. A patch's sides are named by the parameter that is constant on them.
- * v = 0 and v = 1 run with u, from the side u = 0 to the side u = 1; those two run with v, from v = 0 to v =
- * 1. Corners meet to 1e-9 of the valve's size, normals are along S_u x S_v, and a side may be a single point.
- * A curve that patches share is given once and named twice: then they meet without cracks. */
+/* The caller's own valve, such as a prosthesis: Coons patches by their four boundary curves (paper, 3.3). The
+ * sides v = 0 and v = 1 run from the side u = 0 to the side u = 1; those run from v = 0 to v = 1. Corners
+ * meet to 1e-9 of the valve's size, normals are along S_u x S_v, and a side may be a single point. Patches
+ * that name one curve meet without cracks. */
 typedef struct riis_patches {
   int64_t struct_size;       /* set by the init function */
   int64_t n_curves;          /* 1 to 4,000,000; each the side of some patch */
   const int32_t *degree;     /* (n_curves): 1, 2 or 3, Bezier curves with degree + 1 control points */
-  const double *control;     /* (3, sum of all degree + 1): control points, curve after curve; finite,
-                                magnitude at most 1e30 */
+  const double *control;     /* (3, sum of all degree + 1), curve after curve; finite, at most 1e30 */
   int64_t n_patches;         /* 1 to 1,000,000 */
   const int32_t *curve_id;   /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
-  const int32_t *reversed;   /* (4, n_patches): 1 where the side runs from the curve's last point to its
-                                first, else 0; NULL: all 0 */
+  const int32_t *reversed;   /* (4, n_patches): 1 if the side runs against its curve, else 0; NULL: all 0 */
   const int32_t *leaflet_id; /* (n_patches), >= 0; NULL: all 0 */
-  int32_t index_base;        /* 0 or 1: the number of the first curve in curve_id. Default 0 */
+  int32_t index_base;        /* of curve_id */
   int32_t reserved;          /* 0 */
 } riis_patches;
-/* Fills *patches with the defaults, all else with 0 and NULL. */
+/* Fills *patches with the defaults. */
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size);
 
 /* Makes a valve from patches. Its only parameter is "opening"; patch_id is the patch's number.
- * Errors: RIIS_INVALID_ARGUMENT for a field out of range; RIIS_INVALID_PARAMETER naming the curve or patch
- * and its value, such as sides that do not meet. */
+ * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
 /* The description of a parameter. The texts are static. */
@@ -212,8 +196,7 @@ typedef struct riis_parameter {
 /* Tells how many parameters the valve has. */
 RIIS_API riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters);
 /* Describes a parameter.
- *   parameter_id  0 to n_parameters - 1
- * Errors: RIIS_INVALID_ARGUMENT for a parameter_id out of range. */
+ *   parameter_id  0 to n_parameters - 1 */
 RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id,
                                           riis_parameter *parameter, int64_t struct_size);
 
@@ -239,29 +222,25 @@ enum {
   RIIS_ZERO_AREA_SKIP = 1    /* skip them, count them, log a warning; the ids of the others do not change */
 };
 
-/* How the distance of a point to the surface is measured (paper, 4.1). The other two are the paper's, for
- * comparison, and only for surfaces of valves. They work on patches S(u,v), which are within a tenth of their
- * error, distance_tolerance * half_thickness, of the smooth surface (docs/theory.md, section 9). */
+/* How the distance of a point to the surface is measured (paper, 4.1). The last two are the paper's, for
+ * comparison, and only for surfaces of valves. They measure to points S(u,v) of patches, up to the error
+ * distance_tolerance * half_thickness (docs/theory.md, section 9). Such a closest point has the leaflet_id of
+ * its patch, the normal of S (0 0 0 where S has none), triangle_id -1, barycentric 0 and side 0.
+ * RIIS_INVALID_ARGUMENT refuses arrays for barycentric and side, and RIIS_SEARCH_CLUSTERS. */
 enum {
   RIIS_DISTANCE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
-  RIIS_DISTANCE_SAMPLING = 1,    /* the nearest of points S(u,v), evenly spaced on every patch: distances are
-                                    within the error, and below by at most a tenth of it. At most 16,777,216
-                                    points */
-  RIIS_DISTANCE_MINIMIZATION = 2 /* Powell's method (1964) on every patch, from u = v = 0.5 until an iteration
-                                    gains no more than the error (paper: 0.001, 0.01). It may end in a local
-                                    minimum: distances are below by at most a tenth of the error, but above by
-                                    any amount, unnoticed */
+  RIIS_DISTANCE_SAMPLING = 1,    /* the nearest of points evenly spaced on every patch, at most 16,777,216:
+                                    within the error, and below by at most a tenth of it */
+  RIIS_DISTANCE_MINIMIZATION = 2 /* Powell's method (1964) on every patch: below by at most a tenth of the
+                                    error, but above by any amount, unnoticed, in a local minimum */
 };
 
-/* How a surface is made and placed: x -> scale * rotation * x + translation is applied last, to valves and
- * arrays. */
+/* How a surface is made and, last, placed: x -> scale * rotation * x + translation, for valves and arrays. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
-  double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50: a node is marked when its
-                              distance to the surface is at most this. Default RIIS_AUTO: 0.1 * scale */
-  double tolerance;        /* 1e-6 to 1, default 0.05. For a valve, distances to the triangles and to the
-                              smooth surface differ by at most tolerance * half_thickness (docs/theory.md,
-                              "Tolerance") */
+  double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
+  double tolerance;        /* 1e-6 to 1, default 0.05. Distances to a valve's triangles and to its smooth
+                              surface differ by at most tolerance * half_thickness (docs/theory.md) */
   double scale;            /* 1e-12 to 1e12, default 1 */
   double rotation_axis[3]; /* components up to 1e50, length at least 1e-50; default (0, 0, 1) */
   double rotation_angle;   /* degrees, counter-clockwise seen against the axis; -1e6 to 1e6, default 0 */
@@ -269,11 +248,9 @@ typedef struct riis_surface_options {
                               would round by more than a thousandth of tolerance * half_thickness */
   int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
-  int32_t distance;        /* RIIS_DISTANCE_*, for closest points and marking; default
-                              RIIS_DISTANCE_TRIANGLES, the only one for arrays. Vertices, bounds, area and
-                              pictures are the triangles' with any */
-  int32_t n_threads;       /* default 0: one for every 4096 triangles of the former content, at most one a
-                              processor */
+  int32_t distance;        /* RIIS_DISTANCE_*, of closest points and marking only; default
+                              RIIS_DISTANCE_TRIANGLES, the only one for arrays */
+  int32_t n_threads;       /* default 0: 1 per 4096 triangles of the last content, at most 1 a processor */
   double distance_tolerance; /* for the other two distances: 1e-6 to 1, default RIIS_AUTO: tolerance */
 } riis_surface_options;
 /* Fills *options with the defaults. */
@@ -281,116 +258,108 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 
 /* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles, Embree scene (paper, 3
  * and 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
- * of the aortic valve, from the atrial to the ventricular face of the mitral valve. Triangles of zero area
- * are skipped; they arise where a side is a point, at the root of each cusp and at the mitral commissures.
- *   valve    read during the call only
- *   options  NULL for defaults
- * Errors: RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not
- * go together or throw a curve far away; RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216
- * triangles, or distance_tolerance as many quads or samples. */
+ * of the aortic valve, from the atrial to the ventricular face of the mitral valve. Triangles of zero area,
+ * at the root of each cusp and at the mitral commissures, are skipped.
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together or throw a curve far away;
+ * RIIS_LIMIT_EXCEEDED where a tolerance needs more than 16,777,216 triangles, quads or samples. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
-/* The caller's own surface, triangles or quads. Arrays are read during the call only. */
+/* The caller's own surface, triangles or quads. */
 typedef struct riis_surface_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
-  const double *x, *y, *z;   /* vertex i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at
-                                most 1e60 */
-  int64_t stride;            /* in doubles; 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2.
-                                Default 1 */
+  const double *x, *y, *z;   /* the vertices */
+  int64_t stride;            /* of x, y and z. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
-  const void *vertex_ids;    /* (corners_per_face, n_faces); their order makes the normal by the right-hand
-                                rule */
-  int32_t vertex_id_bits;    /* 32 or 64: vertex_ids points to int32_t or int64_t. Default 32 */
-  int32_t index_base;        /* 0 or 1: the number of the first vertex in vertex_ids. Default 0 */
+  const void *vertex_ids;    /* (corners_per_face, n_faces); the right-hand rule makes the normal */
+  int32_t vertex_id_bits;    /* of vertex_ids */
+  int32_t index_base;        /* of vertex_ids */
   int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
   int32_t reserved;          /* 0 */
   const int32_t *leaflet_id; /* one per face, >= 0; NULL: all 0 */
-  const double *vx, *vy, *vz; /* velocity of vertex i: vx[i * velocity_stride] and so on; finite, magnitude at most
-                                1e60. The placement turns and scales it, and does not move it. All NULL: none */
-  int64_t velocity_stride;   /* in doubles, >= 1. Default 1 */
+  const double *vx, *vy, *vz; /* velocities of the vertices, points by velocity_stride. The placement turns
+                                 and scales them, and does not move them. All NULL: none */
+  int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
 } riis_surface_arrays;
-/* Fills *arrays with the defaults, all else with 0 and NULL. */
+/* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of
  * quad q have 2 q and 2 q + 1. Skipped triangles keep their ids. A triangle has zero area when its height
  * over its longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60.
- * Errors: RIIS_INVALID_ARGUMENT for a field or option out of range; RIIS_LIMIT_EXCEEDED for too many vertices
- * or faces; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
+ * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
 
-/* Replaces the surface's content, as for a valve that moved. The handle stays; pointers got from it before
- * end.
- *   valve    read during the call only
+/* Replaces the surface's content, as for a valve that moved. The handle stays.
  *   options  NULL keeps the surface's own options, not the defaults
- * Errors: as riis_surface_create; a positive status leaves the surface as it was. */
+ * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
-/* Replaces the surface's content as riis_surface_update does, with the same triangles to the last bit, and gives
- * every vertex a velocity: from the point with the same patch, u and v of an earlier state to the vertex, over the
- * time between. Nothing is remembered from call to call, so that sub-iterations, rejected steps, restarts and
- * valves that run backwards need no rule. A valve at rest is its own state before.
- *   valve_before    the state before: of the same kind; a valve from patches has the same curves and sides. Read
- *                   during the call only
+/* Replaces the surface's content as riis_surface_update does, with the same triangles to the last bit, and
+ * gives every vertex a velocity: from the point with the same patch, u and v of an earlier state to the
+ * vertex, over the time between (docs/theory.md, section 10). A valve at rest is its own state before.
+ *   valve_before    the state before: of the same kind; from patches, with the same curves and sides
  *   seconds         from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
  *   options_before  scale, rotation and translation before; its other fields do not count. NULL: those of now
- * The mean velocity over the time between is that of its middle to second order, that of either end to first.
- * Where two leaflets touch, the velocity is that of the triangle with the lowest id, and jumps there.
- * Errors: as riis_surface_update; RIIS_INVALID_ARGUMENT for seconds out of range; RIIS_INVALID_PARAMETER for a
- * valve_before of another kind or build, or whose parameters do not go together. */
+ * This mean velocity is that of the middle of the time to second order, that of either end to first. Where
+ * two leaflets touch, it is that of the triangle with the lowest id, and jumps there.
+ * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
+ * whose parameters do not go together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
                                                 const riis_valve *valve_before, double seconds,
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
-/* Replaces the surface's content from arrays. Errors: as riis_surface_create_from_arrays. */
+/* Replaces the surface's content from arrays; options as in riis_surface_update.
+ * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
-
 /* Interpolation between keys in time. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is that behind it */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
 };
-/* A surface that moves by frames, as of a patient's valve: the same faces, other places of the vertices. */
+/* A surface that moves by frames, such as a patient's valve: the same faces, other places of the vertices. */
 typedef struct riis_keyframes riis_keyframes;
-/* The frames. Arrays are read during the call only. */
+/* The frames. */
 typedef struct riis_keyframe_arrays {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
   int64_t n_vertices;    /* of each frame, that of the faces */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
-  const double *xyz;     /* (3, n_vertices, n_keys): the vertices, frame after frame; finite, magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats; its keys lie within a period of the first, and a last key that
-                            is a period after the first has its frame. 0, the default: the first frame counts before
-                            its time, the last one after it */
+  const double *xyz;     /* (3, n_vertices, n_keys): the vertices, frame after frame; finite, magnitude at
+                            most 1e60 */
+  double period;         /* > 0: the motion repeats; its keys lie within a period of the first, and a last key
+                            that is a period after the first has its frame. 0, the default: the first frame
+                            counts before its time, the last one after it */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_keyframe_arrays;
-/* Fills *frames with the defaults, all else with 0 and NULL. */
+/* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
 /* Copies faces and frames.
  *   faces  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
- * Errors: RIIS_INVALID_ARGUMENT for a field out of range; RIIS_INVALID_SURFACE naming the frame, vertex or face. */
-RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *faces, const riis_keyframe_arrays *frames,
-                                           riis_keyframes **keyframes);
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face. */
+RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *faces,
+                                           const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
  *   time   finite, magnitude at most 1e30
  *   since  the time that the velocity is the mean from; time itself for the derivative of the interpolation
- * Errors: as riis_surface_create_from_arrays; RIIS_INVALID_ARGUMENT for a time that is not finite. */
+ * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time,
                                                         double since, const riis_surface_options *options,
                                                         riis_surface **surface);
-/* Replaces the surface's content in the same way. Arguments as there; options as in riis_surface_update. */
-RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
-                                                        double time, double since,
+/* Replaces the surface's content as riis_surface_create_from_keyframes makes it; options as in
+ * riis_surface_update. */
+RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface,
+                                                        const riis_keyframes *keyframes, double time,
+                                                        double since,
                                                         const riis_surface_options *options);
-/* Destroys the surface. Pointers got from it end, results stay. */
+/* Destroys the surface. Results stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
 /* The size of a surface, and the time that it took. */
@@ -408,27 +377,21 @@ typedef struct riis_surface_info {
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
                                            int64_t struct_size);
 
-/* Gives the vertices, xyz(3, n_vertices), after placement. Any pointer may be NULL. Owned by the surface,
- * valid until its next update or its destruction. */
+/* Gives the vertices, xyz(3, n_vertices), after placement. */
 RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices,
                                            const double **xyz);
-/* Gives each vertex's place on its patch, uv(2, n_vertices), in [0,1]; NULL for a surface from arrays.
- * Lifetime as riis_surface_vertices. */
+/* Gives each vertex's place on its patch, uv(2, n_vertices), in [0,1]; NULL for a surface from arrays. */
 RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **uv);
-/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL unless the last update gave velocities.
- * Lifetime as riis_surface_vertices. */
+/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. */
 RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **velocity);
-/* Gives the triangles that answer queries. Any pointer may be NULL. Lifetime as riis_surface_vertices.
- *   vertex_id    (3, n_triangles), from 0
- *   triangle_id  (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve
- *   leaflet_id   (n_triangles)
- *   patch_id     (n_triangles); aortic: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
- *                mitral, from the posteromedial commissure round: anterior 0 commissure's triangle, 1 side, 2
- *                middle, 3 mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop, 7
- *                half of the middle one, 8 and 9 mirrored; valves from patches: the patch's number; surfaces
- *                from arrays: 0 */
+/* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
+ *   triangle_id  ascending: the id that queries report; 0, 1, 2, ... for a valve
+ *   patch_id     aortic: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top; mitral, from the
+ *                posteromedial commissure round: anterior 0 commissure's triangle, 1 side, 2 middle, 3
+ *                mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop, 7 half of
+ *                the middle one, 8 and 9 mirrored; from patches: the patch's number; from arrays: 0 */
 RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
                                             const int64_t **vertex_id, const int64_t **triangle_id,
                                             const int32_t **leaflet_id, const int32_t **patch_id);
@@ -437,9 +400,7 @@ RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t
  * Closest points (paper, 4.1)
  * -------------------------------------------------------------------------------------------------------- */
 
-/* The closest point of the surface to one point. For distances by sampling or minimisation, the point is the
- * sample or S(u,v), with its patch's leaflet_id and the normal of S, 0 0 0 where S has none, as where a side
- * is a point. Then triangle_id is -1; barycentric and side are 0. */
+/* The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in. */
 typedef struct riis_closest {
   double distance;        /* >= 0 */
   double point[3];        /* on the triangle */
@@ -447,16 +408,13 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
   int32_t leaflet_id;     /* the triangle's */
-  int32_t side;           /* +1 on the side that normals point to (downstream), -1 on the other, 0 on the
-                             surface or level with its rim. At a shared edge or vertex the angle-weighted
-                             normal of its triangles decides (Baerentzen, Aanaes 2005); vertices with equal
-                             placed coordinates are shared. An edge that ends inside another, along the
-                             bending curve, is one triangle's */
+  int32_t side;           /* +1 where normals point to (downstream), -1 on the other side, 0 on the surface or
+                             level with its rim. At a shared edge or vertex (equal placed coordinates) the
+                             angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
-/* Finds the closest point of the surface, however far it is. Every number is computed in double precision and
- * equals that of a loop over all triangles. Distances below 1e-154 underflow to 0. The first query of a new
- * surface also makes the normals of edges and vertices.
- *   point        3 finite coordinates, magnitude at most 1e60
+/* Finds the closest point of the surface, however far, exactly as a loop over all triangles in double
+ * precision would. Distances below 1e-154 underflow to 0.
+ *   point  3 finite coordinates, magnitude at most 1e60
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point,
                                         riis_closest *closest, int64_t struct_size);
@@ -469,19 +427,17 @@ typedef struct riis_closest_options {
   double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
   int32_t n_threads;      /* default 0 */
   int32_t reserved;       /* 0 */
-  const uint8_t *point_mask; /* (n_points): the entries of points with 0 are not written; coordinates are finite
-                                all the same. NULL: all points */
+  const uint8_t *point_mask; /* (n_points): points with 0 are not written, but still finite. NULL: all
+                                points */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
-  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
-                                entries written, at their ids, so that nothing is gathered or scattered. NULL: all
-                                points. Not together with point_mask */
+  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only
+                                their entries written, at their ids. NULL: all points. Not together with
+                                point_mask */
 } riis_closest_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
 
-/* The arrays that receive the answers for many points, with the fields of riis_closest; NULL for fields that
- * are not wanted. barycentric and side must be NULL for distances by sampling or minimisation
- * (RIIS_INVALID_ARGUMENT). */
+/* The caller's arrays for the fields of riis_closest; NULL for fields that are not wanted. */
 typedef struct riis_closest_arrays {
   int64_t struct_size;    /* set by the init function */
   double *distance;       /* (n_points) */
@@ -497,9 +453,6 @@ RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64
 
 /* Finds the closest points of many points, in parallel.
  *   n_points  >= 0
- *   x, y, z   point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
- *   stride    in doubles, >= 1
- *   options   NULL for defaults
  *   arrays    its arrays are written; none may overlap another or the coordinates
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x,
@@ -507,37 +460,30 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_
                                          const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
 
-/* The default distance of far points: finite, so that it can be interpolated and compared without
- * floating-point exceptions. */
+/* The default distance of far points: finite, for arithmetic without floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Mesh: the nodes that are marked
  * -------------------------------------------------------------------------------------------------------- */
 
-/* The caller's nodes. Coordinates are borrowed: they stay in place until the handle is destroyed or
- * updated. */
+/* The caller's nodes. Coordinates are borrowed: they stay in place until an update or the destruction. */
 typedef struct riis_mesh riis_mesh;
 
 /* Borrows node coordinates and checks them once. A process without nodes calls everything as the others do.
- *   n_nodes   0 to 2^40; with 0 the pointers may be NULL
- *   x, y, z   node i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60
- *   stride    in doubles, >= 1: 1 for separate arrays; 3 for xyz(3,n) with y = x + 1, z = x + 2
+ *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
 /* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Call it
- * after every change of coordinates: without it searches look for nodes at their old places. The adjacency
- * stays if n_nodes does. Make a new handle for other nodes. Arguments and errors as riis_mesh_create. */
+ * after every change of coordinates. The adjacency stays if n_nodes does; make a new handle for other nodes.
+ * Arguments and errors as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
 /* Destroys the handle. The caller's coordinates stay, and so do results. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
-/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, unless they are there; otherwise the first marking that
- * uses them does. They copy the coordinates: 41 bytes a node while the handle lives, 32 more while they are
- * made. After riis_mesh_update with as many nodes the order of the nodes stays, and only places are made
- * again.
- *   n_threads  1 to 1024, or 0
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They copy
+ * the coordinates: 41 bytes a node while the handle lives, 32 more while they are made.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
@@ -546,23 +492,23 @@ RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* at least n_rows: columns are nodes below this. Columns from n_rows on are ghosts,
-                            other ranks' nodes, which are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* at least n_rows: columns are below this; from n_rows on they are other ranks'
+                            nodes, ghosts, which are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
-  const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are
-                            ignored. NULL only if empty */
-  int32_t offset_bits;   /* 32 (default) or 64 */
-  int32_t column_bits;   /* 32 or 64. Default 32 */
-  int32_t index_base;    /* 0 or 1, for both offsets and columns. Default 0 */
+  const void *columns;   /* (offsets[n_rows] - base), in any order, NULL only if empty; repetitions and the
+                            node itself are ignored */
+  int32_t offset_bits;   /* of offsets */
+  int32_t column_bits;   /* of columns */
+  int32_t index_base;    /* of both offsets and columns */
   int32_t reserved;      /* 0 */
 } riis_csr;
-/* Fills *csr with the defaults, all else with 0 and NULL. */
+/* Fills *csr with the defaults. */
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size);
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
  *   csr  its arrays are borrowed: they stay in place, unchanged, until the handle is destroyed or given
  *        another. NULL takes the adjacency away; riis_mesh_update with another n_nodes does so also
- * Errors: RIIS_INVALID_ARGUMENT for a field out of range, RIIS_INVALID_MESH naming the row and its value. */
+ * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
 /* -------------------------------------------------------------------------------------------------------- *
@@ -572,25 +518,24 @@ RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *cs
 /* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
 typedef struct riis_adjacency riis_adjacency;
 
-/* Cells by their nodes, in VTK's order (base first, then apex or the nodes above: also Abaqus', CGNS',
- * Gmsh's). The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
+/* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: base first, then apex or the nodes above.
+ * The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
 typedef struct riis_cells {
   int64_t struct_size;     /* set by the init function */
   int64_t n_nodes;         /* of the mesh, >= 0 */
   int64_t n_cells;         /* >= 0 */
   const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
-  const void *offsets;     /* (n_cells + 1), ascending from 0 or from the base: where each cell's nodes begin
-                              in node_ids, and where the last's end; of the type of node_ids. NULL:
-                              nodes_per_cell for all cells */
+  const void *offsets;     /* (n_cells + 1), ascending from 0 or from the base: where each cell begins in
+                              node_ids, and the last ends. NULL: nodes_per_cell for all cells */
   int32_t nodes_per_cell;  /* 4, 5, 6 or 8; not used with offsets. Default 4 */
-  int32_t id_bits;         /* 32 (default) or 64 */
-  int32_t index_base;      /* 0 or 1: the number of the first node. Default 0 */
+  int32_t id_bits;         /* of node_ids and offsets */
+  int32_t index_base;      /* of node_ids */
   int32_t n_threads;       /* default 0 */
 } riis_cells;
-/* Fills *cells with the defaults, all else with 0 and NULL. */
+/* Fills *cells with the defaults. */
 RIIS_API riis_status riis_cells_init(riis_cells *cells, int64_t struct_size);
-/* Makes the adjacency of nodes that an edge of a cell joins. Arrays are read during the call only.
- * Errors: RIIS_INVALID_ARGUMENT for a field out of range, RIIS_INVALID_MESH naming the cell and its value. */
+/* Makes the adjacency of nodes that an edge of a cell joins.
+ * Errors: RIIS_INVALID_MESH naming the cell and its value. */
 RIIS_API riis_status riis_adjacency_create_from_cells(const riis_cells *cells, riis_adjacency **adjacency);
 
 /* Faces between cells, for codes that mark cell centres. */
@@ -600,24 +545,20 @@ typedef struct riis_faces {
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
   const void *neighbor;    /* base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
-  int64_t stride;          /* in entries, 1 to 1024: 1 for separate arrays, 2 for face_cells(2, n_faces).
-                              Default 1 */
-  int32_t id_bits;         /* 32 or 64: owner and neighbor point to int32_t or int64_t. Default 32 */
-  int32_t index_base;      /* 0 or 1: the number of the first cell. Default 0 */
+  int64_t stride;          /* in entries, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
+  int32_t id_bits;         /* of owner and neighbor */
+  int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */
   int32_t reserved;        /* 0 */
 } riis_faces;
-/* Fills *faces with the defaults, all else with 0 and NULL. */
+/* Fills *faces with the defaults. */
 RIIS_API riis_status riis_faces_init(riis_faces *faces, int64_t struct_size);
-/* Makes the adjacency of cells with a common face. Arrays are read during the call only.
- * Errors: RIIS_INVALID_ARGUMENT for a field out of range; RIIS_INVALID_MESH naming the face and its owner, if
- * that is no cell, or its neighbor, if that is neither a cell nor the base - 1 of a boundary. */
+/* Makes the adjacency of cells with a common face.
+ * Errors: RIIS_INVALID_MESH naming the face and its owner or neighbor that is no cell. */
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency);
 
-/* Makes the adjacency of a structured grid of ni * nj * nk nodes, each >= 1. Node (i, j, k) has the number i
- * + ni (j + nj k); neighbours differ by 1 in one of i, j, k.
- *   n_threads  1 to 1024, or 0
- * Errors: RIIS_INVALID_ARGUMENT for an extent or n_threads out of range. */
+/* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
+ *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k) */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
 /* Fills *csr for riis_mesh_set_adjacency. Its arrays are the adjacency's. Offsets are int64_t; columns are
@@ -634,31 +575,23 @@ RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 typedef struct riis_mark_result riis_mark_result;
 /* Makes an empty result. It belongs to no mesh and no surface. */
 RIIS_API riis_status riis_mark_result_create(riis_mark_result **result);
-/* Destroys the result; pointers got from it end. */
+/* Destroys the result. */
 RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
 
-/* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes. For distances by sampling or
- * minimisation, RIIS_SEARCH_AUTO is the exhaustive search and RIIS_SEARCH_CLUSTERS is refused
- * (RIIS_INVALID_ARGUMENT). */
+/* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* the exhaustive search for the first marking of a mesh, clusters from the
-                                 second on or after riis_mesh_prepare; exhaustive for limits above half the
-                                 surface's extent */
+  RIIS_SEARCH_AUTO = 0,       /* clusters, or the exhaustive search: for the first marking of a mesh without
+                                 riis_mesh_prepare, for limits above half the surface's extent, and for
+                                 distances by sampling or minimisation */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
-                                 neighbor search"), from the nodes of the last marking, or from every part of
-                                 the mesh near the surface. Nodes that it does not reach are proven far or
-                                 queried, so it is complete for any adjacency and mask. The mesh must have an
-                                 adjacency */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it starts at the node
-                                 nearest to the first triangle's first vertex, and only marked nodes pass it
-                                 on. It misses nodes not connected to that start. The mesh must have an
-                                 adjacency */
-  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of near nodes in single precision, decides in double
-                                 (docs/theory.md, section 8). It gives way to the exhaustive search, as
-                                 stats.search says, for 2^32 nodes and more, and where single precision is too
-                                 coarse: the mesh or the limit is a million times as large as the surface, or
-                                 the mesh that far away */
+                                 neighbor search") and proves the others far, or queries them. The mesh must
+                                 have an adjacency, which need not be connected */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes not
+                                 connected to its one start. The mesh must have an adjacency */
+  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, decides in double. The
+                                 exhaustive search runs instead (stats.search) for 2^32 nodes and more, and if
+                                 the mesh, its distance or the limit is a million times the surface's size */
 };
 
 /* The processor's instructions that a marking uses. All give the same bits. */
@@ -685,19 +618,17 @@ enum {
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* nodes get their distance up to here, mesh units: from the half thickness to
-                                1e60; marks stay those of the half thickness. Default RIIS_AUTO: the half
-                                thickness */
-  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out; their coordinates are finite all the
-                                same. NULL: all nodes. Read during the call only */
+  double distance_limit;     /* nodes get their distance up to here, mesh units: the half thickness to 1e60.
+                                Default RIIS_AUTO: the half thickness. Marks do not depend on it */
+  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but still finite. NULL: all nodes */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
   int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default
                                 RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE where the processor lacks them.
                                 Distances by sampling or minimisation use the baseline's */
   int32_t reserved;          /* 0 */
-  int32_t fields;            /* a sum of RIIS_FIELD_*: what the result knows of every node within the distance
-                                limit, see riis_mark_fields. Default 0: nothing, which costs nothing */
+  int32_t fields;            /* a sum of RIIS_FIELD_*, for every node within the distance limit: see
+                                riis_mark_fields. Default 0: none */
   int32_t reserved2;         /* 0 */
 } riis_mark_options;
 /* Fills *options with the defaults. */
@@ -705,22 +636,15 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 
 /* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance
  * limit. The reported distance decides, in double precision, inclusive.
- *   surface, mesh  read; other calls under way may share them
- *   options        NULL for defaults
- *   result         its former content is replaced; pointers got from it before end
- * The log function gets a warning when sizes are out of proportion, mostly because units differ: the largest
- * side of the mesh's box or of the surface's is more than 50 times the other's, or the half thickness is
- * larger than either. The mesh's box is that of its nodes as they were last given. A mesh of fewer than 1000
- * nodes is not judged. The place of the boxes does not matter, since a rank may hold a part of the mesh that
- * is elsewhere. There is at most one warning for a mesh and a surface, and at most eight for a mesh.
+ *   result  its content is replaced
+ * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or
+ * less than the half thickness: once for the two, at most eight times for a mesh, never below 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. A positive status
  * leaves the result's content as it was, but its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_mark_result *result);
 
-/* Gives the marked nodes, ascending by node_id; all arrays (n_marked). Any pointer may be NULL. Owned by the
- * result, valid until the next riis_mark_nodes with it or its destruction. Arrays are NULL for n_marked = 0,
- * which an empty result has. triangle_id is -1 for distances by sampling or minimisation. */
+/* Gives the marked nodes, ascending by node_id; arrays (n_marked), valid until the next riis_mark_nodes. */
 RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked,
                                              const int64_t **node_id, const double **distance,
                                              const int64_t **triangle_id, const int32_t **leaflet_id);
@@ -729,41 +653,39 @@ RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *resul
                                                    const int64_t **node_id, const double **distance,
                                                    const int64_t **triangle_id, const int32_t **leaflet_id);
 
-/* What a marking keeps of the closest points, by options.fields; NULL for fields that were not asked for. All
- * equal what riis_closest_point answers for the node, to the last bit. */
+/* The fields of closest points by options.fields; NULL for fields that were not asked for. All equal those of
+ * riis_closest_point for the node, to the last bit. */
 typedef struct riis_mark_fields {
   int64_t n_nodes;           /* n_marked or n_within, as of the call that gave the fields */
   const double *point;       /* (3, n_nodes): the closest point of the surface */
   const double *normal;      /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric; /* (3, n_nodes): its weights of the triangle's vertices */
-  const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal, but
-                                against it on mirrored patches (aortic: patch_id % 4 >= 2; mitral: 3, 4, 5, 8, 9),
-                                and the other way round for flipped normals */
+  const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
+                                but against it on mirrored patches (aortic: patch_id % 4 >= 2; mitral: 3, 4,
+                                5, 8, 9), and the other way round for flipped normals */
   const double *velocity;    /* (3, n_nodes): the velocity of the surface there */
   const int32_t *side;       /* (n_nodes): as riis_closest.side */
-  const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
-                                consists of the sides of patches that no other patch has, such as free edges and
-                                the annulus; that of arrays of the edges of one triangle, where vertices with equal
-                                coordinates are one */
+  const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
+                                valve consists of the sides that only one patch has, such as free edges and
+                                the annulus; the rim of arrays of the edges of one triangle, where vertices
+                                with equal coordinates are one */
   const int32_t *patch_id;   /* (n_nodes): as riis_surface_triangles gives it */
 } riis_mark_fields;
-/* Gives the fields of the marked nodes, in the order of riis_mark_result_marked. Lifetime as there. */
+/* Gives the fields of the marked nodes, in the order and with the lifetime of riis_mark_result_marked. */
 RIIS_API riis_status riis_mark_result_marked_fields(const riis_mark_result *result, riis_mark_fields *fields,
                                                     int64_t struct_size);
 /* Gives the fields of the nodes within the limit, in the order of riis_mark_result_within_limit. */
 RIIS_API riis_status riis_mark_result_within_limit_fields(const riis_mark_result *result,
                                                           riis_mark_fields *fields, int64_t struct_size);
 
-/* Writes the result to dense arrays of the caller's, one entry a node; NULL for arrays that are not wanted.
- *   n_nodes       length of the arrays: the number of nodes of the marking
+/* Writes the result to the caller's arrays (n_nodes), every entry; NULL for arrays that are not wanted.
+ *   n_nodes       the number of nodes of the marking, 0 for an empty result
  *   far_distance  distance of nodes beyond the limit or masked out: RIIS_FAR_DISTANCE, or any value (NaN
  *                 also) outside [0, distance limit]
  *   mark          1 for marked nodes, 0 for others
  *   distance      of every node within the distance limit, else far_distance
  *   triangle_id   of every node within the distance limit, else -1
- *   leaflet_id    of every node within the distance limit, else -1
- * Errors: RIIS_INVALID_ARGUMENT for another n_nodes (an empty result has 0), or a far_distance that looks
- * near. */
+ *   leaflet_id    of every node within the distance limit, else -1 */
 RIIS_API riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes,
                                             double far_distance, uint8_t *mark, double *distance,
                                             int64_t *triangle_id, int32_t *leaflet_id);
@@ -776,13 +698,11 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* threads that ran, the most in any part of the search. A caller's TBB limit binds
-                           walks, not loops */
+  int32_t n_threads;    /* the most that ran in any part. A caller's TBB limit binds walks, not loops */
   int32_t complete;     /* 1: every node within the limit was certainly found, by the coordinates last given;
                            0: not certain (RIIS_SEARCH_PAPER) */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* nodes within the limit that the neighbour search did not walk to, but its proof
-                           found */
+  int64_t n_unreached;  /* nodes within the limit that the neighbour search found by proof, not walk */
 } riis_mark_stats;
 /* Tells how the last marking with the result went; all 0 for an empty result. */
 RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats,
@@ -795,38 +715,35 @@ RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis
 /* How the band around the surface ends at its rim. */
 enum {
   RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
-  RIIS_RIM_CUT = 1    /* nodes whose closest point is on the rim do not; needs RIIS_FIELD_RIM */
+  RIIS_RIM_CUT = 1    /* except nodes whose closest point is on the rim; needs RIIS_FIELD_RIM */
 };
 
-/* A resistance K = (R / eps) delta(d), delta(d) = (1 + cos(pi d / eps)) / (2 eps), at the distance d < eps. */
+/* A resistance K = (R / eps) delta(d) at the distance d < eps: delta(d) = (1 + cos(pi d / eps)) / (2 eps). */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
-  double resistance;     /* R, 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of velocity
-                            u has a pressure drop of (R / eps) u. No default: the init function sets NaN, which is
-                            refused */
-  double half_thickness; /* eps, mesh units, at most the distance limit of the marking. Default RIIS_AUTO: the half
-                            thickness of the marking */
+  double resistance;     /* R, 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
+                            velocity u has a pressure drop of (R / eps) u. The init function sets NaN, which
+                            is refused */
+  double half_thickness; /* eps, mesh units, at most the distance limit of the marking. Default RIIS_AUTO: the
+                            half thickness of the marking */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
   int32_t reserved;      /* 0 */
 } riis_resistance;
 /* Fills *resistance with the defaults. */
 RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size);
 
-/* Adds K and K u_surface to arrays of the caller's, so that several valves add up: a scheme takes
- * (sum of K) u - (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points.
- *   result       of riis_mark_nodes
+/* Adds K and K u_surface to the caller's arrays, so that several valves add up: a scheme takes (sum of K) u -
+ * (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points.
  *   n_nodes      the number of nodes of the marking
  *   coefficient  (n_nodes), K is added; NULL if not wanted
- *   momentum     (3, n_nodes), K u_surface is added; needs RIIS_FIELD_VELOCITY. NULL: the surface's velocity is
- *                not wanted
- * Errors: RIIS_INVALID_ARGUMENT for a field out of range, another n_nodes, or a field that the result lacks; the
- * arrays are then as they were. */
+ *   momentum     (3, n_nodes), K u_surface is added; needs RIIS_FIELD_VELOCITY. NULL if not wanted
+ * Errors: RIIS_INVALID_ARGUMENT also for a field that the result lacks; the arrays are then as they were. */
 RIIS_API riis_status riis_mark_result_add_resistance(const riis_mark_result *result,
                                                      const riis_resistance *resistance, int64_t n_nodes,
                                                      double *coefficient, double *momentum);
 
-/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks add theirs
- * by a reduction. u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise.
+/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks add
+ * theirs by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
  *   n_nodes   the number of nodes of the marking
  *   velocity  (3, n_nodes), of the flow
  *   weight    (n_nodes), the volume that a node stands for; 0 for the nodes of other ranks
@@ -834,22 +751,24 @@ RIIS_API riis_status riis_mark_result_add_resistance(const riis_mark_result *res
  * Errors: as riis_mark_result_add_resistance. */
 RIIS_API riis_status riis_mark_result_add_reaction(const riis_mark_result *result,
                                                    const riis_resistance *resistance, int64_t n_nodes,
-                                                   const double *velocity, const double *weight, double *force);
+                                                   const double *velocity, const double *weight,
+                                                   double *force);
 
-/* Sums over the nodes on either side of the surface: entry 0 is upstream, side -1, entry 1 downstream. The mean is
- * sum / weight, after ranks have added theirs. */
+/* Sums over the nodes on either side of the surface: entry 0 is upstream, side -1, entry 1 downstream. The
+ * mean is sum / weight, after ranks have added theirs. */
 typedef struct riis_band_sums {
   double sum[2];      /* of weight * value */
   double weight[2];   /* of weight */
   int64_t n_nodes[2]; /* nodes in the band */
 } riis_band_sums;
-/* Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest
- * point is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning.
+/* Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose
+ * closest point is on the rim, or that are on neither side, are left out. With an open valve the two sides
+ * have no meaning.
  *   inner, outer  mesh units, 0 <= inner <= outer <= distance limit of the marking
  *   n_nodes       the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM
  *   value         (n_nodes)
  *   weight        (n_nodes), the volume that a node stands for; 0 for the nodes of other ranks
- * Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another n_nodes, or a field that the result lacks. */
+ * Errors: RIIS_INVALID_ARGUMENT also for a field that the result lacks. */
 RIIS_API riis_status riis_mark_result_band_sums(const riis_mark_result *result, double inner, double outer,
                                                 int64_t n_nodes, const double *value, const double *weight,
                                                 riis_band_sums *sums, int64_t struct_size);
@@ -858,50 +777,37 @@ RIIS_API riis_status riis_mark_result_band_sums(const riis_mark_result *result, 
  * Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md)
  * -------------------------------------------------------------------------------------------------------- */
 
-/* An edge of the mesh leaks when it crosses the surface and neither of its nodes is marked: flow passes along
- * it. An edge that crosses the surface and is at most two half thicknesses long always has a marked node. */
+/* Mesh edges that leak: they cross the surface, and neither node is marked. Edges that are at most two half
+ * thicknesses long do not leak (docs/meshes.md). */
 typedef struct riis_leaks {
-  int64_t n_edges;            /* edges that leak. Where it is 0, the node ids are -1 and the other fields but
-                                 seconds 0 */
-  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending; of equally long edges the one that
-                                 is listed first */
+  int64_t n_edges;            /* edges that leak. If 0, node ids are -1, other fields but seconds 0 */
+  int64_t longest_node_id[2]; /* the longest edge's nodes, ascending; of equal edges the first listed */
   double longest_length;      /* its length, mesh units */
   double longest_middle[3];   /* its middle */
-  double half_thickness;      /* the smallest half thickness at which each edge has a node within it, by these
-                                 triangles */
+  double half_thickness;      /* the smallest that gives each edge a marked node, by these triangles */
   double seconds;             /* wall time of riis_find_leaks */
 } riis_leaks;
 
 /* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
- * An edge crosses a triangle when they have a point in common, touching included; that is decided exactly for
- * the coordinates in double precision (those below 1e-90 count as 0), so nothing slips through between
- * triangles that share an edge or a vertex. A column that one of two rows lacks is an edge all the same, each
- * edge counts once, and edges to ghosts are not looked at: an edge between two ranks is seen by neither. Gaps
- * of the surface itself, such as those between leaflets that do not touch, are not found.
- *   surface, mesh   those of the marking; read. The mesh must have an adjacency. The first call for a mesh,
- *                   and the first after its coordinates or adjacency changed, goes through all edges; others
- *                   look only at long ones near the surface
- *   options         those of the marking, NULL for defaults. node_mask: an edge to a node that is left out is
- *                   no path
- *   result          of riis_mark_nodes; its edges are replaced, all else stays
- *   leaks           what was found
- * A marking of the same triangles with leaks.half_thickness leaves none of the edges open, whatever its
- * search but RIIS_SEARCH_PAPER. The triangles of a valve follow the half thickness: with another one they
- * move by up to tolerance * half_thickness, so look again after riis_surface_update.
- * Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, if the result was never marked with, or was
- * marked with another number of nodes or another half thickness; RIIS_INVALID_MESH as riis_mark_nodes. The
- * result is then as it was. */
+ * Touching counts. The decision is exact for coordinates in double precision; those below 1e-90 count as 0.
+ * An edge may stand in one row or in both, and counts once. Edges to ghosts are not looked at.
+ *   surface, mesh  those of the marking. The mesh must have an adjacency
+ *   options        those of the marking. An edge to a node that node_mask leaves out is no path
+ *   result         of riis_mark_nodes; its edges are replaced, all else stays
+ * A marking of the same triangles with leaks.half_thickness closes all of these edges, except by
+ * RIIS_SEARCH_PAPER. A new half thickness moves a valve's triangles, by up to tolerance * half_thickness:
+ * look again after riis_surface_update.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a result never marked with, or with
+ * another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_mark_result *result,
                                      riis_leaks *leaks, int64_t struct_size);
 
-/* The edges that the last riis_find_leaks with the result found, ascending by their first node, then by their
- * second. Any pointer may be NULL; with n_edges = 0 the arrays are NULL. Owned by the result, valid until the
- * next riis_find_leaks or riis_mark_nodes with it, which leaves none, or its destruction.
+/* Gives the edges of the last riis_find_leaks with the result, ascending by their first node, then by their
+ * second. Valid until the next riis_find_leaks or riis_mark_nodes with it, which leaves none.
  *   node_id   (2, n_edges), the lower one first
  *   length    (n_edges)
- *   distance  (n_edges): the smaller of its two nodes' distances, the half thickness from which on the edge
- *             is closed */
+ *   distance  (n_edges): that of its nearer node, the half thickness that closes the edge */
 RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64_t *n_edges,
                                                     const int64_t **node_id, const double **length,
                                                     const double **distance);
@@ -910,10 +816,11 @@ RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *resu
  * Laws of opening: a valve's opening from the time, the pressure difference and the flow
  * -------------------------------------------------------------------------------------------------------- */
 
-/* Pure functions: the same arguments give the same bits, and nothing is kept. Times, pressures and flows have the
- * solver's units. The pressure difference is that upstream less that downstream, and flow is positive downstream, so
- * both open a valve. `rate` is the derivative of the opening by time. A state is flat: a restart file holds it as it
- * is, and goes on with the same bits. `now` may be `before`; a step that is taken again starts from `before`. */
+/* Pure functions: the same arguments give the same bits, and nothing is kept. Times, pressures and flows have
+ * the solver's units. The pressure difference is that upstream less that downstream, and flow is positive
+ * downstream, so both open a valve. `rate` is the derivative of the opening by time. A state is flat: a
+ * restart file holds it as it is, and goes on with the same bits. `now` may be `before`; a step that is taken
+ * again starts from `before`. */
 
 /* An opening by keys. */
 typedef struct riis_opening_table {
@@ -921,24 +828,25 @@ typedef struct riis_opening_table {
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats; its keys lie within a period of the first, and a last key that is a
-                            period after the first has its opening. 0, the default: the first key's opening counts
-                            before it, the last one's after it */
+  double period;         /* > 0: the table repeats; its keys lie within a period of the first, and a last key
+                            that is a period after the first has its opening. 0, the default: the first key's
+                            opening counts before it, the last one's after it */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
-/* Fills *table with the defaults, all else with 0 and NULL. */
+/* Fills *table with the defaults. */
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size);
 /* Tells the opening at a time by a table. opening and rate may be NULL.
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps
- * are of fifth degree: neither the rate nor its derivative jumps. */
+/* An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s.
+ * The ramps are of fifth degree: neither the rate nor its derivative jumps. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. No default, as for the next three: NaN, which is refused */
+  double opening_start;   /* when the valve begins to open. No default, as for the next three: NaN, which is
+                             refused */
   double opening_seconds; /* how long that takes, > 0 */
   double closing_start;   /* when it begins to close, at least opening_start + opening_seconds */
   double closing_seconds; /* how long that takes, > 0 */
@@ -947,16 +855,17 @@ typedef struct riis_opening_times {
 } riis_opening_times;
 /* Fills *times with the defaults. */
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size);
-/* Tells the opening at a time. opening and rate may be NULL. Errors: RIIS_INVALID_ARGUMENT naming the field. */
+/* Tells the opening at a time. opening and rate may be NULL. Errors: RIIS_INVALID_ARGUMENT naming the
+ * field. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
                                              double *rate);
 
 /* The phases of a switch. */
 enum { RIIS_PHASE_CLOSING = 0 /* or closed */, RIIS_PHASE_OPENING = 1 /* or open */ };
 
-/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An
- * aortic valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the flow
- * reverses), filter_seconds 0.002, dwell_seconds 0.02. */
+/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one.
+ * An aortic valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the
+ * flow reverses), filter_seconds 0.002, dwell_seconds 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
   double opening_seconds; /* from closed to open, > 0. No default, as for the next: NaN, which is refused */
@@ -973,7 +882,8 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* what the law says at that time */
-  double progress;            /* share of the way from closed to open, 0 to 1; the opening is a smooth ramp over it */
+  double progress;            /* share of the way from closed to open, 0 to 1; the opening is a smooth ramp
+                                 over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double since;               /* the time of the last turn; NaN: none yet */
@@ -982,8 +892,8 @@ typedef struct riis_opening_switch_state {
 } riis_opening_switch_state;
 /* Fills *state with a closed valve at time 0. */
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
-/* Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening has
- * first order in the length of steps.
+/* Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening
+ * has first order in the length of steps.
  *   time  at least before->time
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now is then as it was. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
@@ -991,12 +901,13 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  double pressure_difference, double flow,
                                                  riis_opening_switch_state *now);
 
-/* The angle law of T. Korakianitis and Y. Shi, "A concentrated parameter model for the human cardiovascular system
- * including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
- *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle) - vortex_gain max(Q, 0) sin(2 angle)
- * with angles in radians, between stops that take all speed. The opening is the angle's share of its range. The
- * paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and
- * 3.5 for the mitral valve. */
+/* The angle law of T. Korakianitis and Y. Shi, "A concentrated parameter model for the human cardiovascular
+ * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
+ *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
+ *             - vortex_gain max(Q, 0) sin(2 angle)
+ * with angles in radians, between stops that take all speed. The opening is the angle's share of its range.
+ * The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the
+ * aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
   double pressure_gain; /* K_p, >= 0. No default, as for the next three: NaN, which is refused */
@@ -1019,11 +930,12 @@ typedef struct riis_opening_angle_state {
 } riis_opening_angle_state;
 /* Fills *state with an angle of 0 at rest, at time 0. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
-/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which makes the
- * angle second order in the length of steps; without values before, those of now count for the whole step.
+/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
+ * makes the angle second order in the length of steps; without values before, those of now count for the
+ * whole step.
  *   time  at least before->time
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so long
- * that the motion would take more than a million steps within it. *now is then as it was. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so
+ * long that the motion would take more than a million steps within it. *now is then as it was. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,
                                                 double pressure_difference, double flow,
