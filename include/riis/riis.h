@@ -100,7 +100,7 @@ RIIS_API const char *riis_last_error(void);
 
 /* Tells the version of the linked library, not of this header. Any pointer may be NULL. */
 RIIS_API void riis_version(int32_t *major, int32_t *minor, int32_t *patch);
-/* Returns the same as static text, such as "0.1.0". */
+/* Returns the version of the linked library as static text, such as "0.1.0". */
 RIIS_API const char *riis_version_string(void);
 
 /* Receives messages on any thread that calls the library. It must not call the library, throw or jump out.
@@ -648,7 +648,7 @@ RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mes
 RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked,
                                              const int64_t **node_id, const double **distance,
                                              const int64_t **triangle_id, const int32_t **leaflet_id);
-/* Gives the nodes within the distance limit, marked or not, in the same way. */
+/* Gives the nodes within the distance limit, marked or not, as riis_mark_result_marked does. */
 RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within,
                                                    const int64_t **node_id, const double **distance,
                                                    const int64_t **triangle_id, const int32_t **leaflet_id);

@@ -67,8 +67,8 @@ RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const r
  * Errors: RIIS_INVALID_ARGUMENT for a result of a mesh with another number of nodes. */
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
                                              double far_distance);
-/* Does the same with other names, for the marks of several valves: PREFIX_marked, PREFIX_distance,
- * PREFIX_leaflet. riis_vtk_draw shows the marks of riis_vtk_mesh_set_marks only, whose prefix is "riis".
+/* Adds, or replaces, the marks of one of several valves as PREFIX_marked, PREFIX_distance, PREFIX_leaflet.
+ * riis_vtk_draw shows the marks of riis_vtk_mesh_set_marks only, whose prefix is "riis".
  *   prefix  1 to 64 letters, digits, "_", "-" and "."
  * Errors: as riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
