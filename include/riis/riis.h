@@ -605,14 +605,14 @@ enum {
 /* Fields of the closest point that a marking keeps on request. The values are added. Distances by sampling or
  * minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
 enum {
-  RIIS_FIELD_POINT = 1,
-  RIIS_FIELD_NORMAL = 2,
-  RIIS_FIELD_BARYCENTRIC = 4,
-  RIIS_FIELD_SIDE = 8,
-  RIIS_FIELD_RIM = 16,
+  RIIS_FIELD_POINT = 1,      /* riis_mark_fields.point */
+  RIIS_FIELD_NORMAL = 2,     /* riis_mark_fields.normal */
+  RIIS_FIELD_BARYCENTRIC = 4, /* riis_mark_fields.barycentric */
+  RIIS_FIELD_SIDE = 8,       /* riis_mark_fields.side */
+  RIIS_FIELD_RIM = 16,       /* riis_mark_fields.rim */
   RIIS_FIELD_UV = 32,        /* refused for surfaces from arrays */
   RIIS_FIELD_VELOCITY = 64,  /* refused unless the last update gave velocities */
-  RIIS_FIELD_PATCH = 128
+  RIIS_FIELD_PATCH = 128     /* riis_mark_fields.patch_id */
 };
 
 /* Options of a marking. */
