@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> riis for Fortran: heart valves as resistive immersed implicit surfaces. All of riis.h in types with procedures; nothing of
-!! iso_c_binding is needed, and no TARGET.
+!> riis for Fortran: heart valves as resistive immersed implicit surfaces. All of riis.h is here in types with procedures.
+!! Callers need neither iso_c_binding nor TARGET.
 !!
 !!     use riis
 !!     type(riis_valve) :: valve
@@ -17,36 +17,36 @@
 !!     call result%marked_nodes(node_num, distance)      ! xyz(:, node_num(i)) is distance(i) away
 !!     call result%destroy(); call mesh%destroy(); call surface%destroy(); call valve%destroy()
 !!
-!! Conventions, true for every procedure:
+!! Rules for every procedure:
 !!
-!! - Errors. The last argument is `integer(riis_status), intent(out), optional :: status`: RIIS_OK or an error, whose text
-!!   riis_error_message() gives. Without it an error stops the program, with its name and text on the error unit. An error
-!!   > 0 means that the call was refused and no object changed; one < 0 that an object passed for writing is only fit to be
-!!   destroyed. Each thread has its own text. Texts name the C arguments, and count from 0.
-!! - Objects. Each is empty until it is created, and has to be destroyed: nothing happens by itself at the end of a scope,
-!!   nor when it is passed to an intent(out) argument, which loses it. Creating what was created, and using what was not, is
-!!   an error; destroying twice is none. Objects cannot be copied: a = b stops the program, unless both are empty. Pass them
-!!   as arguments, or point to them; functions cannot return them. (Array constructors and allocate(..., source=...) copy
-!!   without asking, and so does gfortran with objects in allocatable components, such as type(riis_valve), allocatable :: v,
-!!   when a variable of the type around them is assigned: do not do that. Neither is an array of them enlarged by assignment.)
+!! - Errors. The last argument is `integer(riis_status), intent(out), optional :: status`: RIIS_OK or an error, whose message
+!!   riis_error_message() gives. Without it an error stops the program, with its name and message on the error unit. A
+!!   positive error refuses the call, and no object changed. A negative error leaves an object passed for writing fit for
+!!   destruction only. Each thread has its own message. Messages name the C arguments and count from 0.
+!! - Objects. Each is empty until it is created, and must be destroyed: nothing happens by itself at the end of a scope. An
+!!   intent(out) argument loses its object. Creating an object twice is an error, and so is the use of an empty one;
+!!   destroying twice is none. Objects cannot be copied: a = b stops the program unless both are empty. Pass them as
+!!   arguments or point to them; functions cannot return them. Array constructors and allocate(..., source=...) copy objects
+!!   unnoticed. So does gfortran when it assigns a variable of a type with objects in allocatable components, such as
+!!   type(riis_valve), allocatable :: v. Do none of these, and do not enlarge an array of objects by assignment.
 !! - Integers. Ids, counts, numbers of threads and bases may be integer(int32), the default kind, or integer(int64). Optional
-!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. Where a call has
-!!   several counts that are not optional (n_nodes and stride; ni, nj, nk), they are of one kind. What the library
-!!   writes has the kind that it has in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
-!! - Counting. What is called *_id counts from 0, as in C, also triangle_id and leaflet_id (RIIS_LEAFLET_*); what is called
-!!   node_num counts from 1. What goes in counts from index_base, 1 unless it is given.
-!! - Reals are real(c_double), real(8) with most compilers. Lengths are in one unit of the caller's choice, angles in
+!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. If a call has
+!!   several counts that are not optional (n_nodes and stride; ni, nj, nk), they have one kind. Integers that the library
+!!   writes have their kind in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
+!! - Counting. Anything called *_id counts from 0, as in C, also triangle_id and leaflet_id (RIIS_LEAFLET_*). Anything called
+!!   node_num counts from 1. Ids that the caller gives count from index_base, by default 1.
+!! - Reals are real(c_double), real(8) with most compilers. Lengths have one unit of the caller's choice, angles are in
 !!   degrees.
-!! - Arrays are whole ones or sections. Coordinates are read where they are, whatever their positive stride. Those of a
-!!   mesh, and the rows of an adjacency, are borrowed beyond the call: see riis_mesh, also for what must not be passed there.
-!!   Other arrays are used during the call only, and are copied for it where their argument is CONTIGUOUS and a section is
-!!   not, or where it says so.
-!! - Threads. An object may be read (intent(in)) by any number of threads at once; it is written by one with no reader beside
-!!   it. Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region,
-!!   declare a thread's own objects in a procedure that it calls or in a BLOCK: copies by PRIVATE gfortran leaves undefined.
-!! - With compiler options that change the default kinds (-fdefault-integer-8), logical arguments need the kind that this
-!!   module was compiled with; leaflet_id, side and marks stay integer(int32). Compile these sources without gfortran's
-!!   -fno-automatic: local variables in static memory are not a thread's own, and texts of errors get lost.
+!! - Arrays are whole or sections. Coordinates are read in place, with any positive stride. The coordinates of a mesh and
+!!   the rows of an adjacency are borrowed beyond the call: riis_mesh says how, and what not to pass there. Other arrays are
+!!   used during the call only. They are copied for it if the argument is CONTIGUOUS and a section is not, or if the
+!!   procedure says so.
+!! - Threads. Any number of threads may read an object (intent(in)) at once. One thread may write it while no other reads it.
+!!   Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region, declare
+!!   a thread's own objects in a procedure that it calls or in a BLOCK: gfortran leaves copies by PRIVATE undefined.
+!! - Compiler options. With options that change the default kinds (-fdefault-integer-8), logical arguments need the kind that
+!!   this module was compiled with; leaflet_id, side and marks stay integer(int32). Compile these sources without gfortran's
+!!   -fno-automatic: it makes threads share local variables in static memory, and messages of errors get lost.
 module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
@@ -91,28 +91,28 @@ module riis
   integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids, for codes in
                                                             !! Fortran 2003, which has no int64.
 
-  !> The name of a status.
+  !> Returns the name of a status.
   interface riis_status_name
     module procedure status_name
   end interface riis_status_name
 
-  !> The version of the library that was linked, as numbers.
+  !> Gives the version of the linked library, as numbers.
   interface riis_version
     module procedure version
   end interface riis_version
 
-  !> The version of the library that was linked, as text.
+  !> Returns the version of the linked library, as text.
   interface riis_version_string
     module procedure version_string
   end interface riis_version_string
 
-  !> Sets the procedure that receives what the library would like to say.
+  !> Sets the procedure that receives the library's messages.
   interface riis_set_log
     module procedure set_log
   end interface riis_set_log
 
   abstract interface
-    !> What riis_set_log takes. May be called from any thread that calls the library; must not call the library.
+    !> Receives messages, on any thread that calls the library. It must not call the library.
     subroutine riis_log_procedure(message, level)
       import :: int32
       implicit none
@@ -123,7 +123,7 @@ module riis
 
 contains
 
-  ! A pure function may say how long a result is, and may call none that is not declared pure.
+  ! The length of a result may come from a pure function, which may call only functions that are declared pure.
   pure function error_length() result(length)
     integer :: length
     interface
@@ -162,21 +162,21 @@ contains
     length = riis_c_text_length(version_text())
   end function version_length
 
-  !> The text of the calling thread's last error: what was wrong, naming the argument and its value. '' if there was none. A
+  !> Returns the message of the calling thread's last error, which names the argument and its value. '' if there was none. A
   !! call that succeeds leaves it alone.
   function riis_error_message() result(text)
     character(len=error_length()) :: text                   !< A copy.
     text = riis_c_text(riis_last_error())
   end function riis_error_message
 
-  !> The status's own name, such as 'RIIS_INVALID_ARGUMENT'; 'unknown status' for a value that is none.
+  !> Returns the status's own name, such as 'RIIS_INVALID_ARGUMENT', or 'unknown status'.
   function status_name(status) result(name)
     integer(riis_status), intent(in) :: status              !< Any.
     character(len=name_length(status)) :: name              !< A copy.
     name = riis_c_text(c_status_name(status))
   end function status_name
 
-  !> The version of the library that was linked, as numbers.
+  !> Gives the version of the linked library, as numbers.
   subroutine version(major, minor, patch)
     integer(int32), intent(out) :: major                    !< The first.
     integer(int32), intent(out) :: minor                    !< The second.
@@ -184,29 +184,28 @@ contains
     call c_version(major, minor, patch)
   end subroutine version
 
-  !> The version of the library that was linked, '0.1.0'.
+  !> Gives the version of the linked library, such as '0.1.0'.
   function version_string() result(text)
     character(len=version_length()) :: text                 !< A copy.
     text = riis_c_text(c_version_string())
   end function version_string
 
-  !> Sets the procedure that receives what the library would like to say, for the whole process; without an argument there is
-  !! silence, the default. Safe from any thread; a message under way in another thread may still reach the procedure that was
-  !! set before.
+  !> Sets the procedure that receives the messages of the whole process. Without an argument there is silence, the default.
+  !! Any thread may call it. A message under way in another thread may still reach the former procedure.
   subroutine set_log(procedure)
-    procedure(riis_log_procedure), optional :: procedure    !< Called until another is set: of a module or external, not
+    procedure(riis_log_procedure), optional :: procedure    !< Called until another is set. A module or external procedure, not
                                                             !! internal to a procedure that returns.
     type(c_funptr) :: location
     if (present(procedure)) then
       location = c_funloc(procedure)
-      ! The library keeps function and user data together under a lock, so the procedure travels as the latter.
+      ! The library keeps function and user data together under a lock, so the procedure travels as user data.
       call c_set_log(c_funloc(pass_message), transfer(location, c_null_ptr))
     else
       call c_set_log(c_null_funptr, c_null_ptr)
     end if
   end subroutine set_log
 
-  ! The log function that the library calls: turns the text into Fortran's.
+  ! The log function that the library calls. It turns the message into a Fortran string.
   subroutine pass_message(user_data, level, message) bind(c)
     type(c_ptr), value :: user_data
     integer(c_int32_t), value :: level

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_adjacencies.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> Adjacencies: the part of module riis that is riis_adjacency_* in riis.h.
+!> Adjacencies: riis_adjacency_* of riis.h, as a part of module riis.
 module riis_adjacencies
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -10,22 +10,22 @@ module riis_adjacencies
   private
   public :: riis_adjacency
 
-  !> Which nodes are neighbours, made from what solvers have: cells, faces or a structured grid. Empty until one of the
-  !! creations, and again after %destroy, which has to be called. May be read by any number of threads at once.
+  !> The neighbours of nodes, made from cells, faces or a structured grid. It is empty until it is created and after
+  !! %destroy, which must be called. Any number of threads may read it at once.
   type :: riis_adjacency
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
     generic :: create_from_cells => cells_int32_int32, cells_int32_int64, cells_int64_int32, cells_int64_int64, &
       mixed_int32_int32, mixed_int32_int64, mixed_int64_int32, mixed_int64_int64
-                                                               !< Cells by their nodes.
+                                                               !< From cells by their nodes.
     generic :: create_from_faces => faces_int32_int32, faces_int32_int64, faces_int64_int32, faces_int64_int64, &
       owner_int32_int32, owner_int32_int64, owner_int64_int32, owner_int64_int64
-                                                               !< Faces between cells.
-    generic :: create_from_grid => grid_int32, grid_int64               !< A structured grid.
-    procedure, non_overridable :: is_created => adjacency_is_created    !< Whether there is anything in it.
-    procedure, non_overridable :: c_handle => adjacency_c_handle        !< For calls of riis_c.
-    procedure, non_overridable :: destroy => adjacency_destroy          !< Frees what it holds.
+                                                               !< From faces between cells.
+    generic :: create_from_grid => grid_int32, grid_int64               !< From a structured grid.
+    procedure, non_overridable :: is_created => adjacency_is_created    !< Tells whether it was created.
+    procedure, non_overridable :: c_handle => adjacency_c_handle        !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => adjacency_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
     procedure, private, non_overridable :: assign => adjacency_assign
     procedure, private, non_overridable :: cells_int32_int32 => adjacency_cells_int32_int32
@@ -50,18 +50,18 @@ module riis_adjacencies
 
 contains
 
-  !> Makes the adjacency of cells that all have the same number of nodes: neighbours are nodes that an edge of a cell joins.
-  !! What a cell is, its number of nodes says: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron, in VTK's order. The array is
-  !! read during the call only; a section that is not contiguous is copied for it. Errors: RIIS_INVALID_ARGUMENT for an
-  !! argument out of range, RIIS_INVALID_MESH naming the cell, counted from 0, and its value.
+  !> Makes the adjacency of nodes that an edge of a cell joins, from cells that all have the same number of nodes. This
+  !! number tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron, in VTK's order. The array is read during the
+  !! call only; a section that is not contiguous is copied for it. Errors: RIIS_INVALID_ARGUMENT for an argument out of
+  !! range, RIIS_INVALID_MESH naming the cell, counted from 0, and its value.
   subroutine adjacency_cells_int32_int32(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
@@ -73,15 +73,15 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int32_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_cells_int32_int64(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
@@ -93,15 +93,15 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int32_int64
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_cells_int64_int32(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
@@ -113,15 +113,15 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int64_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_cells_int64_int64(this, n_nodes, cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     code = riis_cells_init(the_cells, c_sizeof(the_cells))
@@ -133,17 +133,17 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int64_int64
 
-  !> The same of mixed cells, one after the other; the nodes of cell i are node_ids(offsets(i) : offsets(i + 1) - 1) where
-  !! offsets begins with 1.
+  !> Does the same for mixed cells. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i) : offsets(i + 1) -
+  !! 1).
   subroutine adjacency_mixed_int32_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
@@ -162,16 +162,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int32_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_mixed_int32_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
@@ -190,16 +190,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int32_int64
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_mixed_int64_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
@@ -218,16 +218,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int64_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_mixed_int64_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
@@ -246,7 +246,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int64_int64
 
-  ! Whether offsets asks for no more nodes than there are.
+  ! Checks that offsets needs no more nodes than node_ids has.
   function check_nodes_of_cells(n_asked_for, n) result(code)
     integer(int64), intent(in) :: n_asked_for, n
     integer(riis_status) :: code
@@ -255,7 +255,7 @@ contains
       text_of(n) // ' entries')
   end function check_nodes_of_cells
 
-  ! What all specifics of create_from_cells have in common; does nothing after an error.
+  ! The common part of all specifics of create_from_cells; does nothing after an error.
   subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_nodes
@@ -271,16 +271,16 @@ contains
   end subroutine create_from_cells
 
   !> Makes the adjacency of cells with common faces, for codes that mark cell centres. The array is read during the call
-  !! only; a section that is not contiguous is copied for it. Errors as of %create_from_cells.
+  !! only; a section that is not contiguous is copied for it. The errors are those of %create_from_cells.
   subroutine adjacency_faces_int32_int32(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -297,16 +297,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int32_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_faces_int32_int64(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -323,16 +323,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int32_int64
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_faces_int64_int32(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -349,16 +349,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int64_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_faces_int64_int64(this, n_cells, face_cells, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -375,16 +375,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int64_int64
 
-  !> The same with both sides of a face in arrays of their own.
+  !> Does the same with the two sides of a face in separate arrays.
   subroutine adjacency_owner_int32_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -399,16 +399,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int32_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_owner_int32_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -423,16 +423,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int32_int64
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_owner_int64_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -447,16 +447,16 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine adjacency_owner_int64_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
     code = riis_faces_init(faces, c_sizeof(faces))
@@ -471,7 +471,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int64
 
-  ! What all specifics of create_from_faces have in common; does nothing after an error.
+  ! The common part of all specifics of create_from_faces; does nothing after an error.
   subroutine create_from_faces(this, n_cells, faces, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_cells
@@ -486,28 +486,28 @@ contains
     if (code == RIIS_OK) code = riis_adjacency_create_from_faces(faces, this%handle)
   end subroutine create_from_faces
 
-  !> Makes the adjacency of a structured grid of ni * nj * nk nodes, as xyz(3, ni, nj, nk): neighbours differ by 1 in one of
-  !! i, j, k. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+  !> Makes the adjacency of a structured grid, xyz(3, ni, nj, nk). Neighbours differ by 1 in one of i, j, k. Errors:
+  !! RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine adjacency_grid_int32(this, ni, nj, nk, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: ni                        !< >= 1.
     integer(int32), intent(in) :: nj                        !< >= 1.
     integer(int32), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, status)
   end subroutine adjacency_grid_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine adjacency_grid_int64(this, ni, nj, nk, n_threads, status)
-    class(riis_adjacency), intent(inout) :: this            !< Empty before.
+    class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: ni                        !< >= 1.
     integer(int64), intent(in) :: nj                        !< >= 1.
     integer(int64), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32) :: n_threads_or_0
     integer(riis_status) :: code
     n_threads_or_0 = 0
@@ -517,27 +517,27 @@ contains
     call finish(code, status)
   end subroutine adjacency_grid_int64
 
-  !> Whether the adjacency was created and not destroyed.
+  !> Tells whether the adjacency was created and not destroyed.
   pure function adjacency_is_created(this) result(is_created)
     class(riis_adjacency), intent(in) :: this                     !< Any.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function adjacency_is_created
 
-  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function adjacency_c_handle(this) result(handle)
     class(riis_adjacency), intent(in) :: this                     !< Any.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function adjacency_c_handle
 
-  !> Frees what it holds; it is empty then, and can be created again. Nothing happens to an empty one.
+  !> Frees the memory of the adjacency, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine adjacency_destroy(this)
     class(riis_adjacency), intent(inout) :: this                  !< Any.
     call riis_adjacency_destroy(this%handle)
   end subroutine adjacency_destroy
 
-  !> Stops the program, unless both are empty.
+  !> Stops the program unless both are empty.
   impure elemental subroutine adjacency_assign(left, right)
     class(riis_adjacency), intent(inout) :: left                  !< Empty.
     class(riis_adjacency), intent(in) :: right                    !< Empty.

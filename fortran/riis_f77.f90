@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_f77.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> riis for codes that cannot use modules: external subroutines, to be called with implicit interfaces from Fortran 77, fixed
-!! or free form. `include 'riisf.h'` gives the constants.
+!> riis for codes that cannot use modules: external subroutines for implicit interfaces, from Fortran 77, fixed or free form.
+!! `include 'riisf.h'` gives the constants.
 !!
 !!           INCLUDE 'riisf.h'
 !!           INTEGER*8 VALVE, SURFACE, MESH, RESULT
@@ -14,23 +14,24 @@
 !!           CALL RIISF_MARK_NODES(SURFACE, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 0, RESULT, STATUS)
 !!           CALL RIISF_MARKED(RESULT, 5000, N, NODE, DIST, STATUS)
 !!
-!! Conventions, true for every subroutine:
+!! Rules for every subroutine:
 !!
-!! - Every argument has to be given, of exactly the kind that is said here, since no compiler checks it. `integer(int32)` is
-!!   INTEGER*4, INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION,
-!!   or REAL*8 where an option (-fdefault-real-8) makes DOUBLE PRECISION longer.
-!! - Handles are INTEGER*8, 0 before they are created and after they were destroyed. Creating sets them only on success.
-!! - The last argument is the status: RIIS_OK (0), or an error, whose text riisf_last_error gives; nothing has changed then.
-!!   Each thread has its own text. Texts count from 0.
+!! - Give every argument, of exactly the kind that is declared here: no compiler checks it. `integer(int32)` is INTEGER*4,
+!!   INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION, or REAL*8 if an
+!!   option (-fdefault-real-8) makes DOUBLE PRECISION longer.
+!! - Handles are INTEGER*8, 0 before they are created and after they are destroyed. Creating sets them only on success.
+!! - The last argument is the status: RIIS_OK (0), or an error, whose message riisf_last_error gives. After an error nothing
+!!   has changed. Each thread has its own message. Messages count from 0.
 !! - Names may have trailing blanks.
-!! - Coordinates, and the rows that riisf_mesh_set_adjacency is given, are borrowed: they have to stay in place (in COMMON,
-!!   or with SAVE, or in the main program) until the mesh is destroyed or given others. All other arrays are used during the
-!!   call only. No array is copied, but the marks of riisf_dense_mark.
-!! - Nodes that come out count from 1; what is called *_id counts from 0, as in C. What goes in counts from index_base.
-!! - Subroutines whose names end in _64 are those without for counts and ids of INTEGER*8.
-!! - Threads: an object may be read by any number of threads at once; it is written by one with no reader beside it.
+!! - Coordinates, and the rows for riisf_mesh_set_adjacency, are borrowed: they must stay in place (in COMMON, or with SAVE,
+!!   or in the main program) until the mesh is destroyed or given others. All other arrays are used during the call only. No
+!!   array is copied except the marks of riisf_dense_mark.
+!! - Nodes that the library gives count from 1. Anything called *_id counts from 0, as in C. Ids that the caller gives count
+!!   from index_base.
+!! - A subroutine whose name ends in _64 is the same as without _64, for counts and ids of INTEGER*8.
+!! - Threads: any number of threads may read an object at once. One thread may write it while no other reads it.
 
-!> Makes a valve of a kind with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
+!> Makes a valve with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
 subroutine riisf_valve_create(kind, valve, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -63,7 +64,7 @@ subroutine riisf_valve_copy(valve, copy, status)
 end subroutine riisf_valve_copy
 
 !> Sets a parameter, which has 1 or 3 values. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER
-!! naming the parameter and the value; the valve is then unchanged.
+!! naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -72,7 +73,7 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
   character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
-  integer(int32), intent(in) :: n_values                  !< 1 or 3: as many as the parameter has.
+  integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
@@ -87,13 +88,13 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_set, with its cusp.
-  integer(int32), intent(in) :: n_values                  !< 1 or 3: as many as the parameter has.
+  integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(inout) :: values(*)              !< Left alone on an error.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_get(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
 end subroutine riisf_valve_get
 
-!> Gives the valve a second state to open to, at 'opening' 1; its own is the closed one. Errors: RIIS_INVALID_PARAMETER
+!> Gives the valve a second state to open to, at 'opening' 1. Its own state is the closed one. Errors: RIIS_INVALID_PARAMETER
 !! for a valve of another kind.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
@@ -101,12 +102,12 @@ subroutine riisf_valve_set_open_state(valve, open, status)
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
-  integer(int64), intent(in) :: open                      !< Created; copied, so it may be destroyed.
+  integer(int64), intent(in) :: open                      !< Created. It is copied, so it may be destroyed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set_open_state(c_handle_of(valve), c_handle_of(open))
 end subroutine riisf_valve_set_open_state
 
-!> Frees what the valve holds and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the valve and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_valve_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -131,10 +132,10 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   implicit none
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
-                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
   integer(int64), intent(inout) :: surface                !< Written on success.
@@ -148,7 +149,7 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   if (status == RIIS_OK) surface = handle_of(c_handle)
 end subroutine riisf_surface_create
 
-!> Replaces the surface by that of a valve that moved, with the options that it has. Errors as of riisf_surface_create.
+!> Replaces the surface by that of a valve that moved, with the same options. The errors are those of riisf_surface_create.
 subroutine riisf_surface_update(surface, valve, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_surface_update
@@ -160,7 +161,7 @@ subroutine riisf_surface_update(surface, valve, status)
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
 end subroutine riisf_surface_update
 
-!> The same with other options. They are those of riisf_surface_create.
+!> Does the same with other options, which are those of riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -171,10 +172,10 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
-                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -184,7 +185,7 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_place
 
-!> The same with another way of measuring distances, which later updates by riisf_surface_update keep.
+!> Does the same with another way of measuring distances, which riisf_surface_update keeps.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, distance, distance_tolerance, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -195,15 +196,15 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
-                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
   integer(int32), intent(in) :: distance                  !< RIIS_DISTANCE_*.
   real(c_double), intent(in) :: distance_tolerance        !< A share of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
-                                                          !! Not used for RIIS_DISTANCE_TRIANGLES.
+                                                          !! RIIS_DISTANCE_TRIANGLES does not use it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
@@ -245,14 +246,14 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, seconds, hal
   integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
   real(c_double), intent(in) :: seconds                   !< From valve_before to valve.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< Times half_thickness bounds the error of distances: 1e-6 to
-                                                          !! 1, usually 0.05.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
-  real(c_double), intent(in) :: rotation_axis(3)          !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
   real(c_double), intent(in) :: scale_before              !< At the state before; so the next three.
-  real(c_double), intent(in) :: rotation_axis_before(3)   !< Of any length from 1e-50 on.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
   real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -265,7 +266,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, seconds, hal
     before)
 end subroutine riisf_surface_place_moving
 
-!> Frees what the surface holds and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the surface and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -301,7 +302,7 @@ subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   if (status == RIIS_OK) mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create
 
-!> The same.
+!> Does the same.
 subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -322,8 +323,8 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   if (status == RIIS_OK) mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
-!> Tells the mesh that the coordinates moved, in place or to other arrays. To be called after any change of coordinates.
-!! The adjacency stays if n_nodes does.
+!> Tells the mesh that the coordinates moved, in place or to other arrays. Call it after every change of coordinates. The
+!! adjacency stays if n_nodes does.
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -341,7 +342,7 @@ subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
     int(stride, int64))
 end subroutine riisf_mesh_update
 
-!> The same.
+!> Does the same.
 subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -359,19 +360,19 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
     int(stride, int64))
 end subroutine riisf_mesh_update_64
 
-!> Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does.
+!> Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, riis_mesh_prepare
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024, or 0: the processors there are.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_prepare(c_handle_of(mesh), n_threads)
 end subroutine riisf_mesh_prepare
 
-!> Frees what the mesh holds and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the mesh, not the coordinates, and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_mesh_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -385,15 +386,15 @@ subroutine riisf_mesh_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_mesh_destroy
 
-!> The text of the calling thread's last error, cut or padded with blanks.
+!> Gives the message of the calling thread's last error, cut or padded with blanks.
 subroutine riisf_last_error(text)
   use riis_c, only: riis_c_text, riis_last_error
   implicit none
-  character(len=*), intent(out) :: text                   !< 512 letters hold every text.
+  character(len=*), intent(out) :: text                   !< 512 letters hold every message.
   text = riis_c_text(riis_last_error())
 end subroutine riisf_last_error
 
-!> A status's own name, such as 'RIIS_INVALID_ARGUMENT'.
+!> Gives a status's own name, such as 'RIIS_INVALID_ARGUMENT'.
 subroutine riisf_status_name(status, text)
   use riis_c, only: riis_c_text, riis_status, riis_status_name
   implicit none
@@ -402,7 +403,7 @@ subroutine riisf_status_name(status, text)
   text = riis_c_text(riis_status_name(status))
 end subroutine riisf_status_name
 
-!> The version of the library that was linked, '0.1.0'.
+!> Gives the version of the linked library, such as '0.1.0'.
 subroutine riisf_version(text)
   use riis_c, only: riis_c_text, riis_version_string
   implicit none

@@ -2,9 +2,9 @@
 ! Generated from fortran/templates/riis_f77_adjacency.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for adjacencies. The conventions are those of riis_f77.f90.
 
-!> Gives the mesh its adjacency as compressed sparse rows, which are borrowed: the neighbours of node i are
-!! columns(offsets(i)) to columns(offsets(i + 1) - 1), if index_base is 1. Errors: RIIS_INVALID_ARGUMENT for an argument
-!! out of range, RIIS_INVALID_MESH naming the row, counted from 0, and its value; the mesh then keeps what it had.
+!> Gives the mesh its adjacency as compressed sparse rows, which are borrowed. If index_base is 1, the neighbours of node i
+!! are columns(offsets(i)) to columns(offsets(i + 1) - 1). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
+!! RIIS_INVALID_MESH naming the row, counted from 0, and its value. The mesh then keeps the rows that it had.
 subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -16,7 +16,7 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from index_base.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1.
-  integer(int32), intent(in) :: n_all                     !< n_rows and the ghosts that columns may name; 0: n_rows.
+  integer(int32), intent(in) :: n_all                     !< n_rows plus the ghosts that columns may name; 0: n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -31,7 +31,7 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_set_adjacency
 
-!> The same.
+!> Does the same.
 subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -43,7 +43,7 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from index_base.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1.
-  integer(int64), intent(in) :: n_all                     !< n_rows and the ghosts that columns may name; 0: n_rows.
+  integer(int64), intent(in) :: n_all                     !< n_rows plus the ghosts that columns may name; 0: n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -58,7 +58,7 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_set_adjacency_64
 
-!> The same with rows that the library made: the adjacency has to live until the mesh is destroyed or given another.
+!> Does the same with rows of the library. The adjacency must live until the mesh is destroyed or given another.
 subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -66,14 +66,14 @@ subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int64), intent(in) :: adjacency                 !< Created; to be destroyed after the mesh.
+  integer(int64), intent(in) :: adjacency                 !< Created. Destroy it after the mesh.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_adjacency_csr(c_handle_of(adjacency), csr, c_sizeof(csr))
   if (status == RIIS_OK) status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_use_adjacency
 
-!> Takes the adjacency away: its rows are not borrowed any more.
+!> Takes the adjacency away. Its rows are not borrowed any more.
 subroutine riisf_mesh_clear_adjacency(mesh, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_mesh_set_adjacency
@@ -84,9 +84,9 @@ subroutine riisf_mesh_clear_adjacency(mesh, status)
   status = riis_mesh_set_adjacency(c_handle_of(mesh))
 end subroutine riisf_mesh_clear_adjacency
 
-!> Makes the adjacency of cells that all have the same number of nodes, in VTK's order: neighbours are nodes that an
-!! edge of a cell joins. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, RIIS_INVALID_MESH naming the cell,
-!! counted from 0, and its value.
+!> Makes the adjacency of nodes that an edge of a cell joins, from cells that all have the same number of nodes, in VTK's
+!! order. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, RIIS_INVALID_MESH naming the cell, counted from 0, and
+!! its value.
 subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -98,7 +98,7 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   integer(int32), intent(in) :: n_cells                   !< >= 1.
   integer(int32), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -117,7 +117,7 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_cells
 
-!> The same.
+!> Does the same.
 subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -129,7 +129,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   integer(int64), intent(in) :: n_cells                   !< >= 1.
   integer(int64), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -148,8 +148,8 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_cells_64
 
-!> The same of mixed cells, one after the other: the nodes of cell i are node_ids(offsets(i)) to node_ids(offsets(i + 1)
-!! - 1), where offsets begins with 1.
+!> Does the same for mixed cells. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
+!! node_ids(offsets(i + 1) - 1).
 subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -161,7 +161,7 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
   integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -180,7 +180,7 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_mixed
 
-!> The same.
+!> Does the same.
 subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -192,7 +192,7 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
   integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -211,7 +211,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_mixed_64
 
-!> Makes the adjacency of cells with common faces, for codes that mark cell centres. Errors as above.
+!> Makes the adjacency of cells with common faces, for codes that mark cell centres. The errors are those of
+!! riisf_adjacency_from_cells.
 subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -223,7 +224,7 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   integer(int32), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                           !! boundary.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_faces) :: faces
@@ -245,7 +246,7 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_faces
 
-!> The same.
+!> Does the same.
 subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -257,7 +258,7 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   integer(int64), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                           !! boundary.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_faces) :: faces
@@ -279,7 +280,7 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_faces_64
 
-!> Makes the adjacency of a structured grid, XYZ(3, ni, nj, nk): neighbours differ by 1 in one of i, j, k.
+!> Makes the adjacency of a structured grid, XYZ(3, ni, nj, nk). Neighbours differ by 1 in one of i, j, k.
 subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -289,7 +290,7 @@ subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   integer(int32), intent(in) :: ni                        !< >= 1.
   integer(int32), intent(in) :: nj                        !< >= 1.
   integer(int32), intent(in) :: nk                        !< >= 1.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
@@ -298,7 +299,7 @@ subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_grid
 
-!> Frees what the adjacency holds and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the adjacency and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_adjacency_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64

@@ -13,12 +13,11 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: mesh                      !< Created.
-  real(c_double), intent(in) :: distance_limit            !< Distances are wanted up to here; RIIS_AUTO: the half
-                                                          !! thickness.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
-  integer(int64), intent(inout) :: result                 !< 0, and is then created, or of a call before.
+  integer(int64), intent(inout) :: result                 !< 0, which creates one, or from a call before.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(c_ptr) :: c_handle
@@ -90,7 +89,7 @@ subroutine riisf_marked_reals(result, field, length, n, values, status)
   end if
 end subroutine riisf_marked_reals
 
-!> The same.
+!> Does the same.
 subroutine riisf_marked_reals_64(result, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -190,7 +189,7 @@ subroutine riisf_marked_integers(result, field, length, n, values, status)
   end if
 end subroutine riisf_marked_integers
 
-!> The same.
+!> Does the same.
 subroutine riisf_marked_integers_64(result, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -292,7 +291,7 @@ subroutine riisf_within_limit_reals(result, field, length, n, values, status)
   end if
 end subroutine riisf_within_limit_reals
 
-!> The same.
+!> Does the same.
 subroutine riisf_within_limit_reals_64(result, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -392,7 +391,7 @@ subroutine riisf_within_limit_integers(result, field, length, n, values, status)
   end if
 end subroutine riisf_within_limit_integers
 
-!> The same.
+!> Does the same.
 subroutine riisf_within_limit_integers_64(result, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -2,23 +2,23 @@
 ! Generated from fortran/templates/riis_f77_leaks.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for leaks. The conventions are those of riis_f77.f90.
 
-!> Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes: flow passes along it. An
-!! edge of at most two half thicknesses never does. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT
-!! if the mesh has no adjacency, or the result is of no marking, of another mesh or of another half thickness.
+!> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at
+!! most two half thicknesses long do not leak. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT if the
+!! mesh has no adjacency, or if the result was never marked with, or was marked with another mesh or half thickness.
 subroutine riisf_find_leaks(surface, mesh, n_threads, result, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_leaks, riis_mark_options, riis_status, RIIS_OK, riis_find_leaks, riis_mark_options_init
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< That of the marking.
-  integer(int64), intent(in) :: mesh                      !< That of the marking, with an adjacency.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
-  integer(int64), intent(inout) :: n_edges                !< How many there are. INTEGER*8.
-  real(c_double), intent(inout) :: longest                !< The length of the longest; 0 where there is none.
+  integer(int64), intent(in) :: surface                   !< The surface of the marking.
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
+  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak, INTEGER*8.
+  real(c_double), intent(inout) :: longest                !< The length of the longest; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< Its middle.
-  real(c_double), intent(inout) :: half_thickness         !< The smallest that closes all of them; 0 where there is none.
+  real(c_double), intent(inout) :: half_thickness         !< The smallest that closes all of them; 0 if none leaks.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_leaks) :: leaks
@@ -33,8 +33,8 @@ subroutine riisf_find_leaks(surface, mesh, n_threads, result, n_edges, longest, 
   half_thickness = leaks%half_thickness
 end subroutine riisf_find_leaks
 
-!> Copies the edges that the last riisf_find_leaks found into the caller's array, ascending. Errors: RIIS_INVALID_ARGUMENT if
-!! the array is too short: nothing but n is then written.
+!> Copies the edges of the last riisf_find_leaks into the caller's array, ascending. Errors: RIIS_INVALID_ARGUMENT if the
+!! array is too short; only n is then written.
 subroutine riisf_leaking_edges(result, length, n, node_num, status)
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -42,9 +42,9 @@ subroutine riisf_leaking_edges(result, length, n, node_num, status)
     riis_mark_result_leaking_edges
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_find_leaks.
+  integer(int64), intent(in) :: result                    !< From riisf_find_leaks.
   integer(int32), intent(in) :: length                    !< Of the array.
-  integer(int32), intent(inout) :: n                      !< How many edges there are, also if the array is too short.
+  integer(int32), intent(inout) :: n                      !< The number of edges, also if the array is too short.
   integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: node_ids
@@ -69,7 +69,7 @@ subroutine riisf_leaking_edges(result, length, n, node_num, status)
   node_num(:, :n) = int(ids + 1, int32)
 end subroutine riisf_leaking_edges
 
-!> The same with INTEGER*8.
+!> Does the same with INTEGER*8.
 subroutine riisf_leaking_edges_64(result, length, n, node_num, status)
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -77,9 +77,9 @@ subroutine riisf_leaking_edges_64(result, length, n, node_num, status)
     riis_mark_result_leaking_edges
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_find_leaks.
+  integer(int64), intent(in) :: result                    !< From riisf_find_leaks.
   integer(int64), intent(in) :: length                    !< Of the array.
-  integer(int64), intent(inout) :: n                      !< How many edges there are, also if the array is too short.
+  integer(int64), intent(inout) :: n                      !< The number of edges, also if the array is too short.
   integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: node_ids

@@ -2,9 +2,9 @@
 ! Generated from fortran/templates/riis_f77_marking.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for marking. The conventions are those of riis_f77.f90.
 
-!> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. To be
-!! called with the same result every time step, since its memory is kept. Errors: RIIS_INVALID_ARGUMENT for an option
-!! out of range; the content of the result is then as it was.
+!> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. Use the same
+!! result every time step: its memory is kept. Errors: RIIS_INVALID_ARGUMENT for an option out of range; the result's content
+!! is then as it was.
 subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, result, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -14,11 +14,10 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, re
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: mesh                      !< Created.
-  real(c_double), intent(in) :: distance_limit            !< Distances are wanted up to here; RIIS_AUTO: the half
-                                                          !! thickness.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors the calling thread may use.
-  integer(int64), intent(inout) :: result                 !< 0, and is then created, or of a call before.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int64), intent(inout) :: result                 !< 0, which creates one, or from a call before.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(c_ptr) :: c_handle
@@ -34,17 +33,17 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, re
   result = handle_of(c_handle)
 end subroutine riisf_mark_nodes
 
-!> Copies the marked nodes into the caller's arrays, ascending by node. Errors: RIIS_INVALID_ARGUMENT if the arrays are
-!! too short: nothing but n is then written.
+!> Copies the marked nodes into the caller's arrays, ascending by node. Errors: RIIS_INVALID_ARGUMENT if the arrays are too
+!! short; only n is then written.
 subroutine riisf_marked(result, length, n, node_num, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_mark_result_marked
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: length                    !< Of the arrays.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
   integer(int32), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -75,16 +74,16 @@ subroutine riisf_marked(result, length, n, node_num, distance, status)
   distance(:n) = near
 end subroutine riisf_marked
 
-!> The same.
+!> Does the same.
 subroutine riisf_marked_64(result, length, n, node_num, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_marked
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int64), intent(in) :: length                    !< Of the arrays.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
   integer(int64), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -111,16 +110,16 @@ subroutine riisf_marked_64(result, length, n, node_num, distance, status)
 end subroutine riisf_marked_64
 
 !> Copies all nodes within the distance limit, marked or not, into the caller's arrays, ascending by node. Errors:
-!! RIIS_INVALID_ARGUMENT if the arrays are too short: nothing but n is then written.
+!! RIIS_INVALID_ARGUMENT if the arrays are too short; only n is then written.
 subroutine riisf_within_limit(result, length, n, node_num, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_mark_result_within_limit
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: length                    !< Of the arrays.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
   integer(int32), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -151,16 +150,16 @@ subroutine riisf_within_limit(result, length, n, node_num, distance, status)
   distance(:n) = near
 end subroutine riisf_within_limit
 
-!> The same.
+!> Does the same.
 subroutine riisf_within_limit_64(result, length, n, node_num, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_within_limit
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int64), intent(in) :: length                    !< Of the arrays.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
   integer(int64), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -193,12 +192,11 @@ subroutine riisf_dense_distance(result, n_nodes, far_distance, distance, status)
   use riis_c, only: riis_status, riis_mark_result_dense
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: far_distance              !< Of the other nodes, outside [0, distance_limit]: usually
+  real(c_double), intent(in) :: far_distance              !< The distance of other nodes, outside [0, distance_limit]; usually
                                                           !! RIIS_FAR_DISTANCE.
-  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): of the nodes within the distance limit, else
-                                                          !! far_distance.
+  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): for nodes within the distance limit, else far_distance.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), far_distance, distance=distance)
 end subroutine riisf_dense_distance
@@ -209,10 +207,9 @@ subroutine riisf_dense_triangle(result, n_nodes, triangle_id, status)
   use riis_c, only: riis_status, RIIS_FAR_DISTANCE, riis_mark_result_dense
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): from 0, of the nodes within the distance limit,
-                                                          !! else -1.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): from 0, for nodes within the distance limit, else -1.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, triangle_id=triangle_id)
 end subroutine riisf_dense_triangle
@@ -223,10 +220,10 @@ subroutine riisf_dense_leaflet(result, n_nodes, leaflet_id, status)
   use riis_c, only: riis_status, RIIS_FAR_DISTANCE, riis_mark_result_dense
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): RIIS_LEAFLET_* of the nodes within the distance
-                                                          !! limit, else -1.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): RIIS_LEAFLET_* for nodes within the distance limit, else
+                                                          !! -1.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, leaflet_id=leaflet_id)
 end subroutine riisf_dense_leaflet
@@ -237,7 +234,7 @@ subroutine riisf_dense_mark(result, n_nodes, mark, status)
   use riis_c, only: riis_status, RIIS_FAR_DISTANCE, RIIS_OK, riis_mark_result_dense
   use riis_support, only: c_handle_of, out_of_memory
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(inout) :: mark(*)                !< (n_nodes): 1 for marked nodes, else 0.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -249,7 +246,7 @@ subroutine riisf_dense_mark(result, n_nodes, mark, status)
   if (status == RIIS_OK) mark(:n_nodes) = bytes
 end subroutine riisf_dense_mark
 
-!> Frees what the mark result holds and sets its handle to 0. Nothing happens to a handle that is 0.
+!> Destroys the mark result and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_mark_result_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64

@@ -11,7 +11,7 @@ subroutine riisf_add_resistance(result, resistance, half_thickness, rim, n_nodes
   use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_resistance, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
@@ -28,14 +28,14 @@ subroutine riisf_add_resistance(result, resistance, half_thickness, rim, n_nodes
   status = riis_mark_result_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
 end subroutine riisf_add_resistance
 
-!> The same.
+!> Does the same.
 subroutine riisf_add_resistance_64(result, resistance, half_thickness, rim, n_nodes, coefficient, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_resistance, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
@@ -78,7 +78,7 @@ subroutine riisf_add_moving_resistance(result, resistance, half_thickness, rim, 
   status = riis_mark_result_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
 end subroutine riisf_add_moving_resistance
 
-!> The same.
+!> Does the same.
 subroutine riisf_add_moving_resistance_64(result, resistance, half_thickness, rim, n_nodes, coefficient, momentum, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -132,7 +132,7 @@ subroutine riisf_add_reaction(result, resistance, half_thickness, rim, n_nodes, 
   status = riis_mark_result_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
 end subroutine riisf_add_reaction
 
-!> The same.
+!> Does the same.
 subroutine riisf_add_reaction_64(result, resistance, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -189,7 +189,7 @@ subroutine riisf_band_sums(result, inner, outer, n_nodes, value, weight, sum_of_
   n_in_band = sums%n_nodes
 end subroutine riisf_band_sums
 
-!> The same.
+!> Does the same.
 subroutine riisf_band_sums_64(result, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof

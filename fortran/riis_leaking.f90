@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Leaks: the part of module riis that is riis_find_leaks in riis.h.
+!> Leaks: riis_find_leaks of riis.h, as a part of module riis.
 module riis_leaking
   use, intrinsic :: iso_c_binding, only: c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -21,20 +21,20 @@ module riis_leaking
 
 contains
 
-  !> Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes: flow passes along it. An
-  !! edge of at most two half thicknesses never does. Gaps of the surface itself are not found. %leaking_edges of the result
-  !! gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or the result is of no marking, of another
-  !! mesh or of another half thickness. The result is then as it was.
+  !> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are
+  !! at most two half thicknesses long do not leak. Gaps of the surface itself are not found. %leaking_edges of the result
+  !! gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the result was never marked with, or
+  !! was marked with another mesh or half thickness. The result is then as it was.
   subroutine find_leaks_logical(surface, mesh, result, leaks, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< That of the marking.
-    class(riis_mesh), intent(in) :: mesh                    !< That of the marking, with an adjacency.
-    class(riis_mark_result), intent(inout) :: result        !< Of riis_mark_nodes; its leaking edges are replaced.
-    type(riis_leaks), intent(inout) :: leaks                !< What was found; left alone on an error.
-    logical, intent(in), optional :: node_mask(:)           !< That of the marking, (n_nodes): edges to nodes with .false. are
-                                                            !! no paths; copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking.
+    class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
+    class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
+    type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
+    logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: edges to nodes with .false. are no
+                                                            !! paths; copied. Default: all nodes.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
     integer(riis_status) :: code
     integer :: stat
@@ -48,32 +48,32 @@ contains
     call finish(code, status)
   end subroutine find_leaks_logical
 
-  !> The same with a mask of bytes, which is not copied, unless it is a section that is not contiguous.
+  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_leaks_int8(surface, mesh, result, leaks, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< That of the marking.
-    class(riis_mesh), intent(in) :: mesh                    !< That of the marking, with an adjacency.
-    class(riis_mark_result), intent(inout) :: result        !< Of riis_mark_nodes; its leaking edges are replaced.
-    type(riis_leaks), intent(inout) :: leaks                !< What was found; left alone on an error.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking.
+    class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
+    class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
+    type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): edges to nodes with 0 are no paths.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
     call find(surface, mesh, result, leaks, node_mask, n_threads, code)
     call finish(code, status)
   end subroutine find_leaks_int8
 
-  !> The same with a mask of integers, which is copied.
+  !> Does the same with a mask of integers, which is copied.
   subroutine find_leaks_int32(surface, mesh, result, leaks, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< That of the marking.
-    class(riis_mesh), intent(in) :: mesh                    !< That of the marking, with an adjacency.
-    class(riis_mark_result), intent(inout) :: result        !< Of riis_mark_nodes; its leaking edges are replaced.
-    type(riis_leaks), intent(inout) :: leaks                !< What was found; left alone on an error.
+    class(riis_surface), intent(in) :: surface              !< The surface of the marking.
+    class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
+    class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
+    type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): edges to nodes with 0 are no paths.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
     integer :: stat
@@ -84,7 +84,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_int32
 
-  ! What all specifics have in common; does nothing after an error.
+  ! The common part of all specifics; does nothing after an error.
   subroutine find(surface, mesh, result, leaks, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_marking.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> Marking: the part of module riis that is riis_mark_* in riis.h.
+!> Marking: riis_mark_* of riis.h, as a part of module riis.
 module riis_marking
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -15,7 +15,7 @@ module riis_marking
   !> Pointers to the fields of the closest points that riis_mark_nodes was asked for, by %marked_fields or
   !! %within_limit_fields. The result owns the arrays; they count from 1. The size of a field that was not asked for is 0.
   type :: riis_mark_fields
-    integer(int64) :: n_nodes = 0                           !< How many nodes.
+    integer(int64) :: n_nodes = 0                           !< Returns the number of nodes.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_nodes): the closest point of the surface.
     real(c_double), pointer :: normal(:, :) => null()       !< (3, n_nodes): the unit normal of its triangle.
     real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): its weights of the triangle's vertices.
@@ -27,30 +27,30 @@ module riis_marking
     integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes), from 0, as %triangles of the surface gives it.
   end type riis_mark_fields
 
-  !> The nodes that were found and where the surface is from them. Empty until riis_mark_nodes, which is to be called with
-  !! the same variable every time step, since its memory is kept; empty again after %destroy, which has to be called. May be
-  !! read by any number of threads at once; is written by one with no reader beside it.
+  !> The nodes that a marking found, with their distances. It is empty until riis_mark_nodes and after %destroy, which must
+  !! be called. Use the same variable every time step: its memory is kept. Any number of threads may read it at once. One
+  !! thread may write it while no other reads it.
   type :: riis_mark_result
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    procedure, non_overridable :: n_marked => result_n_marked           !< How many nodes are marked.
-    procedure, non_overridable :: n_within_limit => result_n_within_limit !< How many nodes are within the distance limit.
-    procedure, non_overridable :: marked => result_marked               !< Pointers to the marked nodes' arrays.
-    procedure, non_overridable :: within_limit => result_within_limit   !< The same of those within the distance limit.
-    generic :: marked_nodes => marked_int32, marked_int64               !< Copies of the marked nodes, counted from 1.
-    generic :: nodes_within_limit => within_int32, within_int64         !< Copies of those within the limit, counted from 1.
+    procedure, non_overridable :: n_marked => result_n_marked           !< Returns the number of marked nodes.
+    procedure, non_overridable :: n_within_limit => result_n_within_limit !< Returns the number of nodes within the limit.
+    procedure, non_overridable :: marked => result_marked               !< Points to the arrays of the marked nodes.
+    procedure, non_overridable :: within_limit => result_within_limit   !< Points to those of the nodes within the limit.
+    generic :: marked_nodes => marked_int32, marked_int64               !< Copies the marked nodes, counted from 1.
+    generic :: nodes_within_limit => within_int32, within_int64         !< Copies the nodes within the limit, counted from 1.
     procedure, non_overridable :: marked_fields => result_marked_fields !< Pointers to the marked nodes' fields.
     procedure, non_overridable :: within_limit_fields => result_within_limit_fields !< The same of those within the limit.
     procedure, non_overridable :: add_resistance => result_add_resistance !< Adds K and K u_surface to the caller's arrays.
     procedure, non_overridable :: add_reaction => result_add_reaction   !< Adds the force of the flow on the surface.
     procedure, non_overridable :: band_sums => result_band_sums         !< Sums on either side of the surface.
-    generic :: dense => dense_int8, dense_int32, dense_logical          !< One entry a node, into the caller's arrays.
-    procedure, non_overridable :: get_stats => result_get_stats         !< How the last marking went.
-    procedure, non_overridable :: leaking_edges => result_leaking_edges !< Pointers to what riis_find_leaks found.
-    procedure, non_overridable :: is_created => result_is_created       !< Whether there is anything in it.
-    procedure, non_overridable :: c_handle => result_c_handle           !< For calls of riis_c.
-    procedure, non_overridable :: destroy => result_destroy             !< Frees what it holds.
+    generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry a node into the caller's arrays.
+    procedure, non_overridable :: get_stats => result_get_stats         !< Tells how the last marking went.
+    procedure, non_overridable :: leaking_edges => result_leaking_edges !< Points to the edges that riis_find_leaks found.
+    procedure, non_overridable :: is_created => result_is_created       !< Tells whether it was created.
+    procedure, non_overridable :: c_handle => result_c_handle           !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => result_destroy             !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
     procedure, private, non_overridable :: assign => result_assign
     procedure, private, non_overridable :: marked_int32 => result_marked_int32
@@ -75,29 +75,29 @@ module riis_marking
     type(c_ptr) :: node_id = c_null_ptr, distance = c_null_ptr, triangle_id = c_null_ptr, leaflet_id = c_null_ptr
   end type node_list
 
-  ! What a pointer points to where there is nothing: its size can be asked for.
+  ! The target of pointers to nothing, so that their size can be taken.
   real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0), no_edges(2, 0)
 
 contains
 
-  !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit, and puts
-  !! them into the result, whose former content is replaced; pointers got from it before end. Errors: RIIS_INVALID_MESH for
-  !! a coordinate that was made non-finite without %update; RIIS_INVALID_ARGUMENT for an option out of range. The content of
-  !! the result is then as it was, though its arrays may have moved.
+  !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. They
+  !! replace the result's content; pointers got from it before end. Errors: RIIS_INVALID_MESH for a coordinate that became
+  !! non-finite without %update; RIIS_INVALID_ARGUMENT for an option out of range. The result's content is then as it was,
+  !! but its arrays may have moved.
   subroutine mark_nodes_logical(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
-    class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
-    class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
-    class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
-    real(c_double), intent(in), optional :: distance_limit  !< Distances are wanted up to here, from the half thickness to
+    class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
+    class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
+    class(riis_mark_result), intent(inout) :: result        !< Empty, or from a call before.
+    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out; copied. Default:
                                                             !! all nodes.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
     integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
@@ -113,18 +113,18 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_logical
 
-  !> The same with a mask of bytes, which is not copied, unless it is a section that is not contiguous.
+  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine mark_nodes_int8(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
-    class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
-    class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
-    class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
-    real(c_double), intent(in), optional :: distance_limit  !< Distances are wanted up to here, from the half thickness to
+    class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
+    class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
+    class(riis_mark_result), intent(inout) :: result        !< Empty, or from a call before.
+    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
     integer(riis_status) :: code
@@ -133,18 +133,18 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_int8
 
-  !> The same with a mask of integers, which is copied.
+  !> Does the same with a mask of integers, which is copied.
   subroutine mark_nodes_int32(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
-    class(riis_surface), intent(in) :: surface              !< Created; may be shared with other calls under way.
-    class(riis_mesh), intent(in) :: mesh                    !< Created; may be shared with other calls under way.
-    class(riis_mark_result), intent(inout) :: result        !< Empty, or of a call before.
-    real(c_double), intent(in), optional :: distance_limit  !< Distances are wanted up to here, from the half thickness to
+    class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
+    class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
+    class(riis_mark_result), intent(inout) :: result        !< Empty, or from a call before.
+    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
     integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
@@ -157,7 +157,7 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_int32
 
-  ! What all specifics of riis_mark_nodes have in common; does nothing after an error.
+  ! The common part of all specifics of riis_mark_nodes; does nothing after an error.
   subroutine mark(surface, mesh, result, distance_limit, mask, search, n_threads, fields, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
@@ -185,10 +185,10 @@ contains
     if (code /= RIIS_OK .and. was_empty) call riis_mark_result_destroy(result%handle) ! empty as before
   end subroutine mark
 
-  !> How many nodes are marked.
+  !> Returns the number of marked nodes.
   function result_n_marked(this, status) result(n)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n                                     !< 0 on an error.
     integer(riis_status) :: code
     n = 0
@@ -197,10 +197,10 @@ contains
     call finish(code, status)
   end function result_n_marked
 
-  !> How many nodes are within the distance limit, marked or not.
+  !> Returns the number of nodes within the distance limit, marked or not.
   function result_n_within_limit(this, status) result(n)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n                                     !< 0 on an error.
     integer(riis_status) :: code
     n = 0
@@ -225,7 +225,7 @@ contains
     end if
   end function get_list
 
-  ! Points to a list; there is no address in one of no nodes.
+  ! Points to a list. A list without nodes has no address.
   subroutine point_to(list, node_id, distance, triangle_id, leaflet_id)
     type(node_list), intent(in) :: list
     integer(int64), pointer, intent(out), optional :: node_id(:), triangle_id(:)
@@ -249,15 +249,16 @@ contains
     end if
   end subroutine point_to
 
-  !> Points to the result's own arrays of the marked nodes, ascending by node: no copy. Valid until the next riis_mark_nodes
-  !! with the result or its destruction; not to be written to. With no marked node, and on an error, their sizes are 0.
+  !> Points to the result's own arrays of the marked nodes, ascending by node, without a copy. They are valid until the next
+  !! riis_mark_nodes with the result or its destruction. Do not write to them. Without marked nodes, and on an error, their
+  !! sizes are 0.
   subroutine result_marked(this, node_id, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
     real(c_double), pointer, intent(out), optional :: distance(:) !< (n), mesh units.
-    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(node_list) :: list
     integer(riis_status) :: code
     code = get_list(this, .false., list)
@@ -265,14 +266,14 @@ contains
     call finish(code, status)
   end subroutine result_marked
 
-  !> The same for all nodes within the distance limit, marked or not.
+  !> Does the same for all nodes within the distance limit, marked or not.
   subroutine result_within_limit(this, node_id, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
     real(c_double), pointer, intent(out), optional :: distance(:) !< (n), mesh units.
-    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(node_list) :: list
     integer(riis_status) :: code
     code = get_list(this, .true., list)
@@ -280,16 +281,16 @@ contains
     call finish(code, status)
   end subroutine result_within_limit
 
-  !> Copies of the marked nodes' arrays, ascending by node, which stay when the result goes. Each is allocated with exactly
-  !! the size that is needed, (0) for none, unless it already has it. Errors: RIIS_LIMIT_EXCEEDED for a node that
+  !> Copies the arrays of the marked nodes, ascending by node; the copies stay when the result goes. Each array is allocated
+  !! to exactly the size that is needed, (0) for none, unless it has that size. Errors: RIIS_LIMIT_EXCEEDED for a node that
   !! integer(int32) cannot count; the arrays are left alone on an error.
   subroutine result_marked_int32(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
-    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(node_list) :: list
     integer(int64), pointer :: ids(:)
     integer(riis_status) :: code
@@ -315,14 +316,14 @@ contains
     call finish(code, status)
   end subroutine result_marked_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine result_marked_int64(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
-    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(node_list) :: list
     integer(int64), pointer :: ids(:)
     integer(riis_status) :: code
@@ -344,14 +345,14 @@ contains
     call finish(code, status)
   end subroutine result_marked_int64
 
-  !> The same for all nodes within the distance limit, marked or not.
+  !> Does the same for all nodes within the distance limit, marked or not.
   subroutine result_within_int32(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
-    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(node_list) :: list
     integer(int64), pointer :: ids(:)
     integer(riis_status) :: code
@@ -377,14 +378,14 @@ contains
     call finish(code, status)
   end subroutine result_within_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine result_within_int64(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
-    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: of the closest triangle.
+    integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
     integer(int32), allocatable, intent(inout), optional :: leaflet_id(:) !< (n): RIIS_LEAFLET_*, or the caller's.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(node_list) :: list
     integer(int64), pointer :: ids(:)
     integer(riis_status) :: code
@@ -406,7 +407,7 @@ contains
     call finish(code, status)
   end subroutine result_within_int64
 
-  ! Copies what there is besides the nodes.
+  ! Copies the arrays besides that of the nodes.
   function copy_list(list, distance, triangle_id, leaflet_id) result(code)
     type(node_list), intent(in) :: list
     real(c_double), allocatable, intent(inout), optional :: distance(:)
@@ -443,19 +444,21 @@ contains
     code = out_of_memory(stat)
   end function copy_list
 
-  !> Writes one entry a node into the caller's arrays; only those that are given, of the same size, the mesh's number of
-  !! nodes. Sections that are not contiguous are copied to and fro by the compiler. Errors: RIIS_INVALID_ARGUMENT for
-  !! another size, or a far_distance that looks near; nothing is then written.
+  !> Writes one entry a node into the arrays that are given. Each has the size of the mesh's number of nodes. The compiler
+  !! copies sections that are not contiguous there and back. Errors: RIIS_INVALID_ARGUMENT for another size, or a
+  !! far_distance that looks near; nothing is then written.
   subroutine result_dense_int8(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
-    integer(int8), intent(inout), contiguous, optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others. No copy.
-    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): of nodes within the distance limit, else
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    integer(int8), intent(inout), contiguous, optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others; not copied.
+    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
-    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): the same, from 0, else -1.
-    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): the same, else -1.
-    real(c_double), intent(in), optional :: far_distance    !< Any value, NaN too, outside [0, distance_limit]. Default
+    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
+                                                            !! 0, else -1.
+    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
+                                                            !! -1.
+    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
                                                             !! RIIS_FAR_DISTANCE.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n
     integer(riis_status) :: code
     n = -1
@@ -486,17 +489,19 @@ contains
     end subroutine check
   end subroutine result_dense_int8
 
-  !> The same with marks in another kind of integer, which are converted.
+  !> Does the same with marks in another kind of integer, which are converted.
   subroutine result_dense_int32(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), intent(inout) :: mark(:)                !< (n_nodes): 1 for marked nodes, 0 for others.
-    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): of nodes within the distance limit, else
+    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
-    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): the same, from 0, else -1.
-    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): the same, else -1.
-    real(c_double), intent(in), optional :: far_distance    !< Any value, NaN too, outside [0, distance_limit]. Default
+    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
+                                                            !! 0, else -1.
+    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
+                                                            !! -1.
+    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
                                                             !! RIIS_FAR_DISTANCE.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
     integer :: stat
@@ -507,17 +512,19 @@ contains
     call finish(code, status)
   end subroutine result_dense_int32
 
-  !> The same with logical marks, which are converted.
+  !> Does the same with logical marks, which are converted.
   subroutine result_dense_logical(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     logical, intent(inout) :: mark(:)                       !< (n_nodes): .true. for marked nodes.
-    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): of nodes within the distance limit, else
+    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
-    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): the same, from 0, else -1.
-    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): the same, else -1.
-    real(c_double), intent(in), optional :: far_distance    !< Any value, NaN too, outside [0, distance_limit]. Default
+    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
+                                                            !! 0, else -1.
+    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
+                                                            !! -1.
+    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
                                                             !! RIIS_FAR_DISTANCE.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
     integer :: stat
@@ -531,9 +538,9 @@ contains
   !> Points to the result's own fields of the marked nodes, in the order of %marked: no copy. Valid until the next
   !! riis_mark_nodes with the result or its destruction; not to be written to. On an error all sizes are 0.
   subroutine result_marked_fields(this, fields, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     type(riis_mark_fields), intent(inout) :: fields         !< Every component is set.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_mark_fields) :: made
     integer(riis_status) :: code
     code = check_created(this%handle, 'the result')
@@ -549,9 +556,9 @@ contains
 
   !> The same for all nodes within the distance limit, in the order of %within_limit.
   subroutine result_within_limit_fields(this, fields, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     type(riis_mark_fields), intent(inout) :: fields         !< Every component is set.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_mark_fields) :: made
     integer(riis_status) :: code
     code = check_created(this%handle, 'the result')
@@ -617,7 +624,7 @@ contains
   !! Errors: RIIS_INVALID_ARGUMENT for an argument out of range, another number of nodes, or a field that the result lacks;
   !! the arrays are then as they were.
   subroutine result_add_resistance(this, resistance, coefficient, momentum, half_thickness, rim, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(inout), contiguous, optional :: coefficient(:) !< (n_nodes): K is added.
     real(c_double), intent(inout), contiguous, optional :: momentum(:, :) !< (3, n_nodes): K u_surface is added; needs
@@ -626,7 +633,7 @@ contains
                                                             !! RIIS_AUTO: the half thickness of the marking.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
     integer(int64) :: n
     integer(riis_status) :: code
@@ -646,7 +653,7 @@ contains
   !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
   !! u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as of %add_resistance.
   subroutine result_add_reaction(this, resistance, velocity, weight, force, half_thickness, rim, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in), contiguous :: velocity(:, :) !< (3, n_nodes), of the flow.
     real(c_double), intent(in), contiguous :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
@@ -656,7 +663,7 @@ contains
                                                             !! RIIS_AUTO: the half thickness of the marking.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
     real(c_double) :: sum_of_forces(3)
     integer(int64) :: n
@@ -686,7 +693,7 @@ contains
     real(c_double), intent(in), contiguous :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
                                                             !! other ranks.
     type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Left alone on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n
     integer(riis_status) :: code
     n = size(value, kind=int64)
@@ -697,26 +704,26 @@ contains
     call finish(code, status)
   end subroutine result_band_sums
 
-  !> How the last marking went.
+  !> Tells how the last marking went.
   subroutine result_get_stats(this, stats, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes.
+    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     type(riis_mark_stats), intent(inout) :: stats           !< Left alone on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the result')
     if (code == RIIS_OK) code = riis_mark_result_stats(this%handle, stats, c_sizeof(stats))
     call finish(code, status)
   end subroutine result_get_stats
 
-  !> Points to the result's own arrays of the edges that riis_find_leaks found last, ascending: no copy. Valid until the next
-  !! riis_find_leaks or riis_mark_nodes with the result or its destruction; not to be written to. With no such edge, and on an
-  !! error, their sizes are 0.
+  !> Points to the result's own arrays of the edges that riis_find_leaks found last, ascending, without a copy. They are
+  !! valid until the next riis_find_leaks or riis_mark_nodes with the result, or its destruction. Do not write to them.
+  !! Without such edges, and on an error, their sizes are 0.
   subroutine result_leaking_edges(this, node_id, length, distance, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_find_leaks.
+    class(riis_mark_result), intent(in) :: this             !< From riis_find_leaks.
     integer(int64), pointer, intent(out), optional :: node_id(:, :) !< (2, n), from 0: node_id + 1 are columns of xyz.
     real(c_double), pointer, intent(out), optional :: length(:) !< (n), mesh units.
-    real(c_double), pointer, intent(out), optional :: distance(:) !< (n): of the nearer of its nodes, mesh units.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    real(c_double), pointer, intent(out), optional :: distance(:) !< (n): the distance of its nearer node, mesh units.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_ptr) :: ids, lengths, distances
     integer(int64) :: n
     integer(riis_status) :: code
@@ -741,27 +748,27 @@ contains
     call finish(code, status)
   end subroutine result_leaking_edges
 
-  !> Whether there is anything in the result.
+  !> Tells whether the result was made by a marking and not destroyed.
   pure function result_is_created(this) result(is_created)
     class(riis_mark_result), intent(in) :: this             !< Any.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function result_is_created
 
-  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function result_c_handle(this) result(handle)
     class(riis_mark_result), intent(in) :: this             !< Any.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function result_c_handle
 
-  !> Frees what the result holds; it is empty then, and can be used again. Nothing happens to an empty one.
+  !> Frees the memory of the result, which is then empty and can be used again. Nothing happens to an empty one.
   subroutine result_destroy(this)
     class(riis_mark_result), intent(inout) :: this          !< Any.
     call riis_mark_result_destroy(this%handle)
   end subroutine result_destroy
 
-  !> Stops the program, unless both are empty.
+  !> Stops the program unless both are empty.
   impure elemental subroutine result_assign(left, right)
     class(riis_mark_result), intent(inout) :: left          !< Empty.
     class(riis_mark_result), intent(in) :: right            !< Empty.

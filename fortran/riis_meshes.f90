@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_meshes.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> Meshes: the part of module riis that is riis_mesh_* in riis.h.
+!> Meshes: riis_mesh_* of riis.h, as a part of module riis.
 module riis_meshes
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -11,21 +11,21 @@ module riis_meshes
   private
   public :: riis_mesh
 
-  !> The caller's nodes. The coordinates are borrowed, as are the rows of an adjacency, and must stay
-  !! where they are until the mesh is destroyed or given others. So pass variables that outlive it, whole or as sections by
-  !! subscript triplets, of any positive stride; TARGET is not needed. What the compiler copies for the call is gone after
-  !! it, and the mesh reads what is there instead. It copies
+  !> The caller's nodes. The coordinates and the rows of an adjacency are borrowed: they must stay in place until the mesh is
+  !! destroyed or given others. Pass variables that outlive it, whole or as sections by subscript triplets, of any positive
+  !! stride; TARGET is not needed. A copy that the compiler makes for the call is gone after it, and the mesh reads other
+  !! data in its place. The compiler copies
   !!
   !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses; sections by vector subscripts;
-  !! - with gfortran also components of arrays of a derived type, such as nodes%x, and pointers to such: pass the first node
+  !! - with gfortran also components of arrays of a derived type, such as nodes%x, and pointers to them: pass the first node
   !!   by nodes(1)%x, nodes(1)%y, nodes(1)%z and a stride instead;
   !! - sections on their way through an argument of yours that is CONTIGUOUS or of explicit shape.
   !!
-  !! gfortran shows them with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Equally bad are local
-  !! variables that end, and allocatables that are reallocated.
+  !! gfortran shows these copies with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Local
+  !! variables that end, and allocatables that are reallocated, are equally bad.
   !!
-  !! Empty until %create, and again after %destroy, which has to be called. May be read by any number of threads at once; is
-  !! written by one with no reader beside it.
+  !! A mesh is empty until %create and after %destroy, which must be called. Any number of threads may read it at once. One
+  !! thread may write it while no other reads it.
   type :: riis_mesh
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -36,13 +36,13 @@ module riis_meshes
     generic :: update => update_xyz, update_x_y_z, update_first_int32, update_first_int64
                                                                         !< Tells that the coordinates moved.
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, adjacency_int64_int64, &
-      adjacency_handle                                         !< Gives what the neighbour search walks along.
-    procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes it away.
-    procedure, non_overridable :: prepare => mesh_prepare               !< Makes what RIIS_SEARCH_CLUSTERS wants, now.
-    procedure, non_overridable :: n_nodes => mesh_n_nodes               !< How many nodes.
-    procedure, non_overridable :: is_created => mesh_is_created         !< Whether there is anything in it.
-    procedure, non_overridable :: c_handle => mesh_c_handle             !< For calls of riis_c.
-    procedure, non_overridable :: destroy => mesh_destroy               !< Frees what it holds, not the coordinates.
+      adjacency_handle                                         !< Gives the adjacency for the neighbour search.
+    procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes the adjacency away.
+    procedure, non_overridable :: prepare => mesh_prepare               !< Makes the clusters of RIIS_SEARCH_CLUSTERS now.
+    procedure, non_overridable :: n_nodes => mesh_n_nodes               !< Returns the number of nodes.
+    procedure, non_overridable :: is_created => mesh_is_created         !< Tells whether it was created.
+    procedure, non_overridable :: c_handle => mesh_c_handle             !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => mesh_destroy               !< Frees its memory, not the coordinates.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
     procedure, private, non_overridable :: assign => mesh_assign
     procedure, private, non_overridable :: create_xyz => mesh_create_xyz
@@ -62,12 +62,12 @@ module riis_meshes
 
 contains
 
-  !> Borrows node coordinates and checks them once. The columns of xyz may lie apart by any multiple of a real (8 bytes),
-  !! its rows at any distance. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+  !> Borrows node coordinates and checks them once. The columns of xyz may be any multiple of a real (8 bytes) apart, its
+  !! rows any distance. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
   subroutine mesh_create_xyz(this, xyz, status)
-    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), any positive stride; finite; borrowed.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
@@ -75,13 +75,13 @@ contains
     call finish(code, status)
   end subroutine mesh_create_xyz
 
-  !> The same for separate coordinates, all of the same stride.
+  !> Does the same for separate coordinates, all of the same stride.
   subroutine mesh_create_x_y_z(this, x, y, z, status)
-    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: y(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: z(:)              !< (n_nodes), any positive stride; finite; borrowed.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
@@ -89,44 +89,44 @@ contains
     call finish(code, status)
   end subroutine mesh_create_x_y_z
 
-  !> The same for coordinates in an array of a derived type, or wherever else they lie at equal distances:
+  !> Does the same for coordinates at equal distances, as in an array of a derived type:
   !! call mesh%create(size(nodes), nodes(1)%x, nodes(1)%y, nodes(1)%z, storage_size(nodes) / storage_size(nodes(1)%x)). No
   !! compiler can check that there are so many.
   subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
-    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
     integer(int32), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
     call create_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
     call finish(code, status)
   end subroutine mesh_create_first_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine mesh_create_first_int64(this, n_nodes, x, y, z, stride, status)
-    class(riis_mesh), intent(inout) :: this                 !< Empty before.
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
     integer(int64), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
     call create_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
     call finish(code, status)
   end subroutine mesh_create_first_int64
 
-  !> Tells the mesh that the coordinates moved, in place or to another array, and checks them again. To be called after any
-  !! change of coordinates. The adjacency stays if the number of nodes does. Errors as of %create.
+  !> Tells the mesh that the coordinates moved, in place or to another array, and checks them again. Call it after every
+  !! change of coordinates. The adjacency stays if the number of nodes does. The errors are those of %create.
   subroutine mesh_update_xyz(this, xyz, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), any positive stride; finite; borrowed.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
@@ -134,13 +134,13 @@ contains
     call finish(code, status)
   end subroutine mesh_update_xyz
 
-  !> The same for separate coordinates, all of the same stride.
+  !> Does the same for separate coordinates, all of the same stride.
   subroutine mesh_update_x_y_z(this, x, y, z, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     real(c_double), intent(in), target :: x(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: y(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: z(:)              !< (n_nodes), any positive stride; finite; borrowed.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
@@ -148,37 +148,37 @@ contains
     call finish(code, status)
   end subroutine mesh_update_x_y_z
 
-  !> The same for coordinates in an array of a derived type.
+  !> Does the same for coordinates in an array of a derived type.
   subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     integer(int32), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
     integer(int32), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
     call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
     call finish(code, status)
   end subroutine mesh_update_first_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine mesh_update_first_int64(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     integer(int64), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< Of the first node: an element of an array; borrowed.
+    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
     real(c_double), intent(in), target :: y                 !< Of the first node.
     real(c_double), intent(in), target :: z                 !< Of the first node.
     integer(int64), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
     call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
     call finish(code, status)
   end subroutine mesh_update_first_int64
 
-  ! What all specifics of create have in common; does nothing after an error.
+  ! The common part of all specifics of create; does nothing after an error.
   subroutine create_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -188,7 +188,7 @@ contains
     if (code == RIIS_OK) this%n = points%n
   end subroutine create_mesh
 
-  ! The same of update.
+  ! The common part of all specifics of update; does nothing after an error.
   subroutine update_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -198,21 +198,21 @@ contains
     if (code == RIIS_OK) this%n = points%n
   end subroutine update_mesh
 
-  !> Gives the mesh its adjacency as compressed sparse rows, which are borrowed: they have to be contiguous, and to stay in
-  !! place, unchanged, until the mesh is destroyed or given others. The neighbours of node i are
-  !! columns(offsets(i) : offsets(i + 1) - 1), in any order, with the default base. Checked once. Errors:
-  !! RIIS_INVALID_ARGUMENT for sizes that do not go together and for sections that are not contiguous, RIIS_INVALID_MESH
-  !! naming the row, counted from 0, and its value; the mesh then keeps what it had.
+  !> Gives the mesh its adjacency as compressed sparse rows and checks them once. The rows are borrowed: they must be
+  !! contiguous and stay in place, unchanged, until the mesh is destroyed or given others. With the default base, the
+  !! neighbours of node i are columns(offsets(i) : offsets(i + 1) - 1), in any order. Errors: RIIS_INVALID_ARGUMENT for sizes
+  !! that do not go together and for sections that are not contiguous, RIIS_INVALID_MESH naming the row, counted from 0, and
+  !! its value. The mesh then keeps the rows that it had.
   subroutine mesh_adjacency_int32_int32(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int32), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
-                                                            !! begin with. Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes and the ghosts, which columns may name and
-                                                            !! which are ignored. Default: n_nodes.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
+                                                            !! Default 1.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
+                                                            !! are ignored. Default: n_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
     integer(riis_status) :: code
@@ -230,17 +230,17 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int32_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine mesh_adjacency_int32_int64(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int64), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
-                                                            !! begin with. Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes and the ghosts, which columns may name and
-                                                            !! which are ignored. Default: n_nodes.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
+                                                            !! Default 1.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
+                                                            !! are ignored. Default: n_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
     integer(riis_status) :: code
@@ -258,17 +258,17 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int32_int64
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine mesh_adjacency_int64_int32(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int32), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
-                                                            !! begin with. Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes and the ghosts, which columns may name and
-                                                            !! which are ignored. Default: n_nodes.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
+                                                            !! Default 1.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
+                                                            !! are ignored. Default: n_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
     integer(riis_status) :: code
@@ -286,17 +286,17 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int32
 
-  !> The same for other kinds.
+  !> Does the same for other kinds.
   subroutine mesh_adjacency_int64_int64(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
     integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int64), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number, and what offsets
-                                                            !! begin with. Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes and the ghosts, which columns may name and
-                                                            !! which are ignored. Default: n_nodes.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
+                                                            !! Default 1.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
+                                                            !! are ignored. Default: n_nodes.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
     integer(riis_status) :: code
@@ -314,7 +314,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int64
 
-  ! Whether the rows can be borrowed, and are as many as the nodes.
+  ! Checks that the rows can be borrowed and are as many as the nodes.
   function check_rows(this, n_offsets, contiguous_offsets, n_columns, contiguous_columns) result(code)
     class(riis_mesh), intent(in) :: this
     integer(int64), intent(in) :: n_offsets, n_columns
@@ -332,7 +332,7 @@ contains
     end if
   end function check_rows
 
-  ! What all kinds of rows have in common.
+  ! The common part for all kinds of rows.
   function set_rows(this, csr, last_offset, n_columns, index_base, n_all) result(code)
     class(riis_mesh), intent(inout) :: this
     type(riis_csr), intent(inout) :: csr
@@ -350,12 +350,12 @@ contains
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle, csr)
   end function set_rows
 
-  !> The same with rows that the library made: they stay the adjacency's, which has to live until the mesh is destroyed or
-  !! given others. Errors: RIIS_INVALID_ARGUMENT for one of another number of nodes.
+  !> Does the same with rows of the library, which belong to the adjacency. It must live until the mesh is destroyed or given
+  !! other rows. Errors: RIIS_INVALID_ARGUMENT for an adjacency of another number of nodes.
   subroutine mesh_adjacency_handle(this, adjacency, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    class(riis_adjacency), intent(in) :: adjacency          !< Created; to be destroyed after the mesh.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(riis_adjacency), intent(in) :: adjacency          !< Created. Destroy it after the mesh.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(riis_status) :: code
     code = check_created(this%handle, 'the mesh')
@@ -365,22 +365,23 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_handle
 
-  !> Takes the adjacency away: its rows are not borrowed any more.
+  !> Takes the adjacency away. Its rows are not borrowed any more.
   subroutine mesh_clear_adjacency(this, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the mesh')
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle)
     call finish(code, status)
   end subroutine mesh_clear_adjacency
 
-  !> Makes what RIIS_SEARCH_CLUSTERS wants of the mesh now, rather than in the first marking that does: the order of its nodes in
-  !! clusters, about 17 bytes a node. After an update with as many nodes the order stays, and only places are made again.
+  !> Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They take 41 bytes a
+  !! node while the mesh lives. After an update with as many nodes the order stays, and only places are made again.
   subroutine mesh_prepare(this, n_threads, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024, or 0, the default: the processors there are.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32) :: threads
     integer(riis_status) :: code
     threads = 0
@@ -390,36 +391,36 @@ contains
     call finish(code, status)
   end subroutine mesh_prepare
 
-  !> How many nodes the mesh has.
+  !> Returns the number of nodes of the mesh.
   pure function mesh_n_nodes(this) result(n)
     class(riis_mesh), intent(in) :: this                    !< Any.
     integer(int64) :: n                                     !< 0 for an empty one.
     n = this%n
   end function mesh_n_nodes
 
-  !> Whether the mesh was created and not destroyed.
+  !> Tells whether the mesh was created and not destroyed.
   pure function mesh_is_created(this) result(is_created)
     class(riis_mesh), intent(in) :: this                     !< Any.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function mesh_is_created
 
-  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function mesh_c_handle(this) result(handle)
     class(riis_mesh), intent(in) :: this                     !< Any.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function mesh_c_handle
 
-  !> Frees what it holds, not the coordinates, and borrows nothing any more; it is empty then, and can be created again.
-  !! Nothing happens to an empty one.
+  !> Frees the memory of the mesh, not the coordinates, and borrows nothing any more. The mesh is then empty and can be
+  !! created again. Nothing happens to an empty one.
   subroutine mesh_destroy(this)
     class(riis_mesh), intent(inout) :: this                  !< Any.
     call riis_mesh_destroy(this%handle)
     this%n = 0
   end subroutine mesh_destroy
 
-  !> Stops the program, unless both are empty.
+  !> Stops the program unless both are empty.
   impure elemental subroutine mesh_assign(left, right)
     class(riis_mesh), intent(inout) :: left                  !< Empty.
     class(riis_mesh), intent(in) :: right                    !< Empty.

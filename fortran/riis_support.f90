@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> What the modules behind `riis` share: reporting errors, the addresses of the caller's arrays, integers of either kind.
-!! Not for users: `use riis` does not give these names.
+!> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. It is
+!! not for users: `use riis` does not give these names.
 module riis_support
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -12,36 +12,36 @@ module riis_support
   public :: c_handle_of, handle_of, location_of, get_placement
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
 
-  !> Where points lie, as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
+  !> The place of points as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
   type :: strided_points
-    integer(int64) :: n = 0               !< How many points.
+    integer(int64) :: n = 0               !< The number of points.
     integer(int64) :: stride = 1          !< From one point to the next, in reals.
-    type(c_ptr) :: x = c_null_ptr         !< Of the first point; null if there is none. So are y and z.
-    type(c_ptr) :: y = c_null_ptr         !< Of the first point.
-    type(c_ptr) :: z = c_null_ptr         !< Of the first point.
+    type(c_ptr) :: x = c_null_ptr         !< The first point's; null without points, as y and z are.
+    type(c_ptr) :: y = c_null_ptr         !< The first point's.
+    type(c_ptr) :: z = c_null_ptr         !< The first point's.
   end type strided_points
 
-  !> The points of the caller's arrays, without a copy: xyz(3, n), or x(n), y(n), z(n).
+  !> Gives the points of the caller's arrays without a copy: xyz(3, n), or x(n), y(n), z(n).
   interface points_of
     module procedure points_of_matrix
     module procedure points_of_vectors
   end interface points_of
 
-  !> The value of an option that may be left out and may be of either integer kind; nothing changes if it is left out.
+  !> Gives the value of an option of either integer kind. An option that is left out changes nothing.
   interface get_integer
     module procedure get_int32
     module procedure get_int64
   end interface get_integer
 
-  !> An integer of either kind as text without blanks.
+  !> Returns an integer of either kind as text without blanks.
   interface text_of
     module procedure text_of_int32
     module procedure text_of_int64
   end interface text_of
 
   interface
-    !> Makes the text the calling thread's last error, as the library's own errors are: so riis_last_error has those of
-    !! this layer, too, each thread its own. From the library's src/base/component.h.
+    !> Makes the message the calling thread's last error, so that riis_last_error also gives errors of this layer. It is from
+    !! the library's src/base/component.h.
     function riis_component_error(status, text) result(same) bind(c, name='riis_component_error')
       import :: c_char, riis_status
       implicit none
@@ -53,7 +53,7 @@ module riis_support
 
 contains
 
-  !> The end of every public procedure: the status where it is wanted, else an error stops the program.
+  !> Ends every public procedure: gives the status if it is present, else an error stops the program.
   subroutine finish(code, status)
     integer(riis_status), intent(in) :: code                !< How it went.
     integer(riis_status), intent(out), optional :: status   !< The caller's.
@@ -64,7 +64,7 @@ contains
     end if
   end subroutine finish
 
-  !> Sets the calling thread's error text.
+  !> Sets the message of the calling thread's last error.
   function fail(code, text) result(same)
     integer(riis_status), intent(in) :: code                !< Which error.
     character(len=*), intent(in) :: text                    !< What was wrong, naming the argument and its value.
@@ -72,14 +72,14 @@ contains
     same = riis_component_error(code, riis_c_string(text))
   end function fail
 
-  !> The same for the most frequent error.
+  !> Does the same for the most frequent error.
   function refuse(text) result(code)
     character(len=*), intent(in) :: text                    !< What was wrong, naming the argument and its value.
     integer(riis_status) :: code                            !< RIIS_INVALID_ARGUMENT.
     code = fail(RIIS_INVALID_ARGUMENT, text)
   end function refuse
 
-  !> After an ALLOCATE: its STAT as a status.
+  !> Turns the STAT of an ALLOCATE into a status.
   function out_of_memory(stat) result(code)
     integer, intent(in) :: stat                             !< 0: it succeeded.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_OUT_OF_MEMORY.
@@ -87,19 +87,19 @@ contains
     if (stat /= 0) code = fail(RIIS_OUT_OF_MEMORY, 'out of memory')
   end function out_of_memory
 
-  !> Only a handle that was created can be used.
+  !> Checks that a handle was created.
   function check_created(handle, name) result(code)
     type(c_ptr), intent(in) :: handle                       !< The handle.
-    character(len=*), intent(in) :: name                    !< What the caller knows it as.
+    character(len=*), intent(in) :: name                    !< The caller's name for it.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     code = RIIS_OK
     if (.not. c_associated(handle)) code = refuse(name // ' was not created, or was destroyed')
   end function check_created
 
-  !> Only an empty handle can be created: what it held would be lost.
+  !> Checks that a handle is empty, because creating would lose its object.
   function check_not_created(handle, name) result(code)
     type(c_ptr), intent(in) :: handle                       !< The handle.
-    character(len=*), intent(in) :: name                    !< What the caller knows it as.
+    character(len=*), intent(in) :: name                    !< The caller's name for it.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     code = RIIS_OK
     if (c_associated(handle)) code = refuse(name // ' was already created: destroy it first')
@@ -122,35 +122,35 @@ contains
     integer(int64), intent(in) :: n                         !< The length.
     integer(int64), intent(in) :: expected                  !< What it must be.
     character(len=*), intent(in) :: name                    !< The argument.
-    character(len=*), intent(in) :: of                      !< Of what there are so many, such as 'points'.
+    character(len=*), intent(in) :: of                      !< The things that are counted, such as 'points'.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     code = RIIS_OK
     if (n /= expected) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; there are ' // &
       text_of(expected) // ' ' // of)
   end function check_size
 
-  !> A handle as Fortran 77 has it, as C has it.
+  !> Turns a handle of Fortran 77 into one of C.
   function c_handle_of(handle) result(c_handle)
     integer(int64), intent(in) :: handle                    !< 0 for none.
     type(c_ptr) :: c_handle                                 !< c_null_ptr for none.
     c_handle = transfer(int(handle, c_intptr_t), c_handle)
   end function c_handle_of
 
-  !> A handle as C has it, as Fortran 77 has it.
+  !> Turns a handle of C into one of Fortran 77.
   function handle_of(c_handle) result(handle)
     type(c_ptr), intent(in) :: c_handle                     !< c_null_ptr for none.
     integer(int64) :: handle                                !< 0 for none.
     handle = int(transfer(c_handle, 0_c_intptr_t), int64)
   end function handle_of
 
-  !> Where an array of a Fortran 77 caller's begins: there TARGET would ask for an explicit interface.
+  !> Gives the address of a Fortran 77 caller's array, because TARGET there would need an explicit interface.
   function location_of(array) result(location)
     type(*), intent(in), target :: array(*)                 !< Any kind.
     type(c_ptr) :: location                                 !< Its first entry.
     location = c_loc(array)
   end function location_of
 
-  !> The options of a surface, from the arguments that a Fortran 77 caller gives all of. The others have their defaults.
+  !> Makes the options of a surface from the arguments of a Fortran 77 caller. The others have their defaults.
   function get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options) result(code)
     real(c_double), intent(in) :: half_thickness            !< Mesh units.
     real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1.
@@ -170,14 +170,14 @@ contains
     options%translation = translation
   end function get_placement
 
-  !> The address as a number, for differences.
+  !> Returns the address as a number, for differences.
   function address_of(location) result(address)
     type(c_ptr), intent(in) :: location                     !< From c_loc.
     integer(c_intptr_t) :: address                          !< In bytes.
     address = transfer(location, address)
   end function address_of
 
-  !> A stride in bytes as one in reals, if it is one that the library can go along.
+  !> Turns a stride in bytes into one in reals, if the library can use it.
   subroutine get_stride(n_bytes, name, stride, code)
     integer(c_intptr_t), intent(in) :: n_bytes              !< From one entry to the next.
     character(len=*), intent(in) :: name                    !< The argument.
@@ -196,11 +196,11 @@ contains
     end if
   end subroutine get_stride
 
-  !> xyz(3, n): whole arrays and sections with a positive stride.
+  !> Takes xyz(3, n): whole arrays and sections with a positive stride.
   subroutine points_of_matrix(xyz, name, points, code)
     real(c_double), intent(in), target :: xyz(:, :)         !< The coordinates, (3, n).
     character(len=*), intent(in) :: name                    !< The argument.
-    type(strided_points), intent(out) :: points             !< Where they are.
+    type(strided_points), intent(out) :: points             !< Their place.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     if (size(xyz, 1) /= 3) then
       code = refuse('the shape of ' // name // ' is (' // text_of(size(xyz, 1, int64)) // ', ' // &
@@ -216,12 +216,12 @@ contains
     if (points%n > 1) call get_stride(address_of(c_loc(xyz(1, 2))) - address_of(points%x), name, points%stride, code)
   end subroutine points_of_matrix
 
-  !> x(n), y(n), z(n): whole arrays and sections with the same positive stride.
+  !> Takes x(n), y(n), z(n): whole arrays and sections with the same positive stride.
   subroutine points_of_vectors(x, y, z, points, code)
     real(c_double), intent(in), target :: x(:)              !< (n).
     real(c_double), intent(in), target :: y(:)              !< (n).
     real(c_double), intent(in), target :: z(:)              !< (n).
-    type(strided_points), intent(out) :: points             !< Where they are.
+    type(strided_points), intent(out) :: points             !< Their place.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     integer(int64) :: y_stride, z_stride
     if (size(y, kind=int64) /= size(x, kind=int64) .or. size(z, kind=int64) /= size(x, kind=int64)) then
@@ -248,7 +248,7 @@ contains
     end if
   end subroutine points_of_vectors
 
-  !> For options that are int32_t in riis.h.
+  !> Does this for options that are int32_t in riis.h.
   subroutine get_int32(option, name, value, code)
     class(*), intent(in), optional :: option                !< integer(int32) or integer(int64).
     character(len=*), intent(in) :: name                    !< The argument.
@@ -265,7 +265,7 @@ contains
     end if
   end subroutine get_int32
 
-  !> For options that are int64_t in riis.h.
+  !> Does this for options that are int64_t in riis.h.
   subroutine get_int64(option, name, value, code)
     class(*), intent(in), optional :: option                !< integer(int32) or integer(int64).
     character(len=*), intent(in) :: name                    !< The argument.
@@ -282,7 +282,7 @@ contains
     end select
   end subroutine get_int64
 
-  ! Of a number as text, its sign included.
+  ! The number of letters of a number as text, its sign included.
   pure function n_letters(number) result(n)
     integer(int64), intent(in) :: number
     integer :: n
@@ -295,7 +295,7 @@ contains
     end do
   end function n_letters
 
-  !> As text_of.
+  !> Does text_of.
   function text_of_int64(number) result(text)
     integer(int64), intent(in) :: number                    !< Any.
     character(len=n_letters(number)) :: text                !< Its digits.
@@ -309,7 +309,7 @@ contains
     if (number < 0) text(1:1) = '-'
   end function text_of_int64
 
-  !> As text_of.
+  !> Does text_of.
   function text_of_int32(number) result(text)
     integer(int32), intent(in) :: number                    !< Any.
     character(len=n_letters(int(number, int64))) :: text    !< Its digits.

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_surfaces.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> Surfaces and closest points: the part of module riis that is riis_surface_* and riis_closest_* in riis.h.
+!> Surfaces and closest points: riis_surface_* and riis_closest_* of riis.h, as a part of module riis.
 module riis_surfaces
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -11,34 +11,34 @@ module riis_surfaces
   private
   public :: riis_surface
 
-  !> Triangles in space with a half thickness, ready to be asked for closest points; nothing of the caller's is borrowed.
-  !! Empty until %create or %create_from_arrays, and again after %destroy, which has to be called. May be read by any number
-  !! of threads at once; is written by one with no reader beside it.
+  !> Triangles in space with a half thickness, which answer closest-point queries. It borrows nothing from the caller. It is
+  !! empty until %create or %create_from_arrays and after %destroy, which must be called. Any number of threads may read it
+  !! at once. One thread may write it while no other reads it.
   !!
-  !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays alike. What an update
-  !! is given of the options replaces what the surface had, and the others stay as they were.
+  !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays. Options that an update
+  !! is given replace those of the surface; the others stay as they were.
   type :: riis_surface
     private
     type(c_ptr) :: handle = c_null_ptr
     type(riis_surface_options) :: options ! those in use; defined while there is a handle
   contains
-    procedure, non_overridable :: create => surface_create              !< From a valve.
+    procedure, non_overridable :: create => surface_create              !< Makes it from a valve.
     generic :: create_from_arrays => create_xyz_int32, create_xyz_int64, create_x_y_z_int32, create_x_y_z_int64
-                                                               !< From the caller's triangles or quads.
-    procedure, non_overridable :: update => surface_update              !< For a valve that moved.
+                                                               !< Makes it from the caller's triangles or quads.
+    procedure, non_overridable :: update => surface_update              !< Replaces it for a valve that moved.
     procedure, non_overridable :: update_moving => surface_update_moving !< The same, with the velocity of every vertex.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
-                                                               !< For the caller's triangles or quads that moved.
-    procedure, non_overridable :: get_info => surface_get_info          !< Counts, bounds, area, times.
-    procedure, non_overridable :: vertices => surface_vertices          !< The vertices.
-    procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Where they lie on their patches.
+                                                               !< Replaces it for triangles or quads that moved.
+    procedure, non_overridable :: get_info => surface_get_info          !< Gives counts, bounds, area and times.
+    procedure, non_overridable :: vertices => surface_vertices          !< Points to the vertices.
+    procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Points to their places on patches.
     procedure, non_overridable :: vertex_velocities => surface_vertex_velocities !< How fast they move.
-    procedure, non_overridable :: triangles => surface_triangles        !< The triangles.
-    procedure, non_overridable :: closest_point => surface_closest_point !< Of one point.
-    generic :: closest_points => closest_points_xyz, closest_points_x_y_z !< Of many points, in parallel.
-    procedure, non_overridable :: is_created => surface_is_created      !< Whether there is anything in it.
-    procedure, non_overridable :: c_handle => surface_c_handle          !< For calls of riis_c.
-    procedure, non_overridable :: destroy => surface_destroy            !< Frees what it holds.
+    procedure, non_overridable :: triangles => surface_triangles        !< Points to the triangles.
+    procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
+    generic :: closest_points => closest_points_xyz, closest_points_x_y_z !< Finds those to many points, in parallel.
+    procedure, non_overridable :: is_created => surface_is_created      !< Tells whether it was created.
+    procedure, non_overridable :: c_handle => surface_c_handle          !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => surface_destroy            !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
     procedure, private, non_overridable :: assign => surface_assign
     procedure, private, non_overridable :: create_xyz_int32 => surface_create_from_arrays_xyz_int32
@@ -53,7 +53,7 @@ module riis_surfaces
     procedure, private, non_overridable :: closest_points_x_y_z => surface_closest_points_x_y_z
   end type riis_surface
 
-  ! What a pointer points to where there is nothing: its size can be asked for.
+  ! The target of pointers to nothing, so that their size can be taken.
   real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0), no_corners(3, 0)
@@ -62,26 +62,26 @@ contains
 
   !> Makes the surface of a valve: curves, Coons patches, triangles, Embree scene. Normals point downstream. Errors:
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
-  !! RIIS_LIMIT_EXCEEDED where the tolerance asks for more than 16,777,216 triangles.
+  !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, status, distance, distance_tolerance, n_threads)
-    class(riis_surface), intent(inout) :: this              !< Empty before.
+    class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
                                                             !! Default RIIS_AUTO: 0.1 * scale.
-    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1: times half_thickness bounds the error of distances.
-                                                            !! Default 0.05. Not used for surfaces from arrays.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1, default 0.05. The error of distances is at most
+                                                            !! tolerance * half_thickness. Surfaces from arrays do not use it.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
-    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length from 1e-50 on. Default (0, 0, 1).
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), at least 1e-50 long. Default (0, 0, 1).
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees, counter-clockwise seen against the axis. Default 0.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over. Default .false.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over. Default .false.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*: how distances are measured, from then on.
                                                             !! Default RIIS_DISTANCE_TRIANGLES.
     real(c_double), intent(in), optional :: distance_tolerance !< Of the other distances: a share of half_thickness, 1e-6 to
                                                             !! 1. Default RIIS_AUTO: tolerance.
-    integer(int32), intent(in), optional :: n_threads       !< That make the surface, from then on: 1 to 1024; 0, the default:
+    integer(int32), intent(in), optional :: n_threads       !< Threads that make the surface, from then on: 1 to 1024. Default 0:
                                                             !! as many as pay.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
@@ -98,9 +98,9 @@ contains
     call finish(code, status)
   end subroutine surface_create
 
-  !> Replaces the surface by that of a valve that moved. Options that are left out stay as they were, those that are given
-  !! replace them: a half_thickness of RIIS_AUTO, the default, goes with the scale. Pointers got from the surface before
-  !! end. Errors as of %create; the surface is then as it was.
+  !> Replaces the surface by that of a valve that moved. Options that are left out stay as they were. A half_thickness of
+  !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create;
+  !! the surface is then as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, status, distance, distance_tolerance, n_threads)
     class(riis_surface), intent(inout) :: this              !< Created.
@@ -111,8 +111,8 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
     real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
@@ -152,7 +152,7 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
     real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
@@ -160,7 +160,7 @@ contains
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options, before
     integer(riis_status) :: code
     code = check_created(this%handle, 'the surface')
@@ -185,28 +185,28 @@ contains
     call finish(code, status)
   end subroutine surface_update_moving
 
-  !> Makes a surface from the caller's triangles or quads, which are read during the call only; vertex_ids and leaflet_id
-  !! are copied for it if they are sections that are not contiguous. The winding stays the caller's and makes the normal by
-  !! the right-hand rule. A quad 1 2 3 4 becomes the triangles 1 2 3 and 1 3 4. The options are those of %create.
-  !! Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range,
+  !> Makes a surface from the caller's triangles or quads, which are read during the call only. Sections of vertex_ids and
+  !! leaflet_id that are not contiguous are copied for it. The caller's winding stays and makes the normal by the right-hand
+  !! rule. A quad 1 2 3 4 becomes the triangles 1 2 3 and 1 3 4. The options are those of %create. Errors:
+  !! RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range,
   !! RIIS_LIMIT_EXCEEDED for more than 16,777,216 triangles.
   subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
-    class(riis_surface), intent(inout) :: this              !< Empty before.
+    class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default .false..
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -219,24 +219,24 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
-    class(riis_surface), intent(inout) :: this              !< Empty before.
+    class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default .false..
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -249,26 +249,26 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int64
 
-  !> The same for separate coordinates.
+  !> Does the same for separate coordinates.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
-    class(riis_surface), intent(inout) :: this              !< Empty before.
+    class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default .false..
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -281,26 +281,26 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int32
 
-  !> The same for both.
+  !> Does the same for both.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
-    class(riis_surface), intent(inout) :: this              !< Empty before.
+    class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default .false..
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -313,24 +313,24 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int64
 
-  !> As %update, by arrays as in %create_from_arrays.
+  !> Replaces the surface as %update does, from arrays as in %create_from_arrays.
   subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
     class(riis_surface), intent(inout) :: this              !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default as before.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -343,24 +343,24 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int32
 
-  !> The same for integer(int64).
+  !> Does the same for integer(int64).
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
     class(riis_surface), intent(inout) :: this              !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default as before.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -373,7 +373,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int64
 
-  !> The same for separate coordinates.
+  !> Does the same for separate coordinates.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
     class(riis_surface), intent(inout) :: this              !< Created.
@@ -382,17 +382,17 @@ contains
     real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default as before.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -405,7 +405,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int32
 
-  !> The same for both.
+  !> Does the same for both.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
     class(riis_surface), intent(inout) :: this              !< Created.
@@ -414,17 +414,17 @@ contains
     real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
-    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex' number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< Whether triangles without area are left out, not refused.
-                                                            !! Default as before.
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< Whether every triangle is turned over.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -469,7 +469,7 @@ contains
     end if
   end subroutine set_vector
 
-  ! Fills the struct, but for vertex_ids; does nothing after an error.
+  ! Fills the struct except vertex_ids; does nothing after an error.
   subroutine get_arrays(points, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
     type(strided_points), intent(in) :: points
     integer, intent(in) :: n_corners, vertex_id_bits
@@ -498,7 +498,7 @@ contains
     if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
   end subroutine get_arrays
 
-  ! What all specifics of create_from_arrays have in common; does nothing after an error.
+  ! The common part of all specifics of create_from_arrays; does nothing after an error.
   subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, code)
     class(riis_surface), intent(inout) :: this
@@ -518,7 +518,7 @@ contains
     if (code == RIIS_OK) this%options = options
   end subroutine create_from_arrays
 
-  ! The same of update_from_arrays.
+  ! The common part of all specifics of update_from_arrays; does nothing after an error.
   subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, code)
     class(riis_surface), intent(inout) :: this
@@ -538,23 +538,23 @@ contains
     if (code == RIIS_OK) this%options = options
   end subroutine update_from_arrays
 
-  !> What the surface is: counts, half thickness, area, bounds, and the wall times of the last create or update.
+  !> Gives the surface's counts, half thickness, area and bounds, and the wall times of the last create or update.
   subroutine surface_get_info(this, info, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     type(riis_surface_info), intent(inout) :: info          !< Left alone on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_surface_get_info(this%handle, info, c_sizeof(info))
     call finish(code, status)
   end subroutine surface_get_info
 
-  !> Points to the surface's own vertices, after placement: no copy. Valid until its next update or its destruction; not to
-  !! be written to.
+  !> Points to the surface's own vertices, after placement, without a copy. They are valid until its next update or its
+  !! destruction. Do not write to them.
   subroutine surface_vertices(this, xyz, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), pointer, intent(out) :: xyz(:, :)       !< (3, n_vertices); (3, 0) on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_ptr) :: location
     integer(int64) :: n
     integer(riis_status) :: code
@@ -567,11 +567,12 @@ contains
     call finish(code, status)
   end subroutine surface_vertices
 
-  !> Points to where each vertex lies on its patch, in [0, 1]: no copy. Valid as above; not to be written to.
+  !> Points to each vertex's place on its patch, in [0, 1], without a copy. The places are valid until the surface's next
+  !! update or its destruction. Do not write to them.
   subroutine surface_vertex_parameters(this, uv, status)
     class(riis_surface), intent(in) :: this                 !< Created.
-    real(c_double), pointer, intent(out) :: uv(:, :)        !< (2, n_vertices); (2, 0) of a surface from arrays.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    real(c_double), pointer, intent(out) :: uv(:, :)        !< (2, n_vertices); (2, 0) for a surface from arrays.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_ptr) :: location
     integer(int64) :: n
     integer(riis_status) :: code
@@ -588,7 +589,7 @@ contains
   subroutine surface_vertex_velocities(this, velocity, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), pointer, intent(out) :: velocity(:, :)  !< (3, n_vertices); (3, 0) unless the last update gave velocities.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_ptr) :: location
     integer(int64) :: n
     integer(riis_status) :: code
@@ -601,16 +602,16 @@ contains
     call finish(code, status)
   end subroutine surface_vertex_velocities
 
-  !> Points to the surface's own triangles, those that closest points are sought on: no copy. Valid until its next update or
-  !! its destruction; not to be written to. Sizes are 0 on an error.
+  !> Points to the surface's own triangles, which answer queries, without a copy. They are valid until its next update or its
+  !! destruction. Do not write to them. Sizes are 0 on an error.
   subroutine surface_triangles(this, vertex_id, triangle_id, leaflet_id, patch_id, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     integer(int64), pointer, intent(out), optional :: vertex_id(:, :) !< (3, n_triangles), from 0: vertex_id + 1 is the
                                                             !! column of %vertices.
     integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n_triangles), ascending, from 0: as queries report.
     integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
-    integer(int32), pointer, intent(out), optional :: patch_id(:) !< (n_triangles), from 0 (riis.h says which is which).
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(int32), pointer, intent(out), optional :: patch_id(:) !< (n_triangles), from 0, as in riis.h.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_ptr) :: vertices, triangles, leaflets, patches
     integer(int64) :: n
     integer(riis_status) :: code
@@ -640,12 +641,12 @@ contains
     call finish(code, status)
   end subroutine surface_triangles
 
-  !> The surface's closest point to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
+  !> Finds the closest point of the surface to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
   subroutine surface_closest_point(this, point, closest, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in) :: point(:)                  !< (3), magnitude at most 1e60.
     type(riis_closest), intent(inout) :: closest            !< Left alone on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     real(c_double) :: the_point(3)
     integer(riis_status) :: code
     code = check_created(this%handle, 'the surface')
@@ -658,10 +659,10 @@ contains
     call finish(code, status)
   end subroutine surface_closest_point
 
-  !> The surface's closest points to many points, in parallel. Only the arrays that are given are written; sections of them
-  !! that are not contiguous are copied to and fro by the compiler. None may overlap another or the coordinates, which are
-  !! never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side where distances are by
-  !! sampling or minimisation; nothing is then written.
+  !> Finds the closest points of the surface to many points, in parallel. It writes the arrays that are given. The compiler
+  !! copies sections of them that are not contiguous there and back. No array may overlap another or the coordinates, which
+  !! are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side if distances are
+  !! by sampling or minimisation. Nothing is then written.
   subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status)
     class(riis_surface), intent(in) :: this                 !< Created.
@@ -669,8 +670,8 @@ contains
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
                                                             !! Default RIIS_AUTO: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
     real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
@@ -680,7 +681,7 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
@@ -689,7 +690,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_xyz
 
-  !> The same for separate coordinates.
+  !> Does the same for separate coordinates.
   subroutine surface_closest_points_x_y_z(this, x, y, z, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status)
     class(riis_surface), intent(in) :: this                 !< Created.
@@ -699,8 +700,8 @@ contains
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
                                                             !! Default RIIS_AUTO: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024; 0, the default: the processors the
-                                                            !! calling thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
     real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
@@ -710,7 +711,7 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
@@ -719,7 +720,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_x_y_z
 
-  ! What both specifics of closest_points have in common.
+  ! The common part of both specifics of closest_points.
   subroutine closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
       triangle_id, leaflet_id, side, code)
     class(riis_surface), intent(in) :: this
@@ -779,7 +780,7 @@ contains
       end if
     end subroutine get_vectors
 
-    ! The binding takes arrays, and there is one behind every address.
+    ! The binding takes arrays, so every address becomes an array.
     subroutine ask(n)
       integer(int64), intent(in) :: n
       real(c_double), pointer :: x(:), y(:), z(:)
@@ -794,27 +795,27 @@ contains
     end subroutine ask
   end subroutine closest_points
 
-  !> Whether the surface was created and not destroyed.
+  !> Tells whether the surface was created and not destroyed.
   pure function surface_is_created(this) result(is_created)
     class(riis_surface), intent(in) :: this                 !< Any.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function surface_is_created
 
-  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function surface_c_handle(this) result(handle)
     class(riis_surface), intent(in) :: this                 !< Any.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function surface_c_handle
 
-  !> Frees what the surface holds; it is empty then, and can be created again. Nothing happens to an empty one.
+  !> Frees the memory of the surface, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine surface_destroy(this)
     class(riis_surface), intent(inout) :: this              !< Any.
     call riis_surface_destroy(this%handle)
   end subroutine surface_destroy
 
-  !> Stops the program, unless both are empty.
+  !> Stops the program unless both are empty.
   impure elemental subroutine surface_assign(left, right)
     class(riis_surface), intent(inout) :: left              !< Empty.
     class(riis_surface), intent(in) :: right                !< Empty.

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Valves: the part of module riis that is riis_valve_* in riis.h.
+!> Valves: riis_valve_* of riis.h, as a part of module riis.
 module riis_valves
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -9,34 +9,34 @@ module riis_valves
   private
   public :: riis_valve, riis_parameter_info
 
-  !> One parameter described.
+  !> The description of a parameter.
   type :: riis_parameter_info
     character(len=:), allocatable :: name            !< As riis_valve%set takes it, such as 'right.leaflet_angle'.
     character(len=:), allocatable :: unit            !< 'length', 'degree' or '1'.
     character(len=:), allocatable :: description     !< One line.
-    real(c_double), allocatable :: default_values(:) !< The paper's, 1 or 3 of them: as many as the parameter has values.
+    real(c_double), allocatable :: default_values(:) !< The paper's, 1 or 3, as the parameter has values.
     real(c_double) :: minimum = 0                    !< Of every value, inclusive.
     real(c_double) :: maximum = 0                    !< Of every value, inclusive.
   end type riis_parameter_info
 
-  !> A parametric valve: its kind and its parameters' values. Empty until %create or %create_from_patches, and again after
-  !! %destroy, which has to be called. May be read by any number of threads at once; is written by one with no reader beside
+  !> A parametric valve: its kind and its parameters' values. It is empty until %create or %create_from_patches and after
+  !! %destroy, which must be called. Any number of threads may read it at once. One thread may write it while no other reads
   !! it.
   type :: riis_valve
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    procedure, non_overridable :: create => valve_create                !< By the name of its kind.
-    generic :: create_from_patches => from_patches_int32, from_patches_int64 !< The caller's own valve.
+    procedure, non_overridable :: create => valve_create                !< Makes it by the name of its kind.
+    generic :: create_from_patches => from_patches_int32, from_patches_int64 !< Makes the caller's own valve.
     procedure, non_overridable :: copy => valve_copy                    !< Makes a second valve like it.
-    generic :: set => set_scalar, set_vector                            !< A parameter's value or values.
-    generic :: get => get_scalar, get_vector                            !< A parameter's value or values.
-    procedure, non_overridable :: set_open_state => valve_set_open_state !< A second state to open to.
-    procedure, non_overridable :: n_parameters => valve_n_parameters    !< How many parameters it has.
+    generic :: set => set_scalar, set_vector                            !< Sets a parameter's value or values.
+    generic :: get => get_scalar, get_vector                            !< Gets a parameter's value or values.
+    procedure, non_overridable :: set_open_state => valve_set_open_state !< Gives a second state to open to.
+    procedure, non_overridable :: n_parameters => valve_n_parameters    !< Returns the number of parameters.
     generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
-    procedure, non_overridable :: is_created => valve_is_created        !< Whether there is anything in it.
-    procedure, non_overridable :: c_handle => valve_c_handle            !< For calls of riis_c.
-    procedure, non_overridable :: destroy => valve_destroy              !< Frees what it holds.
+    procedure, non_overridable :: is_created => valve_is_created        !< Tells whether it was created.
+    procedure, non_overridable :: c_handle => valve_c_handle            !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => valve_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
     procedure, private, non_overridable :: assign => valve_assign
     procedure, private, non_overridable :: from_patches_int32 => valve_from_patches_int32
@@ -51,11 +51,11 @@ module riis_valves
 
 contains
 
-  !> Makes a valve of a kind with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
+  !> Makes a valve with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
   subroutine valve_create(this, kind, status)
-    class(riis_valve), intent(inout) :: this                !< Empty before.
+    class(riis_valve), intent(inout) :: this                !< Must be empty.
     character(len=*), intent(in) :: kind                    !< 'aortic', three cusps, or 'mitral', two leaflets.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_not_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = riis_valve_create(riis_c_string(kind), this%handle)
@@ -65,8 +65,8 @@ contains
   !> Makes a second valve with the same parameters, patches and states. Each is destroyed on its own.
   subroutine valve_copy(this, copy, status)
     class(riis_valve), intent(in) :: this                   !< Created.
-    class(riis_valve), intent(inout) :: copy                !< Empty before.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(riis_valve), intent(inout) :: copy                !< Must be empty.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = check_not_created(copy%handle, 'copy')
@@ -74,24 +74,23 @@ contains
     call finish(code, status)
   end subroutine valve_copy
 
-  !> Makes a valve from Coons patches by their four boundary curves, such as a prosthesis. Its only parameter is
-  !! 'opening'. A patch's sides are named by the parameter that is constant on them; the sides v = 0 and v = 1 run with u,
-  !! the others with v: v = 0 begins where u = 0 begins and ends where u = 1 begins, and v = 1 begins where u = 0 ends and
-  !! ends where u = 1 ends, to 1e-9 of the valve's size. Normals are along S_u x S_v. All arrays are read during the call
-  !! only; sections that are not contiguous are copied for it. Errors: RIIS_INVALID_ARGUMENT for sizes that do not go
-  !! together, RIIS_INVALID_PARAMETER for a curve or a patch that is none.
+  !> Makes a valve, such as a prosthesis, from Coons patches by their four boundary curves. Its only parameter is 'opening'.
+  !! The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1; those run from v = 0 to v = 1. Corners meet to 1e-9
+  !! of the valve's size, and normals are along S_u x S_v. All arrays are read during the call only; sections that are not
+  !! contiguous are copied for it. Errors: RIIS_INVALID_ARGUMENT for sizes that do not go together, RIIS_INVALID_PARAMETER
+  !! naming the curve or patch and its value.
   subroutine valve_from_patches_int32(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
-    class(riis_valve), intent(inout) :: this                     !< Empty before.
+    class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int32), intent(in), contiguous, target :: degree(:)  !< (n_curves): 1, 2 or 3, Bezier curves.
     real(c_double), intent(in), contiguous, target :: control(:, :) !< (3, sum(degree + 1)): the control points, curve
                                                                  !! after curve.
     integer(int32), intent(in), contiguous, target :: curve_id(:, :) !< (4, n_patches): the curves at v = 0, v = 1,
                                                                  !! u = 0, u = 1, counted from index_base.
-    logical, intent(in), optional :: reversed(:, :)              !< (4, n_patches): whether the side runs from the curve's
-                                                                 !! last point to its first. Default .false.
+    logical, intent(in), optional :: reversed(:, :)              !< (4, n_patches): .true. if the side runs against its curve.
+                                                                 !! Default .false.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_patches), >= 0. Default 0.
     class(*), intent(in), optional :: index_base                 !< integer, 0 or 1: the first curve's number. Default 1.
-    integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_patches) :: patches
     integer(int32), allocatable, target :: reversed_sides(:, :)
     integer(riis_status) :: code
@@ -124,16 +123,16 @@ contains
     call finish(code, status)
   end subroutine valve_from_patches_int32
 
-  !> The same for integer(int64), which are copied.
+  !> Does the same for integer(int64), which are copied.
   subroutine valve_from_patches_int64(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
-    class(riis_valve), intent(inout) :: this                     !< Empty before.
+    class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int64), intent(in) :: degree(:)                      !< (n_curves).
     real(c_double), intent(in) :: control(:, :)                  !< (3, sum(degree + 1)).
     integer(int64), intent(in) :: curve_id(:, :)                 !< (4, n_patches).
     logical, intent(in), optional :: reversed(:, :)              !< (4, n_patches). Default .false.
     integer(int64), intent(in), optional :: leaflet_id(:)        !< (n_patches), >= 0. Default 0.
     class(*), intent(in), optional :: index_base                 !< integer, 0 or 1. Default 1.
-    integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status        !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_fits(degree, 'degree')
     if (code == RIIS_OK) code = check_fits(reshape(curve_id, [size(curve_id, kind=int64)]), 'curve_id')
@@ -149,7 +148,7 @@ contains
     end if
   end subroutine valve_from_patches_int64
 
-  ! Whether there are as many entries as the library will read.
+  ! Checks that there are as many entries as the library will read.
   function check_patches(degree, control, curve_id, reversed, leaflet_id) result(code)
     integer(int32), intent(in) :: degree(:)
     real(c_double), intent(in) :: control(:, :)
@@ -174,7 +173,7 @@ contains
       code = check_size(size(leaflet_id, kind=int64), size(curve_id, 2, int64), 'leaflet_id', 'patches')
   end function check_patches
 
-  ! Whether a conversion to integer(int32) changes nothing.
+  ! Tells whether a conversion to integer(int32) changes nothing.
   function check_fits(values, name) result(code)
     integer(int64), intent(in) :: values(:)
     character(len=*), intent(in) :: name
@@ -188,26 +187,27 @@ contains
     end do
   end function check_fits
 
-  !> Sets a parameter with one value. A name without a cusp where the parameter belongs to a cusp ('leaflet_angle') sets it
-  !! for all three. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER naming the parameter and the
-  !! value; the valve is then unchanged.
+  !> Sets a parameter with one value. A cusp's parameter without a cusp's name ('leaflet_angle') sets all three cusps.
+  !! 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve
+  !! is then unchanged.
   subroutine valve_set_scalar(this, name, value, status)
     class(riis_valve), intent(inout) :: this                !< Created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
     real(c_double), intent(in) :: value                     !< Lengths in the valve's unit, angles in degrees.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = riis_valve_set_scalar(this%handle, riis_c_string(name), value)
     call finish(code, status)
   end subroutine valve_set_scalar
 
-  !> Sets a parameter with as many values as it has, 1 or 3. They are copied. Errors as above.
+  !> Sets a parameter with as many values as it has, 1 or 3, which are copied. Errors: RIIS_INVALID_PARAMETER naming the
+  !! parameter and the value; the valve is then unchanged.
   subroutine valve_set_vector(this, name, value, status)
     class(riis_valve), intent(inout) :: this                !< Created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
     real(c_double), intent(in), contiguous :: value(:)      !< Lengths in the valve's unit, angles in degrees.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = riis_valve_set(this%handle, riis_c_string(name), size(value, kind=int64), value)
@@ -219,7 +219,7 @@ contains
     class(riis_valve), intent(in) :: this                   !< Created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
     real(c_double), intent(inout) :: value                  !< Left alone on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     real(c_double) :: values(1)
     values = value
@@ -234,20 +234,20 @@ contains
     class(riis_valve), intent(in) :: this                   !< Created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
     real(c_double), intent(inout), contiguous :: value(:)   !< Left alone on an error.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = riis_valve_get(this%handle, riis_c_string(name), size(value, kind=int64), value)
     call finish(code, status)
   end subroutine valve_get_vector
 
-  !> Gives the valve a second state: its own becomes the closed one, at 'opening' 0, and the other valve's the open one, at
-  !! 'opening' 1; in between the control points are blended. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or
-  !! build; the valve is then unchanged.
+  !> Gives the valve a second state to open to: its own state is at 'opening' 0, the other valve's at 'opening' 1. Between
+  !! them control points are blended. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or build; the valve is then
+  !! unchanged.
   subroutine valve_set_open_state(this, open, status)
     class(riis_valve), intent(inout) :: this                !< Created.
-    class(riis_valve), intent(in) :: open                   !< Created; copied, so it may be destroyed.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    class(riis_valve), intent(in) :: open                   !< Created. It is copied, so it may be destroyed.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     if (code == RIIS_OK) code = check_created(open%handle, 'open')
@@ -255,10 +255,10 @@ contains
     call finish(code, status)
   end subroutine valve_set_open_state
 
-  !> How many parameters the valve has; 0 on an error.
+  !> Returns the number of the valve's parameters; 0 on an error.
   function valve_n_parameters(this, status) result(n)
     class(riis_valve), intent(in) :: this                   !< Created.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n                                     !< >= 1.
     integer(riis_status) :: code
     n = 0
@@ -267,21 +267,21 @@ contains
     call finish(code, status)
   end function valve_n_parameters
 
-  !> Describes one parameter. Errors: RIIS_INVALID_ARGUMENT for one that there is not; info is then left alone.
+  !> Describes one parameter. Errors: RIIS_INVALID_ARGUMENT for a number out of range; info is then left alone.
   subroutine valve_parameter_int32(this, number, info, status)
     class(riis_valve), intent(in) :: this                   !< Created.
     integer(int32), intent(in) :: number                    !< From 1 to %n_parameters().
     type(riis_parameter_info), intent(inout) :: info        !< Copies.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     call valve_parameter_int64(this, int(number, int64), info, status)
   end subroutine valve_parameter_int32
 
-  !> The same.
+  !> Does the same.
   subroutine valve_parameter_int64(this, number, info, status)
     class(riis_valve), intent(in) :: this                   !< Created.
     integer(int64), intent(in) :: number                    !< From 1 to %n_parameters().
     type(riis_parameter_info), intent(inout) :: info        !< Copies.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error, which otherwise stops the program.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_parameter) :: parameter
     integer(int64) :: n
     integer(riis_status) :: code
@@ -302,27 +302,27 @@ contains
     call finish(code, status)
   end subroutine valve_parameter_int64
 
-  !> Whether the valve was created and not destroyed.
+  !> Tells whether the valve was created and not destroyed.
   pure function valve_is_created(this) result(is_created)
     class(riis_valve), intent(in) :: this                   !< Any.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function valve_is_created
 
-  !> The C handle, for calls of module riis_c. It stays this variable's: do not destroy it.
+  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function valve_c_handle(this) result(handle)
     class(riis_valve), intent(in) :: this                   !< Any.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function valve_c_handle
 
-  !> Frees what the valve holds; it is empty then, and can be created again. Nothing happens to an empty one.
+  !> Frees the memory of the valve, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine valve_destroy(this)
     class(riis_valve), intent(inout) :: this                !< Any.
     call riis_valve_destroy(this%handle)
   end subroutine valve_destroy
 
-  !> Stops the program, unless both are empty.
+  !> Stops the program unless both are empty.
   impure elemental subroutine valve_assign(left, right)
     class(riis_valve), intent(inout) :: left                !< Empty.
     class(riis_valve), intent(in) :: right                  !< Empty.
