@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Written by fortran/bindings/generate.py from riis.h and from the files in that folder: ./run bindings
-!> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. What a function does, its
-!! ranges and its errors are said once, in riis.h; here is only how each C argument looks from Fortran.
+!> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. riis.h describes what each
+!! function does, its ranges and its errors; this module only tells how each C argument looks from Fortran.
 !!
 !!   status = riis_valve_create(riis_c_string('aortic'), valve)
 !!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
@@ -11,23 +11,23 @@
 !!   status = riis_mark_result_marked(result, n_marked, node_id, distance)
 !!   if (n_marked > 0) call c_f_pointer(node_id, ids, [n_marked])        ! integer(c_int64_t), pointer :: ids(:)
 !!
-!! Conventions, true for every interface below:
+!! Rules for every interface below:
 !!
-!! - What may be NULL in C is OPTIONAL here, and what is left out is NULL: use keywords for the arguments after it.
+!! - Arguments that may be NULL in C are OPTIONAL here; an argument that is left out is NULL. Use keywords for the arguments
+!!   after it.
 !! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them back to it.
-!! - Whatever a call writes is intent(inout), not out, because a call that is refused leaves it as it was.
+!! - Arguments that a call writes are intent(inout), not out, because a call that is refused leaves them as they were.
 !! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element with a
-!!   stride. The coordinates and the rows of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc asks for
-!!   TARGET, and no compiler can slip in a temporary copy. Keep the array where it is (not a local that ends, not
-!!   reallocated).
-!! - Arrays that the library owns come as type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to
-!!   them. They are c_null_ptr when there is nothing in them.
-!! - Ids that come out count from 0, also here: node_id + 1 is the column of xyz(3, n). Ids that go in by a struct count
-!!   from its index_base, so set that to 1; of which kind they are its *_bits say: storage_size(the array).
-!! - Structs: have the init function fill them, with c_sizeof(the variable) as struct_size, then set what differs:
+!!   stride. The coordinates and the rows of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc needs
+!!   TARGET, and no compiler can slip in a temporary copy. Keep the array in place (not a local that ends, not reallocated).
+!! - Arrays of the library are type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to them. Empty
+!!   arrays are c_null_ptr.
+!! - Ids that the library gives count from 0, also here: node_id + 1 is the column of xyz(3, n). Ids in a struct count from
+!!   its index_base, so set that to 1. Its *_bits tell their kind: storage_size(the array).
+!! - Structs: call the init function with c_sizeof(the variable) as struct_size, then set the fields that differ:
 !!     status = riis_mark_options_init(options, c_sizeof(options))
-!! - Texts go in through riis_c_string and come out through riis_c_text. A bare literal compiles, too, and is wrong: it
-!!   has no end.
+!! - Pass texts through riis_c_string and take them through riis_c_text. A bare literal also compiles and is wrong: it has no
+!!   end.
 module riis_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, &
     c_ptr, c_size_t, c_associated, c_f_pointer
@@ -116,7 +116,7 @@ module riis_c
     type(c_ptr) :: curve_id          !< integer(c_int32_t), (4, n_patches)
     type(c_ptr) :: reversed          !< integer(c_int32_t), (4, n_patches), or c_null_ptr
     type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_patches), or c_null_ptr
-    integer(c_int32_t) :: index_base !< 1 for curves that count as Fortran does
+    integer(c_int32_t) :: index_base !< 1 for curves that count from 1
     integer(c_int32_t) :: reserved
   end type riis_patches
 
@@ -154,7 +154,7 @@ module riis_c
     integer(c_int64_t) :: n_faces
     type(c_ptr) :: vertex_ids             !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
     integer(c_int32_t) :: vertex_id_bits
-    integer(c_int32_t) :: index_base      !< 1 for ids that count as Fortran does
+    integer(c_int32_t) :: index_base      !< 1 for ids that count from 1
     integer(c_int32_t) :: corners_per_face
     integer(c_int32_t) :: reserved
     type(c_ptr) :: leaflet_id             !< integer(c_int32_t), (n_faces), or c_null_ptr
@@ -174,9 +174,7 @@ module riis_c
     real(c_double) :: seconds_scene      !< Embree scene, and the samples or patches of another distance
   end type riis_surface_info
 
-  !> The closest point of the surface to one point. For distances by sampling or minimisation, the point is the sample
-  !! or S(u,v), with its patch's leaflet_id and the normal of S, 0 0 0 where S has none, as where a side is a point.
-  !! Then triangle_id is -1; barycentric and side are 0.
+  !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0
     real(c_double) :: point(3)        !< on the triangle
@@ -184,11 +182,9 @@ module riis_c
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< the triangle's
-    integer(c_int32_t) :: side        !< +1 on the side that normals point to (downstream), -1 on the other, 0 on the
-                                      !! surface or level with its rim. At a shared edge or vertex the angle-weighted
-                                      !! normal of its triangles decides (Baerentzen, Aanaes 2005); vertices with equal
-                                      !! placed coordinates are shared. An edge that ends inside another, along the
-                                      !! bending curve, is one triangle's
+    integer(c_int32_t) :: side        !< +1 where normals point to (downstream), -1 on the other side, 0 on the surface
+                                      !! or level with its rim. At a shared edge or vertex (equal placed coordinates)
+                                      !! the angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005)
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -202,7 +198,7 @@ module riis_c
     type(c_ptr) :: point_ids  !< integer(c_int64_t), (n_point_ids), from 0; or c_null_ptr
   end type riis_closest_options
 
-  !> c_null_ptr for what is not wanted
+  !> c_null_ptr for arrays that are not wanted
   type, bind(c) :: riis_closest_arrays
     integer(c_int64_t) :: struct_size
     type(c_ptr) :: distance    !< real(c_double), (n_points)
@@ -222,7 +218,7 @@ module riis_c
     type(c_ptr) :: columns            !< integer(c_int32_t) or (c_int64_t), (offsets(n_rows + 1) - index_base)
     integer(c_int32_t) :: offset_bits !< storage_size(offsets)
     integer(c_int32_t) :: column_bits !< storage_size(columns)
-    integer(c_int32_t) :: index_base  !< 1 for offsets and columns that count as Fortran does
+    integer(c_int32_t) :: index_base  !< 1 for offsets and columns that count from 1
     integer(c_int32_t) :: reserved
   end type riis_csr
 
@@ -235,7 +231,7 @@ module riis_c
                                      !! 0 also with index_base 1; or c_null_ptr
     integer(c_int32_t) :: nodes_per_cell
     integer(c_int32_t) :: id_bits    !< storage_size(node_ids)
-    integer(c_int32_t) :: index_base !< 1 for node_ids that count as Fortran does
+    integer(c_int32_t) :: index_base !< 1 for node_ids that count from 1
     integer(c_int32_t) :: n_threads
   end type riis_cells
 
@@ -248,7 +244,7 @@ module riis_c
     type(c_ptr) :: neighbor          !< integer(c_int32_t) or (c_int64_t), (n_faces), or c_loc(face_cells(2, 1))
     integer(c_int64_t) :: stride     !< 2 for face_cells(2, n_faces)
     integer(c_int32_t) :: id_bits    !< storage_size(face_cells)
-    integer(c_int32_t) :: index_base !< 1 for cells that count as Fortran does; neighbor is then 0 at the boundary
+    integer(c_int32_t) :: index_base !< 1 for cells that count from 1; neighbor is then 0 at the boundary
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
   end type riis_faces
@@ -287,13 +283,11 @@ module riis_c
     integer(c_int64_t) :: n_queries      !< closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< threads that ran, the most in any part of the search. A caller's TBB limit
-                                         !! binds walks, not loops
+    integer(c_int32_t) :: n_threads      !< the most that ran in any part. A caller's TBB limit binds walks, not loops
     integer(c_int32_t) :: complete       !< 1: every node within the limit was certainly found, by the coordinates last
                                          !! given; 0: not certain (RIIS_SEARCH_PAPER)
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search did not walk to, but its
-                                         !! proof found
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found by proof, not walk
   end type riis_mark_stats
 
   type, bind(c) :: riis_resistance
@@ -311,17 +305,14 @@ module riis_c
     integer(c_int64_t) :: n_nodes(2) !< nodes in the band
   end type riis_band_sums
 
-  !> An edge of the mesh leaks when it crosses the surface and neither of its nodes is marked: flow passes along it. An
-  !! edge that crosses the surface and is at most two half thicknesses long always has a marked node.
+  !> Mesh edges that leak: they cross the surface, and neither node is marked. Edges that are at most two half
+  !! thicknesses long do not leak (docs/meshes.md).
   type, bind(c) :: riis_leaks
-    integer(c_int64_t) :: n_edges            !< edges that leak. Where it is 0, the node ids are -1 and the other fields
-                                             !! but seconds 0
-    integer(c_int64_t) :: longest_node_id(2) !< the nodes of the longest edge, ascending; of equally long edges the one
-                                             !! that is listed first
+    integer(c_int64_t) :: n_edges            !< edges that leak. If 0, node ids are -1, other fields but seconds 0
+    integer(c_int64_t) :: longest_node_id(2) !< the longest edge's nodes, ascending; of equal edges the first listed
     real(c_double) :: longest_length         !< its length, mesh units
     real(c_double) :: longest_middle(3)      !< its middle
-    real(c_double) :: half_thickness         !< the smallest half thickness at which each edge has a node within it, by
-                                             !! these triangles
+    real(c_double) :: half_thickness         !< the smallest that gives each edge a marked node, by these triangles
     real(c_double) :: seconds                !< wall time of riis_find_leaks
   end type riis_leaks
 
@@ -387,7 +378,7 @@ module riis_c
   end type riis_opening_angle_state
 
   ! -------------------------------------------------------------------------------------------------------------------
-  ! What a log function looks like
+  ! Log functions
   ! -------------------------------------------------------------------------------------------------------------------
 
   abstract interface
@@ -591,7 +582,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_arrays
 
-    !>   options  left out: those that the surface has
+    !>   options  left out: the surface's own
     function riis_surface_update(surface, valve, options) result(status) bind(c, name='riis_surface_update')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -601,7 +592,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update
 
-    !>   options         left out: those that the surface has
+    !>   options         left out: the surface's own
     !!   options_before  left out: those of now
     function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
@@ -614,7 +605,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update_moving
 
-    !>   options  left out: those that the surface has
+    !>   options  left out: the surface's own
     function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
         bind(c, name='riis_surface_update_from_arrays')
       import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
@@ -721,7 +712,7 @@ module riis_c
 
     !>   x, y, z  point i is x(i * stride + 1), ...: pass xyz(1, 1), xyz(2, 1), xyz(3, 1) and 3, or x, y, z and 1
     !!   options  left out: all defaults
-    !!   arrays   what its pointers point to is written
+    !!   arrays   its arrays are written
     function riis_closest_points(surface, n_points, x, y, z, stride, options, arrays) result(status) &
         bind(c, name='riis_closest_points')
       import :: c_double, c_int64_t, c_ptr, riis_closest_arrays, riis_closest_options, riis_status
@@ -785,8 +776,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_csr_init
 
-    !>   csr  what its pointers point to is borrowed until the mesh is destroyed or given another, csr itself is not;
-    !!        left out: the mesh has none any more
+    !>   csr  its arrays are borrowed until the mesh is destroyed or given another, csr itself is not; left out: takes
+    !!        the adjacency away
     function riis_mesh_set_adjacency(mesh, csr) result(status) bind(c, name='riis_mesh_set_adjacency')
       import :: c_ptr, riis_csr, riis_status
       implicit none
@@ -808,7 +799,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_cells_init
 
-    !>   cells  what its pointers point to is read during the call only
+    !>   cells  its arrays are read during the call only
     function riis_adjacency_create_from_cells(cells, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_cells')
       import :: c_ptr, riis_cells, riis_status
@@ -827,7 +818,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_faces_init
 
-    !>   faces  what its pointers point to is read during the call only
+    !>   faces  its arrays are read during the call only
     function riis_adjacency_create_from_faces(faces, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_faces')
       import :: c_ptr, riis_faces, riis_status
@@ -848,8 +839,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_adjacency_create_from_grid
 
-    !>   csr          ready for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets
-    !!                are integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
+    !>   csr          for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets are
+    !!                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
     !!                column_bits is 64, (offsets(n_rows + 1)), from 0
     !!   struct_size  c_sizeof(csr)
     function riis_adjacency_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_csr')
@@ -1182,15 +1173,15 @@ module riis_c
 
 contains
 
-  !> The text without its trailing blanks, ended as C wants it.
+  !> Returns the text without its trailing blanks, ended by a null character for C.
   pure function riis_c_string(text) result(c_text)
     character(len=*), intent(in) :: text
     character(len=len_trim(text) + 1, kind=c_char) :: c_text
     c_text = trim(text) // c_null_char
   end function riis_c_string
 
-  !> The length of a text of the library, 0 if there is none. Functions that return texts say their lengths by this, not as
-  !! deferred: for those gfortran keeps the length where all threads share it.
+  !> Returns the length of a text of the library, 0 if there is none. Functions that return texts take their lengths from
+  !! this and are not of deferred length, because gfortran keeps a deferred length where all threads share it.
   pure function riis_c_text_length(c_text) result(length)
     type(c_ptr), intent(in) :: c_text
     integer :: length
@@ -1198,7 +1189,7 @@ contains
     if (c_associated(c_text)) length = int(c_strlen(c_text))
   end function riis_c_text_length
 
-  !> A copy of a text of the library's; '' for c_null_ptr.
+  !> Returns a copy of a text of the library; '' for c_null_ptr.
   function riis_c_text(c_text) result(text)
     type(c_ptr), intent(in) :: c_text
     character(len=riis_c_text_length(c_text)) :: text
