@@ -36,16 +36,23 @@ static inline void free_owned_after(int n) {
   }
 }
 
-/* Frees one object before its test ends; NULL is allowed. */
-static inline void free_one_owned(void *object) {
-  if (!object) return;
+/* Takes an object off the list; its destroy is NULL if it was not there. */
+static inline owned_object disown(void *object) {
   int i = owned.n - 1;
   while (i >= 0 && owned.at[i].object != object) --i;
-  if (i < 0) fail_msg("the object is not owned");
+  if (i < 0) return (owned_object){object, NULL};
   const owned_object found = owned.at[i];
   --owned.n;
   memmove(owned.at + i, owned.at + i + 1, (size_t)(owned.n - i) * sizeof *owned.at);
-  found.destroy(found.object);
+  return found;
+}
+
+/* Frees one object before its test ends; NULL is allowed. */
+static inline void free_one_owned(void *object) {
+  if (!object) return;
+  const owned_object found = disown(object);
+  if (!found.destroy) fail_msg("the object is not owned");
+  found.destroy(object);
 }
 
 /* The teardown of a test. */
@@ -68,14 +75,19 @@ static inline void *own_memory(void *memory) {
   return memory;
 }
 
-#define DEFINE_OWN(type)                                  \
-  static inline void destroy_owned_##type(void *object) { \
-    riis_##type *handle = object;                         \
-    riis_##type##_destroy(&handle);                       \
-  }                                                       \
-  static inline riis_##type *own_##type(riis_##type *h) { \
-    if (h) own_object(h, destroy_owned_##type);           \
-    return h;                                             \
+#define DEFINE_OWN(type)                                               \
+  static inline void destroy_owned_##type(void *object) {              \
+    riis_##type *handle = object;                                      \
+    riis_##type##_destroy(&handle);                                    \
+  }                                                                    \
+  static inline riis_##type *own_##type(riis_##type *handle) {         \
+    if (handle) own_object(handle, destroy_owned_##type);              \
+    return handle;                                                     \
+  }                                                                    \
+  static inline void destroy_and_disown_##type(riis_##type **handle) { \
+    void *const object = handle ? *handle : NULL;                      \
+    riis_##type##_destroy(handle);                                     \
+    if (object && !*handle) disown(object);                            \
   }
 DEFINE_OWN(valve)
 DEFINE_OWN(surface)
@@ -83,6 +95,13 @@ DEFINE_OWN(mesh)
 DEFINE_OWN(adjacency)
 DEFINE_OWN(mark_result)
 #undef DEFINE_OWN
+
+/* A test may destroy an object that it owns. */
+#define riis_valve_destroy destroy_and_disown_valve
+#define riis_surface_destroy destroy_and_disown_surface
+#define riis_mesh_destroy destroy_and_disown_mesh
+#define riis_adjacency_destroy destroy_and_disown_adjacency
+#define riis_mark_result_destroy destroy_and_disown_mark_result
 
 /* Returns its argument: a handle, or memory from malloc. */
 #define own(object)                        \
