@@ -295,11 +295,14 @@ static void sums_over_no_nodes(void **state) {
     CHECK_OK(riis_mark_result_add_resistance(result, &resistance, 0, NULL, NULL));
     CHECK_OK(riis_mark_result_add_resistance(result, &resistance, 0, &nothing, &nothing));
     CHECK_OK(riis_mark_result_add_reaction(result, &resistance, 0, &nothing, &nothing, force));
+    CHECK_OK(riis_mark_result_add_reaction(result, &resistance, 0, NULL, NULL, force));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL",
+                  riis_mark_result_add_reaction(result, &resistance, 0, NULL, NULL, NULL));
   }
   assert_true(nothing == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
   riis_band_sums sums;
   memset(&sums, 0x55, sizeof sums);
-  CHECK_OK(riis_mark_result_band_sums(result, 0, 0.1, 0, &nothing, &nothing, &sums, sizeof sums));
+  CHECK_OK(riis_mark_result_band_sums(result, 0, 0.1, 0, NULL, NULL, &sums, sizeof sums));
   for (int side = 0; side < 2; ++side)
     assert_true(sums.sum[side] == 0 && sums.weight[side] == 0 && sums.n_nodes[side] == 0);
   riis_mark_result_destroy(&result);
