@@ -11,7 +11,7 @@
 static riis_mesh *empty_mesh(void) {
   riis_mesh *mesh = NULL;
   CHECK_OK(riis_mesh_create(0, NULL, NULL, NULL, 3, &mesh));
-  return mesh;
+  return own(mesh);
 }
 
 static riis_csr empty_csr(void) {
@@ -22,12 +22,9 @@ static riis_csr empty_csr(void) {
 
 /* A moving valve, so that no field is refused. */
 static riis_surface *moving_surface(void) {
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  riis_valve *valve = new_valve("mitral");
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
-  riis_valve_destroy(&valve);
   return surface;
 }
 
@@ -65,8 +62,7 @@ static void check_nothing_found(const riis_mark_result *result, int32_t search) 
 static void meshes_may_be_empty(void **state) {
   (void)state;
   const double xyz[6] = {0, 0, 0, 1, 1, 1};
-  riis_mesh *mesh = NULL;
-  CHECK_OK(riis_mesh_create(0, NULL, NULL, NULL, 1, &mesh));
+  riis_mesh *mesh = empty_mesh();
   CHECK_OK(riis_mesh_update(mesh, 0, NULL, NULL, NULL, 3));
   CHECK_OK(riis_mesh_update(mesh, 2, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mesh_update(mesh, 0, xyz, xyz + 1, xyz + 2, 3));
@@ -79,7 +75,6 @@ static void meshes_may_be_empty(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is NULL", riis_mesh_create(0, NULL, NULL, NULL, 1, NULL));
   assert_int_equal(riis_mesh_create(1, NULL, NULL, NULL, 1, &none), RIIS_INVALID_ARGUMENT); /* pointers for nodes */
   assert_null(none);
-  riis_mesh_destroy(&mesh);
 }
 
 static void adjacencies_may_be_empty(void **state) {
@@ -113,13 +108,14 @@ static void adjacencies_may_be_empty(void **state) {
         cells.offsets = with_offsets ? &first : NULL;
         cells.n_threads = 1 + with_offsets;
         CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
+        own(adjacency);
         CHECK_OK(riis_adjacency_csr(adjacency, &own, sizeof own));
         assert_int_equal(own.n_rows, n_nodes);
         const int64_t *offsets = own.offsets;
         for (int64_t i = 0; i <= n_nodes; ++i) assert_int_equal(offsets[i], own.index_base);
         if (n_nodes == 0) CHECK_OK(riis_mesh_set_adjacency(mesh, &own));
         CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
-        riis_adjacency_destroy(&adjacency);
+        free_one_owned(adjacency);
       }
   CHECK_OK(riis_cells_init(&cells, sizeof cells));
   cells.n_nodes = -1;
@@ -137,11 +133,13 @@ static void adjacencies_may_be_empty(void **state) {
   for (int64_t n_cells = 0; n_cells <= 5; n_cells += 5) {
     faces.n_cells = n_cells;
     CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
+    own(adjacency);
     CHECK_OK(riis_adjacency_csr(adjacency, &own, sizeof own));
     assert_int_equal(own.n_rows, n_cells);
     if (n_cells == 0) CHECK_OK(riis_mesh_set_adjacency(mesh, &own));
     CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
-    riis_adjacency_destroy(&adjacency);
+    free_one_owned(adjacency);
+    adjacency = NULL;
   }
   faces.n_cells = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces.n_cells is -1", riis_adjacency_create_from_faces(&faces, &adjacency));
@@ -150,7 +148,6 @@ static void adjacencies_may_be_empty(void **state) {
   faces.n_faces = 1, faces.owner = faces.neighbor = ids;
   CHECK_REFUSED(RIIS_INVALID_MESH, "owner of face 0 is 0", riis_adjacency_create_from_faces(&faces, &adjacency));
   assert_null(adjacency);
-  riis_mesh_destroy(&mesh);
 }
 
 static void every_search_finds_all_of_nothing(void **state) {
@@ -172,7 +169,6 @@ static void every_search_finds_all_of_nothing(void **state) {
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
         check_nothing_found(result, search);
       }
-      riis_mesh_destroy(&mesh);
     }
   /* A mesh without nodes may lack an adjacency as others do: then these two searches are refused. */
   riis_mesh *mesh = empty_mesh();
@@ -181,31 +177,20 @@ static void every_search_finds_all_of_nothing(void **state) {
     options.search = search;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh has none", riis_mark_nodes(surface, mesh, &options, result));
   }
-  riis_mesh_destroy(&mesh);
-  riis_mark_result_destroy(&result);
-  riis_surface_destroy(&surface);
 }
 
 static void other_distances_find_nothing_too(void **state) {
   (void)state;
-  riis_valve *valve = NULL;
   riis_mesh *mesh = empty_mesh();
   riis_mark_result *result = new_result();
   riis_surface_options options = surface_options();
   riis_mark_options mark = mark_options();
-  CHECK_OK(riis_valve_create("aortic", &valve));
   options.distance_tolerance = 0.5;
   mark.fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH;
   for (options.distance = RIIS_DISTANCE_SAMPLING; options.distance <= RIIS_DISTANCE_MINIMIZATION; ++options.distance) {
-    riis_surface *surface = NULL;
-    CHECK_OK(riis_surface_create(valve, &options, &surface));
-    CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
+    CHECK_OK(riis_mark_nodes(aortic_surface(&options), mesh, &mark, result));
     check_nothing_found(result, RIIS_SEARCH_EXHAUSTIVE);
-    riis_surface_destroy(&surface);
   }
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_valve_destroy(&valve);
 }
 
 /* A result, and a mesh, that have nodes, have none, and have them again. */
@@ -237,11 +222,7 @@ static void nodes_come_and_go(void **state) {
       }
       CHECK_OK(riis_mesh_update(mesh, 0, NULL, NULL, NULL, 1));
     }
-    riis_mark_result_destroy(&result), riis_mark_result_destroy(&expected);
-    riis_mesh_destroy(&mesh), riis_mesh_destroy(&whole);
   }
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
 }
 
 static void nothing_leaks(void **state) {
@@ -273,9 +254,6 @@ static void nothing_leaks(void **state) {
   riis_mark_result *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked",
                 riis_find_leaks(surface, mesh, NULL, empty, &leaks, sizeof leaks));
-  riis_mark_result_destroy(&empty), riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 static void sums_over_no_nodes(void **state) {
@@ -295,16 +273,16 @@ static void sums_over_no_nodes(void **state) {
     CHECK_OK(riis_mark_result_add_resistance(result, &resistance, 0, NULL, NULL));
     CHECK_OK(riis_mark_result_add_resistance(result, &resistance, 0, &nothing, &nothing));
     CHECK_OK(riis_mark_result_add_reaction(result, &resistance, 0, &nothing, &nothing, force));
+    CHECK_OK(riis_mark_result_add_reaction(result, &resistance, 0, NULL, NULL, force));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL",
+                  riis_mark_result_add_reaction(result, &resistance, 0, NULL, NULL, NULL));
   }
   assert_true(nothing == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
   riis_band_sums sums;
   memset(&sums, 0x55, sizeof sums);
-  CHECK_OK(riis_mark_result_band_sums(result, 0, 0.1, 0, &nothing, &nothing, &sums, sizeof sums));
+  CHECK_OK(riis_mark_result_band_sums(result, 0, 0.1, 0, NULL, NULL, &sums, sizeof sums));
   for (int side = 0; side < 2; ++side)
     assert_true(sums.sum[side] == 0 && sums.weight[side] == 0 && sums.n_nodes[side] == 0);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 static void nobody_is_warned(void *user_data, int32_t level, const char *message) {
@@ -323,9 +301,6 @@ static void no_warning_of_proportions(void **state) {
   for (int i = 0; i < 3; ++i) CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   riis_set_log(NULL, NULL);
   assert_int_equal(n_warnings, 0);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {

@@ -91,8 +91,8 @@ static int64_t next_of(int64_t k) { return k % 3 == 2 ? k - 2 : k + 1; }
 static rims new_rims(const riis_surface *surface) {
   rims made = {surface_content_of(surface), NULL, NULL, NULL};
   CHECK_OK(riis_surface_triangles(surface, NULL, NULL, &made.triangle_id, NULL, NULL));
-  made.edge = calloc((size_t)made.c.n_triangles, 3);
-  made.corner = calloc((size_t)made.c.n_triangles, 3);
+  made.edge = own(calloc((size_t)made.c.n_triangles, 3));
+  made.corner = own(calloc((size_t)made.c.n_triangles, 3));
   return made;
 }
 
@@ -104,8 +104,6 @@ static void mark_corners(rims *r) {
       r->corner[k] |= is_same_place(corner_of(&r->c, k), a) || is_same_place(corner_of(&r->c, k), b);
   }
 }
-
-static void free_rims(rims *r) { free(r->edge), free(r->corner); }
 
 /* By the numbers of patches: the aortic sinus, u = 1, and free edge, v = 1 of the upper patches; the mitral annulus, v = 0,
  * and the free edges, v = 1, unless the leaflets meet there. */
@@ -189,11 +187,11 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
   }
 }
 
-/* Nodes near a surface: some on it, at its corners, beyond its edges. (3, n), to be freed. */
+/* Nodes near a surface: some on it, at its corners, beyond its edges. Each has the next for a neighbour. */
 static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach) {
   const surface_content c = surface_content_of(surface);
   test_mesh mesh = {.n = n};
-  mesh.xyz = malloc((size_t)n * 3 * sizeof *mesh.xyz);
+  mesh.xyz = own(malloc((size_t)n * 3 * sizeof *mesh.xyz));
   for (int64_t i = 0; i < n; ++i) {
     const int64_t t = any_of(c.n_triangles), k = any_of(3);
     const double *a = corner_of(&c, 3 * t + k), *b = corner_of(&c, 3 * t + (k + 1) % 3);
@@ -205,10 +203,10 @@ static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach
     for (int x = 0; x < 3; ++x)
       mesh.xyz[3 * i + x] = a[x] + s * (b[x] - a[x]) + far * (d[x] - a[x]) + off * between(-1, 1);
   }
-  int64_t *pairs = malloc((size_t)n * 2 * sizeof *pairs);
+  int64_t *pairs = own(malloc((size_t)n * 2 * sizeof *pairs));
   for (int64_t i = 0; i + 1 < n; ++i) pairs[2 * i] = i, pairs[2 * i + 1] = i + 1;
   set_rows(&mesh, n - 1, pairs);
-  free(pairs);
+  free_one_owned(pairs);
   return mesh;
 }
 
@@ -246,39 +244,33 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   check_fields(surface, nodes.xyz, r, result);
   check_part(result);
-  riis_mark_result_destroy(&expected), riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
 }
 
 static void fields_of_valves_are_those_of_single_queries(void **state) {
   (void)state;
   for (int trial = 0; trial < 24; ++trial) {
-    const int is_mitral = trial % 2;
-    riis_valve *valve = NULL, *before = NULL, *open = NULL;
-    riis_surface *surface = NULL;
+    const int is_mitral = trial % 2, owned_before = n_owned();
+    const char *kind = is_mitral ? "mitral" : "aortic";
+    riis_valve *valve = new_valve(kind), *before = NULL, *open = new_valve(kind);
     riis_surface_options options = surface_options();
-    CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
-    CHECK_OK(riis_valve_copy(valve, &open));
     if (!is_mitral) CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 45));
     CHECK_OK(riis_valve_set_open_state(valve, open));
     CHECK_OK(riis_valve_copy(valve, &before));
+    own(before);
     const double opening = trial < 4 ? 0 : between(0, 1);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
     CHECK_OK(riis_valve_set_scalar(before, "opening", between(0, 1)));
     options.tolerance = pow(10, between(-1, 0));
     options.flip_normals = any_of(3) == 0;
     if (any_of(2)) options.scale = 10, options.rotation_angle = 33, options.rotation_axis[0] = 1;
-    CHECK_OK(riis_surface_create(valve, &options, &surface));
+    riis_surface *surface = new_surface(valve, &options);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.1, NULL, NULL));
     rims r = rims_of_valve(surface, is_mitral, opening);
     int32_t fields = of_moving;
     for (int i = 0; i < 8; ++i)
       if (trial % 3 == 0 && any_of(2)) fields &= ~(1 << i);
     check_all_ways(surface, &r, trial >= 16 ? 1 << (trial - 16) : fields);
-    free_rims(&r);
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve), riis_valve_destroy(&before), riis_valve_destroy(&open);
+    free_owned_after(owned_before);
   }
 }
 
@@ -286,11 +278,9 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
 static void fields_of_arrays_are_those_of_single_queries(void **state) {
   (void)state;
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
-  CHECK_OK(riis_surface_create(valve, NULL, &surface)); /* its rim is forgotten */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* its rim is forgotten */
   for (int trial = 0; trial < 24; ++trial) {
+    const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
     static int32_t ids[max_vertices];
     int64_t n_vertices = 0, n_triangles = 0;
@@ -325,17 +315,15 @@ static void fields_of_arrays_are_those_of_single_queries(void **state) {
     assert_true(info_of(surface).n_zero_area > 0 || trial > 0);
     rims r = rims_of_arrays(surface);
     check_all_ways(surface, &r, of_arrays);
-    free_rims(&r);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* --- The rim of valves ----------------------------------------------------------------------------------------------- */
 
 /* Three nodes beyond each edge of each triangle: in its plane, off it, and below. */
 static double *beyond_edges(const surface_content *c, double off) {
-  double *xyz = malloc((size_t)c->n_triangles * 27 * sizeof *xyz), *to = xyz;
+  double *xyz = own(malloc((size_t)c->n_triangles * 27 * sizeof *xyz)), *to = xyz;
   for (int64_t e = 0; e < 3 * c->n_triangles; ++e) {
     const double *a = corner_of(c, e), *b = corner_of(c, next_of(e)), *d = corner_of(c, next_of(next_of(e)));
     double ab[3], out[3], n[3], along = 0, size_sq = 0, length = 0, n_length = 0;
@@ -361,27 +349,25 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
   (void)state;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n_rim = 0, n_inside = 0, n_free = 0, n_free_closed = 0;
-    riis_valve *valve = NULL, *open = NULL;
-    riis_surface *surface = NULL;
+    const char *kind = is_mitral ? "mitral" : "aortic";
+    riis_valve *valve = new_valve(kind), *open = new_valve(kind);
     riis_mark_result *result = new_result();
-    CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
-    CHECK_OK(riis_valve_copy(valve, &open));
     if (!is_mitral) CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
     CHECK_OK(riis_valve_set_open_state(valve, open));
     riis_surface_options options = surface_options();
     options.tolerance = 0.5;
+    riis_surface *surface = new_surface(valve, &options);
     for (int i = 0; i <= 100; ++i) {
+      const int owned_before = n_owned();
       CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 100.0));
-      if (!surface) CHECK_OK(riis_surface_create(valve, &options, &surface));
       CHECK_OK(riis_surface_update(surface, valve, NULL));
       rims r = rims_of_valve(surface, is_mitral, i / 100.0);
       double *xyz = beyond_edges(&r.c, 1e-3);
       const int64_t n = 9 * r.c.n_triangles;
-      riis_mesh *mesh = NULL;
+      const riis_mesh *mesh = mesh_of(n, xyz);
       riis_mark_options mark = mark_options();
       mark.fields = of_valves;
       mark.n_threads = 1;
-      CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
       CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
       const riis_mark_fields f = marked_fields(result);
       const found_nodes nodes = marked_in(result);
@@ -404,17 +390,12 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
         if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
           assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
       }
-      riis_mesh_destroy(&mesh);
-      free(xyz);
-      free_rims(&r);
+      free_owned_after(owned_before);
     }
     printf("%s: %lld nodes on the rim, %lld beyond edges of the rim, %lld beyond others, %lld at closed edges\n",
            is_mitral ? "mitral" : "aortic", (long long)n_rim, (long long)n_free, (long long)n_inside,
            (long long)n_free_closed);
     assert_true(n_rim > 2000 && n_free > 2000 && n_inside > 5000 && (n_free_closed > 10) == is_mitral);
-    riis_mark_result_destroy(&result);
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve), riis_valve_destroy(&open);
   }
 }
 
@@ -424,21 +405,18 @@ static void no_other_patch_touches_the_rim(void **state) {
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n = 0;
     for (int trial = 0; trial < 20; ++trial) {
-      riis_valve *valve = NULL;
-      riis_surface *surface = NULL;
+      const int owned_before = n_owned();
+      riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
       riis_surface_options options = surface_options();
       options.tolerance = 0.5;
       const double opening = is_mitral ? between(0.05, 1) : 0;
-      CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
       CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
-      CHECK_OK(riis_surface_create(valve, &options, &surface));
+      riis_surface *surface = new_surface(valve, &options);
       riis_mark_result *result = new_result();
       riis_mark_options mark = mark_options();
       const surface_content c = surface_content_of(surface);
-      double *xyz = beyond_edges(&c, 1e-3);
-      riis_mesh *mesh = NULL;
+      const riis_mesh *mesh = mesh_of(9 * c.n_triangles, beyond_edges(&c, 1e-3));
       mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_POINT | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_PATCH;
-      CHECK_OK(riis_mesh_create(9 * c.n_triangles, xyz, xyz + 1, xyz + 2, 3, &mesh));
       CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
       const riis_mark_fields f = marked_fields(result);
       for (int64_t k = 0; k < f.n_nodes; ++k) {
@@ -467,11 +445,7 @@ static void no_other_patch_touches_the_rim(void **state) {
             fail_msg("opening %g: patch %d has a rim where patch %d is", opening, f.patch_id[k], c.patch_id[t]);
         }
       }
-      riis_mark_result_destroy(&result);
-      riis_mesh_destroy(&mesh);
-      free(xyz);
-      riis_surface_destroy(&surface);
-      riis_valve_destroy(&valve);
+      free_owned_after(owned_before);
     }
     assert_true(n > 500);
   }
@@ -483,14 +457,11 @@ static void parameters_turn_as_the_header_says(void **state) {
   (void)state;
   for (int trial = 0; trial < 24; ++trial) {
     const int is_mitral = trial % 2, is_flipped = trial / 2 % 2;
-    riis_valve *valve = NULL;
-    riis_surface *surface = NULL;
+    riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
     riis_surface_options options = surface_options();
     options.flip_normals = is_flipped;
-    CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
     if (is_mitral) CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 4 ? 0 : between(0, 1)));
-    CHECK_OK(riis_surface_create(valve, &options, &surface));
-    const surface_content c = surface_content_of(surface);
+    const surface_content c = surface_content_of(new_surface(valve, &options));
     for (int64_t t = 0; t < c.n_triangles; ++t) {
       const double *a = c.uv + 2 * c.vertex_id[3 * t], *b = c.uv + 2 * c.vertex_id[3 * t + 1],
                    *d = c.uv + 2 * c.vertex_id[3 * t + 2];
@@ -499,8 +470,6 @@ static void parameters_turn_as_the_header_says(void **state) {
       const double turn = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
       assert_true(is_mirrored != is_flipped ? turn < 0 : turn > 0);
     }
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve);
   }
 }
 
@@ -510,14 +479,12 @@ static void other_distances_have_fields_of_patches(void **state) {
   (void)state;
   for (int32_t distance = RIIS_DISTANCE_SAMPLING; distance <= RIIS_DISTANCE_MINIMIZATION; ++distance)
     for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
-      riis_valve *valve = NULL;
-      riis_surface *surface = NULL;
+      riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
       riis_surface_options options = surface_options();
       options.distance = distance;
       options.distance_tolerance = 0.5;
       options.flip_normals = is_mitral;
-      CHECK_OK(riis_valve_create(is_mitral ? "mitral" : "aortic", &valve));
-      CHECK_OK(riis_surface_create(valve, &options, &surface));
+      riis_surface *surface = new_surface(valve, &options);
       CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
       test_mesh nodes = nodes_near(surface, 200, 0.2);
       riis_mesh *mesh = mesh_from(&nodes);
@@ -555,11 +522,6 @@ static void other_distances_have_fields_of_patches(void **state) {
                  field, distance == RIIS_DISTANCE_SAMPLING ? "sampling" : "minimi");
         CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &mark, other));
       }
-      riis_mark_result_destroy(&result), riis_mark_result_destroy(&other);
-      riis_mesh_destroy(&mesh);
-      free_test_mesh(&nodes);
-      riis_surface_destroy(&surface);
-      riis_valve_destroy(&valve);
     }
 }
 
@@ -570,10 +532,8 @@ static void fields_are_refused_by_name(void **state) {
   const double corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const int32_t ids[3] = {0, 1, 2};
   const riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
-  riis_valve *valve = NULL;
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_valve_create("aortic", &valve));
-  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  riis_valve *valve = new_valve("aortic");
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
   test_mesh nodes = nodes_near(surface, 300, 0.1);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -615,11 +575,6 @@ static void fields_are_refused_by_name(void **state) {
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_mark_result_marked_fields(result, &f, sizes[i]));
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_mark_result_within_limit_fields(result, &f, sizes[i]));
   }
-  riis_mark_result_destroy(&result), riis_mark_result_destroy(&expected);
-  riis_mesh_destroy(&mesh);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* What was not asked for is NULL, also after a marking that had it; and a result without nodes has no arrays. */
@@ -627,7 +582,7 @@ static void what_is_not_asked_for_is_null(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = nodes_near(surface, 300, 0.1);
-  riis_mesh *mesh = mesh_from(&nodes), *far = NULL;
+  riis_mesh *mesh = mesh_from(&nodes);
   riis_mark_result *result = new_result();
   riis_mark_options options = mark_options();
   assert_int_equal(marked_fields(result).n_nodes, 0);
@@ -643,15 +598,10 @@ static void what_is_not_asked_for_is_null(void **state) {
       assert_int_equal(arrays_in(within_fields(result)), fields);
     }
   const double xyz[3] = {1e3, 0, 0};
-  CHECK_OK(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &far));
   options.fields = of_valves;
-  CHECK_OK(riis_mark_nodes(surface, far, &options, result));
+  CHECK_OK(riis_mark_nodes(surface, mesh_of(1, xyz), &options, result));
   assert_int_equal(marked_fields(result).n_nodes, 0);
   assert_int_equal(arrays_in(marked_fields(result)) | arrays_in(within_fields(result)), 0);
-  riis_mark_result_destroy(&result);
-  riis_mesh_destroy(&mesh), riis_mesh_destroy(&far);
-  free_test_mesh(&nodes);
-  riis_surface_destroy(&surface);
 }
 
 int main(void) {

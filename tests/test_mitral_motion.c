@@ -37,8 +37,7 @@ static states paper_at(double opening) {
 }
 
 static riis_valve *valve_with(mitral_parameters p) {
-  riis_valve *valve = NULL;
-  CHECK_OK(riis_valve_create("mitral", &valve));
+  riis_valve *valve = new_valve("mitral");
   for (int i = 0; i < n_scalars; ++i) CHECK_OK(riis_valve_set_scalar(valve, scalars[i].name, *scalar_of(&p, i)));
   CHECK_OK(riis_valve_set(valve, "translation", 3, p.translation));
   return valve;
@@ -47,7 +46,7 @@ static riis_valve *valve_with(mitral_parameters p) {
 static riis_valve *valve_of(const states *s) {
   riis_valve *valve = valve_with(s->closed), *open = valve_with(s->open);
   CHECK_OK(riis_valve_set_open_state(valve, open));
-  riis_valve_destroy(&open);
+  free_one_owned(open);
   return valve;
 }
 
@@ -57,9 +56,12 @@ typedef struct smooth {
   double from[10], to[10];
 } smooth;
 
+static void destroy_oracle(void *oracle) { mitral_oracle_destroy(oracle); }
+
 static smooth smooth_of(const states *s) {
   smooth made = {mitral_oracle_create(&s->closed, &s->open), {0}, {0}};
   assert_non_null(made.oracle);
+  own_object(made.oracle, destroy_oracle);
   double breaks[MITRAL_ORACLE_BREAKS];
   mitral_oracle_breaks(made.oracle, breaks);
   const double cleft = mitral_oracle_anterior_cleft(made.oracle);
@@ -110,20 +112,20 @@ typedef struct compared {
 } compared;
 
 static const int32_t *patches_of_vertices(const surface_content *c) {
-  int32_t *patch = malloc((size_t)c->n_vertices * sizeof *patch);
+  int32_t *patch = own(malloc((size_t)c->n_vertices * sizeof *patch));
   for (int64_t i = 0; i < c->n_vertices; ++i) patch[i] = -1;
   for (int64_t k = 0; k < 3 * c->n_triangles; ++k) patch[c->vertex_id[k]] = c->patch_id[k / 3];
   return patch;
 }
 
 static compared compare(const states *now, const states *before, double seconds, double tolerance, int64_t n_points) {
+  const int owned_before = n_owned();
   compared made = {0, 0, 0, 0, -1, 0, 0};
   riis_valve *valve = valve_of(now), *valve_before = valve_of(before);
-  riis_surface *surface = NULL;
   riis_surface_options options = surface_options();
   options.tolerance = tolerance;
   options.n_threads = 1;
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
+  riis_surface *surface = new_surface(valve, &options);
   CHECK_OK(riis_surface_update_moving(surface, valve, valve_before, seconds, NULL, NULL));
   const smooth s = smooth_of(now), t = smooth_of(before);
   const surface_content c = surface_content_of(surface);
@@ -156,11 +158,9 @@ static compared compare(const states *now, const states *before, double seconds,
       mean_velocity(&a, &b, later.closed.opening - earlier.closed.opening, patch[i], c.uv + 2 * i, expected);
       made.from_derivative = fmax(made.from_derivative, distance(expected, velocity + 3 * i));
     }
-    mitral_oracle_destroy(a.oracle), mitral_oracle_destroy(b.oracle);
   }
   if (n_points > 0) {
-    double *xyz = malloc((size_t)n_points * 3 * sizeof *xyz);
-    riis_mesh *mesh = NULL;
+    double *xyz = own(malloc((size_t)n_points * 3 * sizeof *xyz));
     riis_mark_result *result = new_result();
     riis_mark_options mark = mark_options();
     riis_mark_fields fields;
@@ -168,7 +168,7 @@ static compared compare(const states *now, const states *before, double seconds,
       const double *vertex = c.xyz + 3 * c.vertex_id[random_bits(&rng) % (uint64_t)(3 * c.n_triangles)];
       for (int k = 0; k < 3; ++k) xyz[3 * i + k] = vertex[k] + random_between(&rng, -0.1, 0.1);
     }
-    CHECK_OK(riis_mesh_create(n_points, xyz, xyz + 1, xyz + 2, 3, &mesh));
+    const riis_mesh *mesh = mesh_of(n_points, xyz);
     mark.fields = RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH;
     mark.distance_limit = 0.5;
     mark.n_threads = 1;
@@ -181,15 +181,9 @@ static compared compare(const states *now, const states *before, double seconds,
       made.points = fmax(made.points, off);
       made.sum += off / (double)n_points;
     }
-    riis_mark_result_destroy(&result);
-    riis_mesh_destroy(&mesh);
-    free(xyz);
   }
   made.speed = largest_speed(surface);
-  free((void *)patch);
-  mitral_oracle_destroy(s.oracle), mitral_oracle_destroy(t.oracle);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve), riis_valve_destroy(&valve_before);
+  free_owned_after(owned_before);
   return made;
 }
 
@@ -272,11 +266,10 @@ static void no_vertex_is_an_outlier(void **state) {
   (void)state;
   const states at = paper_at(0);
   riis_valve *valve = valve_of(&at), *before = valve_of(&at);
-  riis_surface *surface = NULL;
   riis_surface_options options = surface_options();
   options.n_threads = 1;
+  riis_surface *surface = new_surface(valve, &options);
   double largest = 0;
-  CHECK_OK(riis_surface_create(valve, &options, &surface));
   for (int i = 1; i <= 1000; ++i) {
     CHECK_OK(riis_valve_set_scalar(before, "opening", 0.001 * (i - 1)));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", fmin(1, 0.001 * i)));
@@ -286,8 +279,6 @@ static void no_vertex_is_an_outlier(void **state) {
   printf("largest speed in 1000 steps: %.6f per unit of opening\n", largest);
   CHECK_AT_MOST(largest, 1.02 * 2.581);
   CHECK_AT_MOST(0.98 * 2.581, largest);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve), riis_valve_destroy(&before);
 }
 
 /* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, between whose

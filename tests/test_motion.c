@@ -63,7 +63,7 @@ static riis_valve *valve_of(const strip *from) {
   patches.reversed = reversed;
   patches.leaflet_id = leaflet_id;
   CHECK_OK(riis_valve_create_from_patches(&patches, &valve));
-  return valve;
+  return own(valve);
 }
 
 /* The strip at a time t, when x has become (1 + growth t) x + drift t. */
@@ -74,6 +74,12 @@ static strip strip_at(const strip *from, double t, double growth, const double *
   return made;
 }
 
+static riis_valve *copy_of(const riis_valve *valve) {
+  riis_valve *copy = NULL;
+  CHECK_OK(riis_valve_copy(valve, &copy));
+  return own(copy);
+}
+
 /* Of any kind, with a state to open to. */
 static riis_valve *random_valve(int64_t kind) {
   riis_valve *valve = NULL, *open = NULL;
@@ -81,8 +87,7 @@ static riis_valve *random_valve(int64_t kind) {
     const strip closed = random_strip(1), opened = random_strip(1);
     valve = valve_of(&closed), open = valve_of(&opened);
   } else {
-    CHECK_OK(riis_valve_create(kind ? "mitral" : "aortic", &valve));
-    CHECK_OK(riis_valve_copy(valve, &open));
+    valve = new_valve(kind ? "mitral" : "aortic"), open = copy_of(valve);
   }
   if (kind == 0) {
     static const char *cusps[3] = {"right", "left", "non_coronary"};
@@ -105,7 +110,7 @@ static riis_valve *random_valve(int64_t kind) {
     CHECK_OK(riis_valve_set_scalar(open, "anterior_ratio", between(0.35, 0.5)));
   }
   CHECK_OK(riis_valve_set_open_state(valve, open));
-  riis_valve_destroy(&open);
+  free_one_owned(open);
   return valve;
 }
 
@@ -127,12 +132,6 @@ static int is_same_content(const riis_surface *a, const riis_surface *b) {
          memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
 }
 
-static riis_surface *surface_of(const riis_valve *valve, const riis_surface_options *options) {
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create(valve, options, &surface));
-  return surface;
-}
-
 static void random_placement(riis_surface_options *options) {
   options->scale = pow(10, between(-2, 2));
   for (int c = 0; c < 3; ++c) {
@@ -145,11 +144,10 @@ static void random_placement(riis_surface_options *options) {
 static void triangles_are_those_of_a_plain_update(void **state) {
   (void)state;
   static const int32_t threads[] = {0, 2, 3, 7};
-  riis_surface *moving = NULL;
+  riis_surface *moving = new_surface(random_valve(0), NULL);
   for (int trial = 0; trial < 60; ++trial) {
-    const int64_t kind = trial % 3;
-    riis_valve *valve = random_valve(kind), *before = NULL;
-    CHECK_OK(riis_valve_copy(valve, &before));
+    const int owned_before = n_owned();
+    riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", any_of(5) ? between(0, 1) : (double)any_of(2)));
     CHECK_OK(riis_valve_set_scalar(before, "opening", any_of(5) ? between(0, 1) : (double)any_of(2)));
     riis_surface_options options = surface_options(), then = surface_options();
@@ -161,8 +159,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
     const riis_surface_options *options_before = any_of(3) ? &then : NULL;
     const double seconds = (any_of(2) ? 1 : -1) * pow(10, between(-3, 1));
     options.n_threads = 1;
-    riis_surface *plain = surface_of(valve, &options), *one = surface_of(valve, NULL);
-    if (!moving) moving = surface_of(valve, NULL);
+    riis_surface *plain = new_surface(valve, &options), *one = new_surface(valve, NULL);
     assert_null(velocity_of(plain));
     CHECK_OK(riis_surface_update_moving(one, valve, before, seconds, &options, options_before));
     options.n_threads = threads[any_of(4)];
@@ -177,10 +174,8 @@ static void triangles_are_those_of_a_plain_update(void **state) {
       assert_null(velocity_of(moving));
       assert_true(is_same_content(moving, plain));
     }
-    riis_surface_destroy(&plain), riis_surface_destroy(&one);
-    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+    free_owned_after(owned_before);
   }
-  riis_surface_destroy(&moving);
 }
 
 static void arrays_have_no_velocity(void **state) {
@@ -189,15 +184,13 @@ static void arrays_have_no_velocity(void **state) {
   const int32_t ids[3] = {0, 1, 2};
   const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
   riis_valve *valve = random_valve(0);
-  riis_surface *surface = surface_of(valve, NULL);
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
   assert_non_null(velocity_of(surface));
   CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
   assert_null(velocity_of(surface));
   CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL)); /* and back */
   assert_non_null(velocity_of(surface));
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 /* --- Known motions --------------------------------------------------------------------------------------------------- */
@@ -219,12 +212,13 @@ static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
 static void nothing_moves_where_nothing_changed(void **state) {
   (void)state;
   for (int trial = 0; trial < 30; ++trial) {
-    riis_valve *valve = random_valve(trial % 3), *copy = NULL;
+    const int owned_before = n_owned();
+    riis_valve *valve = random_valve(trial % 3);
     riis_surface_options options = surface_options();
     if (trial % 2) random_placement(&options);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 6 ? (double)(trial % 2) : between(0, 1)));
-    CHECK_OK(riis_valve_copy(valve, &copy));
-    riis_surface *surface = surface_of(valve, &options);
+    riis_valve *copy = copy_of(valve);
+    riis_surface *surface = new_surface(valve, &options);
     const double seconds = pow(10, between(-30, 30));
     for (int i = 0; i < 4; ++i) {
       const riis_surface_options *before = i & 1 ? &options : NULL;
@@ -233,8 +227,7 @@ static void nothing_moves_where_nothing_changed(void **state) {
       for (int64_t k = 0; k < 3 * n; ++k)
         if (velocity_of(surface)[k] != 0) fail_msg("trial %d: %.17g", trial, velocity_of(surface)[k]);
     }
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve), riis_valve_destroy(&copy);
+    free_owned_after(owned_before);
   }
 }
 
@@ -242,24 +235,19 @@ static void nothing_moves_where_nothing_changed(void **state) {
 static void parts_at_rest_have_no_velocity(void **state) {
   (void)state;
   static const double turned[3] = {5, 3, 121};
-  riis_valve *valve = NULL, *before = NULL;
-  CHECK_OK(riis_valve_create("aortic", &valve));
-  CHECK_OK(riis_valve_copy(valve, &before));
+  riis_valve *valve = new_valve("aortic"), *before = copy_of(valve);
   CHECK_OK(riis_valve_set_scalar(before, "left.leaflet_angle", 50));
   for (int i = 0; i < 2; ++i) {
-    riis_surface *surface = surface_of(valve, NULL);
+    riis_surface *surface = new_surface(valve, NULL);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.01, NULL, NULL));
     assert_true(largest_speed(surface, RIIS_LEAFLET_RIGHT) == 0);
     assert_true(largest_speed(surface, RIIS_LEAFLET_NON_CORONARY) == 0);
     assert_true(largest_speed(surface, RIIS_LEAFLET_LEFT) > 1);
-    riis_surface_destroy(&surface);
     CHECK_OK(riis_valve_set(before, "left.rotation", 3, turned));
   }
-  riis_valve_destroy(&valve), riis_valve_destroy(&before);
-  CHECK_OK(riis_valve_create("mitral", &valve));
-  CHECK_OK(riis_valve_copy(valve, &before));
+  valve = new_valve("mitral"), before = copy_of(valve);
   CHECK_OK(riis_valve_set_scalar(before, "posterior_scallop_length2", 1.3));
-  riis_surface *surface = surface_of(valve, NULL);
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.01, NULL, NULL));
   const surface_content c = surface_content_of(surface);
   const double *velocity = velocity_of(surface);
@@ -267,8 +255,6 @@ static void parts_at_rest_have_no_velocity(void **state) {
     for (int x = 0; x < 3 && c.patch_id[k / 3] != 7 && c.patch_id[k / 3] != 8; ++x)
       assert_true(velocity[3 * c.vertex_id[k] + x] == 0);
   assert_true(largest_speed(surface, RIIS_LEAFLET_POSTERIOR) > 1);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve), riis_valve_destroy(&before);
 }
 
 /* The rotation by Rodrigues' formula, in extended precision. */
@@ -311,6 +297,7 @@ static void placements_move(void **state) {
   (void)state;
   double worst = 0;
   for (int trial = 0; trial < 60; ++trial) {
+    const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3);
     riis_surface_options now = surface_options(), then;
     if (trial % 2) random_placement(&now);
@@ -323,7 +310,7 @@ static void placements_move(void **state) {
     if (what == 3) then.rotation_axis[0] += 0.1;
     if (what == 2 || what == 3) then.scale *= between(0.8, 1.2);
     const double seconds = (any_of(2) ? 1 : -1) * pow(10, between(-4, 2));
-    riis_surface *surface = surface_of(valve, NULL);
+    riis_surface *surface = new_surface(valve, NULL);
     CHECK_OK(riis_surface_update_moving(surface, valve, valve, seconds, &now, &then));
     const surface_content c = surface_content_of(surface);
     const double *velocity = velocity_of(surface);
@@ -339,8 +326,7 @@ static void placements_move(void **state) {
       }
     }
     CHECK_AT_MOST(worst, 1e-14);
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve);
+    free_owned_after(owned_before);
   }
   printf("off by %.2g of the coordinates over the time\n", worst);
 }
@@ -351,6 +337,7 @@ static void patches_grow_and_drift(void **state) {
   (void)state;
   double worst = 0;
   for (int trial = 0; trial < 40; ++trial) {
+    const int owned_before = n_owned();
     const strip shape = random_strip(trial % 4 ? 1 : 0);
     const double growth = trial % 5 ? between(-0.5, 0.5) : 0, dt = (any_of(2) ? 1 : -1) * between(0.01, 0.5);
     const double drift[3] = {between(-1, 1), between(-1, 1), between(-1, 1)};
@@ -358,7 +345,7 @@ static void patches_grow_and_drift(void **state) {
     riis_valve *valve = valve_of(&now), *before = valve_of(&then);
     riis_surface_options options = surface_options();
     options.tolerance = pow(10, between(-2, 0));
-    riis_surface *surface = surface_of(valve, &options);
+    riis_surface *surface = new_surface(valve, &options);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, dt, NULL, NULL));
     const surface_content c = surface_content_of(surface);
     const double *velocity = velocity_of(surface);
@@ -370,8 +357,7 @@ static void patches_grow_and_drift(void **state) {
         if (!(off <= worst * allowed)) worst = off / allowed;
       }
     CHECK_AT_MOST(worst, 1);
-    riis_surface_destroy(&surface);
-    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+    free_owned_after(owned_before);
   }
   printf("off by %.3f of what the tolerance allows\n", worst);
 }
@@ -380,21 +366,20 @@ static void patches_grow_and_drift(void **state) {
 static void time_goes_back(void **state) {
   (void)state;
   for (int trial = 0; trial < 15; ++trial) {
-    riis_valve *valve = random_valve(trial % 3), *before = NULL;
+    const int owned_before = n_owned();
+    riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
     riis_surface_options options = surface_options(), then = surface_options();
     random_placement(&then);
-    CHECK_OK(riis_valve_copy(valve, &before));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", between(0, 1)));
     CHECK_OK(riis_valve_set_scalar(before, "opening", between(0, 1)));
-    riis_surface *on = surface_of(valve, &options), *back = surface_of(valve, &options);
+    riis_surface *on = new_surface(valve, &options), *back = new_surface(valve, &options);
     const double seconds = between(0.001, 1);
     CHECK_OK(riis_surface_update_moving(on, valve, before, seconds, NULL, trial % 2 ? &then : NULL));
     CHECK_OK(riis_surface_update_moving(back, valve, before, -seconds, NULL, trial % 2 ? &then : NULL));
     assert_true(largest_speed(on, -1) > 0);
     for (int64_t i = 0; i < 3 * surface_content_of(on).n_vertices; ++i)
       CHECK_SAME(velocity_of(on)[i], -velocity_of(back)[i]);
-    riis_surface_destroy(&on), riis_surface_destroy(&back);
-    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+    free_owned_after(owned_before);
   }
 }
 
@@ -403,20 +388,19 @@ static void vertices_come_from_their_place_before(void **state) {
   (void)state;
   double worst = 0, worst_uv = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    riis_valve *valve = random_valve(0), *before = NULL;
+    const int owned_before = n_owned();
+    riis_valve *valve = random_valve(0), *before = copy_of(valve);
     riis_surface_options options = surface_options(), then;
     options.tolerance = 0.05;
     then = options;
-    CHECK_OK(riis_valve_copy(valve, &before));
     if (trial == 0) /* any number of parameters at once */
       CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 0.7));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial % 4 ? between(0, 1) : 0));
     CHECK_OK(riis_valve_set_scalar(before, "opening", trial % 4 == 1 ? 1 : between(0, 1)));
     if (trial % 3 == 0) then.rotation_angle = 12, then.scale = 1.1;
     const double seconds = between(0.01, 1);
-    riis_surface *surface = surface_of(valve, &options), *was = NULL;
     then.tolerance = 0.01;
-    was = surface_of(before, &then);
+    riis_surface *surface = new_surface(valve, &options), *was = new_surface(before, &then);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, seconds, NULL, &then));
     const surface_content c = surface_content_of(surface), w = surface_content_of(was);
     const double *velocity = velocity_of(surface);
@@ -438,8 +422,7 @@ static void vertices_come_from_their_place_before(void **state) {
       const double off = fmax(fabs(place[1] - c.uv[2 * i + 1]), c.uv[2 * i + 1] > 0.2 ? fabs(place[0] - c.uv[2 * i]) : 0);
       worst_uv = fmax(worst_uv, off);
     }
-    riis_surface_destroy(&surface), riis_surface_destroy(&was);
-    riis_valve_destroy(&valve), riis_valve_destroy(&before);
+    free_owned_after(owned_before);
   }
   printf("off the surface before by %.3g, off the place there by %.3g\n", worst, worst_uv);
   CHECK_AT_MOST(worst, 0.02);
@@ -449,9 +432,8 @@ static void vertices_come_from_their_place_before(void **state) {
 /* Steps of a thousandth are as fast as those of a fiftieth, where rounding and jumps hardly show. */
 static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
   (void)state;
-  riis_valve *valve = random_valve(0), *before = NULL;
-  CHECK_OK(riis_valve_copy(valve, &before));
-  riis_surface *surface = surface_of(valve, NULL);
+  riis_valve *valve = random_valve(0), *before = copy_of(valve);
+  riis_surface *surface = new_surface(valve, NULL);
   double largest[2] = {0, 0};
   for (int fine = 0; fine < 2; ++fine)
     for (int n = fine ? 1000 : 50, i = 1; i <= n; ++i) {
@@ -463,8 +445,6 @@ static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
   printf("largest speed in 1000 steps: %.6f per unit of opening, in 50: %.6f\n", largest[1], largest[0]);
   CHECK_AT_MOST(largest[1], 1.02 * largest[0]);
   CHECK_AT_MOST(0.98 * largest[0], largest[1]);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve), riis_valve_destroy(&before);
 }
 
 /* --- Copies ---------------------------------------------------------------------------------------------------------- */
@@ -472,24 +452,22 @@ static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
 static void a_copy_is_a_valve_of_its_own(void **state) {
   (void)state;
   for (int64_t kind = 0; kind < 3; ++kind) {
-    riis_valve *valve = random_valve(kind), *copy = NULL;
+    riis_valve *valve = random_valve(kind), *none = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.3));
-    CHECK_OK(riis_valve_copy(valve, &copy));
-    riis_surface *a = surface_of(valve, NULL), *b = surface_of(copy, NULL);
+    riis_valve *copy = copy_of(valve);
+    riis_surface *a = new_surface(valve, NULL), *b = new_surface(copy, NULL);
     assert_true(is_same_content(a, b));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.6));
     CHECK_OK(riis_surface_update(b, copy, NULL));
     assert_true(is_same_content(a, b));
-    riis_valve_destroy(&valve);
+    free_one_owned(valve);
     CHECK_OK(riis_surface_update(b, copy, NULL)); /* with its own second state */
     assert_true(is_same_content(a, b));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "copy is NULL", riis_valve_copy(copy, NULL));
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &valve));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &none));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is a handle of another kind",
-                  riis_valve_copy((const void *)a, &valve));
-    assert_null(valve);
-    riis_surface_destroy(&a), riis_surface_destroy(&b);
-    riis_valve_destroy(&copy);
+                  riis_valve_copy((const void *)a, &none));
+    assert_null(none);
   }
 }
 
@@ -503,7 +481,7 @@ typedef struct kept {
 
 static kept keep(const riis_surface *surface) {
   const surface_content c = surface_content_of(surface);
-  kept made = {surface, velocity_of(surface), c.xyz, malloc((size_t)c.n_vertices * 6 * sizeof(double))};
+  kept made = {surface, velocity_of(surface), c.xyz, own(malloc((size_t)c.n_vertices * 6 * sizeof(double)))};
   memcpy(made.values, made.xyz, (size_t)c.n_vertices * 3 * sizeof(double));
   memcpy(made.values + 3 * c.n_vertices, made.velocity, (size_t)c.n_vertices * 3 * sizeof(double));
   return made;
@@ -521,11 +499,9 @@ static void check_kept(const kept *k) {
 static void refusals_leave_the_surface_as_it_was(void **state) {
   (void)state;
   const strip shape = random_strip(1);
-  riis_valve *aortic = random_valve(0), *before = NULL, *mitral = random_valve(1), *patches = valve_of(&shape);
-  riis_valve *bad = NULL;
-  CHECK_OK(riis_valve_copy(aortic, &before));
+  riis_valve *aortic = random_valve(0), *before = copy_of(aortic), *mitral = random_valve(1), *patches = valve_of(&shape);
   CHECK_OK(riis_valve_set_scalar(aortic, "opening", 0.5));
-  riis_surface *surface = surface_of(aortic, NULL);
+  riis_surface *surface = new_surface(aortic, NULL);
   CHECK_OK(riis_surface_update_moving(surface, aortic, before, 0.5, NULL, NULL));
   kept all = keep(surface);
 #define MOVING_REFUSED(status, parts, ...)                                          \
@@ -552,16 +528,14 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind aortic|mitral", mitral, aortic, 1, NULL, NULL);
 
   /* A state before that is no valve. */
-  CHECK_OK(riis_valve_copy(before, &bad));
+  riis_valve *bad = copy_of(before);
   CHECK_OK(riis_valve_set_scalar(bad, "bending_height", 1));
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: bending_height is 1;", aortic, bad, 1, NULL, NULL);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "bending_height is 1;", bad, aortic, 1, NULL, NULL);
   assert_null(strstr(riis_last_error(), "valve_before"));
-  riis_valve_destroy(&bad);
-  CHECK_OK(riis_valve_create("aortic", &bad));
+  bad = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(bad, "opening", 0.25));
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: opening is 0.25,|aortic", aortic, bad, 1, NULL, NULL);
-  riis_valve_destroy(&bad);
 
   /* Options, those of before by their own name. */
   riis_surface_options options = surface_options();
@@ -586,7 +560,6 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   options = surface_options();
   options.half_thickness = 1e-3, options.tolerance = 1e-6; /* found after the curves are made */
   MOVING_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles", aortic, before, 1, &options, NULL);
-  free(all.values);
 
   /* Patches of another build. */
   CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL));
@@ -598,18 +571,15 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   other.n_curves = 4, other.n_patches = 1;
   other.degree = degree, other.control = square, other.curve_id = sides;
   CHECK_OK(riis_valve_create_from_patches(&other, &bad));
+  own(bad);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before has 4 curves and 1 patches|10 and 3", patches, bad, 1, NULL, NULL);
-  riis_valve_destroy(&bad);
   CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL)); /* as good as new */
-  free(all.values);
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&aortic), riis_valve_destroy(&before), riis_valve_destroy(&mitral), riis_valve_destroy(&patches);
 }
 
 static void vertex_velocities_are_asked_for_rightly(void **state) {
   (void)state;
   riis_valve *valve = random_valve(0);
-  riis_surface *surface = surface_of(valve, NULL);
+  riis_surface *surface = new_surface(valve, NULL);
   int64_t n = -1;
   const double *velocity;
   CHECK_OK(riis_surface_vertex_velocities(surface, NULL, NULL));
@@ -618,8 +588,6 @@ static void vertex_velocities_are_asked_for_rightly(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_surface_vertex_velocities(NULL, &n, &velocity));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is a handle of another kind",
                 riis_surface_vertex_velocities((const void *)valve, &n, &velocity));
-  riis_surface_destroy(&surface);
-  riis_valve_destroy(&valve);
 }
 
 int main(void) {

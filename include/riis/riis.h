@@ -745,8 +745,9 @@ RIIS_API riis_status riis_mark_result_add_resistance(const riis_mark_result *res
 /* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks add
  * theirs by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
  *   n_nodes   the number of nodes of the marking
- *   velocity  (3, n_nodes), of the flow
- *   weight    (n_nodes), the volume that a node stands for; 0 for the nodes of other ranks
+ *   velocity  (3, n_nodes), of the flow; NULL only for 0 nodes
+ *   weight    (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for 0
+ *             nodes
  *   force     (3), added to
  * Errors: as riis_mark_result_add_resistance. */
 RIIS_API riis_status riis_mark_result_add_reaction(const riis_mark_result *result,
@@ -766,8 +767,9 @@ typedef struct riis_band_sums {
  * have no meaning.
  *   inner, outer  mesh units, 0 <= inner <= outer <= distance limit of the marking
  *   n_nodes       the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM
- *   value         (n_nodes)
- *   weight        (n_nodes), the volume that a node stands for; 0 for the nodes of other ranks
+ *   value         (n_nodes); NULL only for 0 nodes
+ *   weight        (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for 0
+ *                 nodes
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the result lacks. */
 RIIS_API riis_status riis_mark_result_band_sums(const riis_mark_result *result, double inner, double outer,
                                                 int64_t n_nodes, const double *value, const double *weight,

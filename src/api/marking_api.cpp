@@ -91,6 +91,11 @@ riis::Resistance resistance_of(const riis_resistance *resistance, const riis::Ma
       riis::completed<resistance_size>(require(resistance, "resistance"), "resistance", default_resistance), result);
 }
 
+// Checks an array of the caller's with an entry for each node. A process without nodes may have none.
+const double *require_of_nodes(const double *array, const char *name, std::int64_t n_nodes) {
+  return n_nodes == 0 ? array : require(array, name);
+}
+
 // Checks the surface first, then the mesh, the result and the options.
 riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *result,
                                     const riis_mark_options *options, std::int32_t &search,
@@ -303,8 +308,8 @@ riis_status riis_mark_result_add_reaction(const riis_mark_result *result, const 
     const riis::MarkResult &content = require_handle(result, "result")->result;
     const riis::Resistance checked = resistance_of(resistance, content);
     check_n_nodes(n_nodes, content);
-    riis::add_reaction(content, checked, require(velocity, "velocity"), require(weight, "weight"),
-                       require(force, "force"));
+    riis::add_reaction(content, checked, require_of_nodes(velocity, "velocity", n_nodes),
+                       require_of_nodes(weight, "weight", n_nodes), require(force, "force"));
   });
 }
 
@@ -321,7 +326,8 @@ riis_status riis_mark_result_band_sums(const riis_mark_result *result, double in
                  content.distance_limit);
     riis::write_struct<band_sums_size>(
         sums, struct_size, "sums",
-        riis::band_sums(content, inner, outer, require(value, "value"), require(weight, "weight")));
+        riis::band_sums(content, inner, outer, require_of_nodes(value, "value", n_nodes),
+                        require_of_nodes(weight, "weight", n_nodes)));
   });
 }
 
