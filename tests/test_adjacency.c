@@ -418,7 +418,6 @@ static void nothing_makes_empty_rows(void **state) {
     CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
     check_rows(adjacency, n_nodes, &none);
     riis_adjacency_destroy(&adjacency);
-    free_pairs(&none);
   }
 }
 
