@@ -71,6 +71,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_DISTANCE_SAMPLING = 1
   integer(c_int32_t), parameter :: RIIS_DISTANCE_MINIMIZATION = 2
 
+  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_LINEAR = 0
+  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_CUBIC = 1
+
   integer(c_int32_t), parameter :: RIIS_SEARCH_AUTO = 0
   integer(c_int32_t), parameter :: RIIS_SEARCH_EXHAUSTIVE = 1
   integer(c_int32_t), parameter :: RIIS_SEARCH_NEIGHBOR = 2
@@ -93,9 +96,6 @@ module riis_c
 
   integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
   integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
-
-  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_LINEAR = 0
-  integer(c_int32_t), parameter :: RIIS_INTERPOLATION_CUBIC = 1
 
   integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
   integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
@@ -161,6 +161,17 @@ module riis_c
     type(c_ptr) :: vx, vy, vz             !< real(c_double), (n_vertices), or as x, y, z; or c_null_ptr
     integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
   end type riis_surface_arrays
+
+  type, bind(c) :: riis_keyframe_arrays
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_keys
+    integer(c_int64_t) :: n_vertices
+    type(c_ptr) :: time !< real(c_double), (n_keys)
+    type(c_ptr) :: xyz  !< real(c_double), (3, n_vertices, n_keys)
+    real(c_double) :: period
+    integer(c_int32_t) :: interpolation
+    integer(c_int32_t) :: reserved
+  end type riis_keyframe_arrays
 
   !> The size of a surface, and the time that it took.
   type, bind(c) :: riis_surface_info
@@ -615,6 +626,54 @@ module riis_c
       type(riis_surface_options), intent(in), optional :: options
       integer(riis_status) :: status
     end function riis_surface_update_from_arrays
+
+    !>   struct_size  c_sizeof(frames)
+    function riis_keyframe_arrays_init(frames, struct_size) result(status) bind(c, name='riis_keyframe_arrays_init')
+      import :: c_int64_t, riis_keyframe_arrays, riis_status
+      implicit none
+      type(riis_keyframe_arrays), intent(inout) :: frames
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_keyframe_arrays_init
+
+    function riis_keyframes_create(faces, frames, keyframes) result(status) bind(c, name='riis_keyframes_create')
+      import :: c_ptr, riis_keyframe_arrays, riis_status, riis_surface_arrays
+      implicit none
+      type(riis_surface_arrays), intent(in) :: faces
+      type(riis_keyframe_arrays), intent(in) :: frames
+      type(c_ptr), intent(inout) :: keyframes
+      integer(riis_status) :: status
+    end function riis_keyframes_create
+
+    subroutine riis_keyframes_destroy(keyframes) bind(c, name='riis_keyframes_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: keyframes
+    end subroutine riis_keyframes_destroy
+
+    !>   options  left out: all defaults
+    function riis_surface_create_from_keyframes(keyframes, time, since, options, surface) result(status) &
+        bind(c, name='riis_surface_create_from_keyframes')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: keyframes
+      real(c_double), value :: time, since
+      type(riis_surface_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: surface
+      integer(riis_status) :: status
+    end function riis_surface_create_from_keyframes
+
+    !>   options  left out: those that the surface has
+    function riis_surface_update_from_keyframes(surface, keyframes, time, since, options) result(status) &
+        bind(c, name='riis_surface_update_from_keyframes')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: keyframes
+      real(c_double), value :: time, since
+      type(riis_surface_options), intent(in), optional :: options
+      integer(riis_status) :: status
+    end function riis_surface_update_from_keyframes
 
     subroutine riis_surface_destroy(surface) bind(c, name='riis_surface_destroy')
       import :: c_ptr

@@ -264,6 +264,16 @@ static void test_structs(void **state) {
   FIELD(riis_opening_angle_state, pressure_difference, 48, 8);
   FIELD(riis_opening_angle_state, flow, 56, 8);
 
+  SIZE(riis_keyframe_arrays, 56);
+  FIELD(riis_keyframe_arrays, struct_size, 0, 8);
+  FIELD(riis_keyframe_arrays, n_keys, 8, 8);
+  FIELD(riis_keyframe_arrays, n_vertices, 16, 8);
+  FIELD(riis_keyframe_arrays, time, 24, 8);
+  FIELD(riis_keyframe_arrays, xyz, 32, 8);
+  FIELD(riis_keyframe_arrays, period, 40, 8);
+  FIELD(riis_keyframe_arrays, interpolation, 48, 4);
+  FIELD(riis_keyframe_arrays, reserved, 52, 4);
+
   SIZE(riis_vtk_picture_options, 64);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, view, 8, 4);
@@ -433,6 +443,14 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_opening_angle_advance, int32_t,
             (const riis_opening_angle *, const riis_opening_angle_state *, double, double, double,
              riis_opening_angle_state *));
+  SIGNATURE(riis_keyframe_arrays_init, int32_t, (riis_keyframe_arrays *, int64_t));
+  SIGNATURE(riis_keyframes_create, int32_t,
+            (const riis_surface_arrays *, const riis_keyframe_arrays *, riis_keyframes **));
+  SIGNATURE(riis_keyframes_destroy, void, (riis_keyframes **));
+  SIGNATURE(riis_surface_create_from_keyframes, int32_t,
+            (const riis_keyframes *, double, double, const riis_surface_options *, riis_surface **));
+  SIGNATURE(riis_surface_update_from_keyframes, int32_t,
+            (riis_surface *, const riis_keyframes *, double, double, const riis_surface_options *));
   SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
@@ -442,6 +460,8 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
   SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t,
             (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
+  SIGNATURE(riis_vtk_mesh_set_point_array, int32_t,
+            (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
   SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
   SIGNATURE(riis_vtk_mesh_median_edge, int32_t, (const riis_vtk_mesh *, double *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static riis_valve *valve, *thin_valve;
-static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *moving;
+static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *moving, *framed;
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
 static riis_mark_result *result, *leaking, *resisting;
@@ -352,6 +352,32 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
                                     sizeof motion->sums);
 }
 
+/* A square that is lifted by 1 and bent; made at its first frame, then updated. */
+static riis_status move_by_frames(twin_motion *motion) {
+  const int32_t quad[4] = {0, 1, 2, 3};
+  const double time[2] = {0, 0.5};
+  const double xyz[24] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1.25, 0, 1, 1};
+  riis_surface_arrays faces;
+  riis_keyframe_arrays frames;
+  riis_keyframes *keyframes = NULL;
+  TRY(riis_surface_arrays_init(&faces, sizeof faces));
+  faces.n_vertices = 4;
+  faces.n_faces = 1;
+  faces.vertex_ids = quad;
+  faces.corners_per_face = 4;
+  TRY(riis_keyframe_arrays_init(&frames, sizeof frames));
+  frames.n_keys = 2;
+  frames.n_vertices = 4;
+  frames.time = time;
+  frames.xyz = xyz;
+  TRY(riis_keyframes_create(&faces, &frames, &keyframes));
+  TRY(riis_surface_create_from_keyframes(keyframes, 0, 0, NULL, &framed));
+  TRY(riis_surface_update_from_keyframes(framed, keyframes, 0.25, 0.125, NULL));
+  riis_keyframes_destroy(&keyframes);
+  TRY(list_surface(framed, &motion->framed));
+  return riis_surface_vertex_velocities(framed, NULL, &motion->framed_velocity);
+}
+
 static riis_status open_by_laws(twin_laws *laws) {
   const double time[3] = {0, 0.3, 0.5}, openings[3] = {0, 1, 0.2};
   riis_opening_table table;
@@ -397,6 +423,7 @@ riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers)
   TRY(find_closest(n_nodes, xyz, numbers));
   TRY(mark(n_nodes, xyz, numbers));
   TRY(resist(n_nodes, xyz, &numbers->motion));
+  TRY(move_by_frames(&numbers->motion));
   TRY(open_by_laws(&numbers->laws));
   return walk_along_all(per_side, numbers);
 }
@@ -404,6 +431,7 @@ riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers)
 void twin_end(void) {
   riis_mark_result_destroy(&resisting);
   riis_surface_destroy(&moving);
+  riis_surface_destroy(&framed);
   riis_mark_result_destroy(&leaking);
   riis_surface_destroy(&thin);
   riis_valve_destroy(&thin_valve);

@@ -37,6 +37,8 @@ module c_twin
     type(c_ptr) :: coefficient, momentum
     real(c_double) :: force(3)
     type(riis_band_sums) :: sums
+    type(twin_surface) :: framed
+    type(c_ptr) :: framed_velocity
   end type twin_motion
 
   type, bind(c) :: twin_laws

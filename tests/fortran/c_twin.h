@@ -44,6 +44,8 @@ typedef struct twin_motion {
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
   double force[3];
   riis_band_sums sums;
+  twin_surface framed; /* half way between two frames of a square */
+  const double *framed_velocity;
 } twin_motion;
 
 /* What the laws of opening say. */

@@ -58,6 +58,7 @@ program test_calls
   call test_closest_points()
   call test_marking()
   call test_motion()
+  call test_keyframes()
   call test_laws()
   call test_mixed_cells()
   call test_adjacency()
@@ -629,6 +630,53 @@ contains
     call check_same_bytes(a%rim, b%rim, 4 * a%n_nodes, what // ': rims')
     call check_same_bytes(a%patch_id, b%patch_id, 4 * a%n_nodes, what // ': patches')
   end subroutine check_same_fields
+
+  ! A square that is lifted by 1 and bent.
+  subroutine test_keyframes()
+    type(riis_surface_arrays) :: faces
+    type(riis_keyframe_arrays) :: frames
+    integer(c_int32_t), target :: quad(4)
+    real(c_double), target :: time(2), vertices(3, 4, 2)
+    type(c_ptr) :: keyframes, framed, velocity, parameters
+    type(riis_surface_info), target :: info
+    real(c_double), pointer :: velocities(:, :)
+    integer(c_int64_t) :: n
+
+    keyframes = c_null_ptr
+    framed = c_null_ptr
+    quad = [1, 2, 3, 4]
+    time = [0d0, 0.5d0]
+    vertices(:, :, 1) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 1d0, 1d0, 0d0, 0d0, 1d0, 0d0], [3, 4])
+    vertices(:, :, 2) = vertices(:, :, 1)
+    vertices(3, :, 2) = [1d0, 1d0, 1.25d0, 1d0]
+    call check_ok(riis_surface_arrays_init(faces, c_sizeof(faces)), 'default surface arrays')
+    faces%n_vertices = 4
+    faces%n_faces = 1
+    faces%vertex_ids = c_loc(quad)
+    faces%corners_per_face = 4
+    faces%index_base = 1
+    call check_refused(riis_keyframe_arrays_init(frames, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_keyframe_arrays_init(frames, c_sizeof(frames)), 'default frames')
+    call check_refused(riis_keyframes_create(faces, frames, keyframes), RIIS_INVALID_ARGUMENT, 'n_keys is 0')
+    frames%n_keys = 2
+    frames%n_vertices = 4
+    frames%time = c_loc(time)
+    frames%xyz = c_loc(vertices)
+    call check_ok(riis_keyframes_create(faces, frames, keyframes), 'create keyframes')
+    call check_ok(riis_surface_create_from_keyframes(keyframes, 0d0, 0d0, surface=framed), 'create a surface from them')
+    call check_ok(riis_surface_update_from_keyframes(framed, keyframes, 0.25d0, 0.125d0), 'update it')
+    call riis_keyframes_destroy(keyframes)
+    call check(.not. c_associated(keyframes), 'destroyed keyframes are null')
+    call check_ok(riis_surface_get_info(framed, info, c_sizeof(info)), 'describe the framed surface')
+    call check_same_bytes(c_loc(info), c_loc(twin%motion%framed%info), 88_c_int64_t, 'the framed surface')
+    call check_ok(riis_surface_vertices(framed, n, parameters), 'framed vertices')
+    call check_same_bytes(parameters, twin%motion%framed%xyz, 24 * n, 'framed vertices')
+    call check_ok(riis_surface_vertex_velocities(framed, n, velocity), 'framed velocities')
+    call check_same_bytes(velocity, twin%motion%framed_velocity, 24 * n, 'framed velocities')
+    call c_f_pointer(velocity, velocities, [3_c_int64_t, n])
+    call check(n == 4 .and. all(abs(velocities(3, :) - [2d0, 2d0, 2.5d0, 2d0]) < 1d-14), 'lifted by 1 in half a unit of time')
+    call riis_surface_destroy(framed)
+  end subroutine test_keyframes
 
   subroutine test_laws()
     real(c_double), target :: time(3), openings(3)

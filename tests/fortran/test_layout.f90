@@ -11,6 +11,7 @@ program test_layout
   type(riis_parameter), target :: p
   type(riis_surface_options), target :: so
   type(riis_surface_arrays), target :: sa
+  type(riis_keyframe_arrays), target :: ka
   type(riis_surface_info), target :: si
   type(riis_closest), target :: c
   type(riis_closest_options), target :: co
@@ -47,6 +48,9 @@ program test_layout
     at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), &
     at(c_loc(sa%corners_per_face)), at(c_loc(sa%reserved)), at(c_loc(sa%leaflet_id)), at(c_loc(sa%vx)), &
     at(c_loc(sa%vy)), at(c_loc(sa%vz)), at(c_loc(sa%velocity_stride))])
+  call compare('riis_keyframe_arrays', c_sizeof(ka), c_loc(ka), [at(c_loc(ka%struct_size)), at(c_loc(ka%n_keys)), &
+    at(c_loc(ka%n_vertices)), at(c_loc(ka%time)), at(c_loc(ka%xyz)), at(c_loc(ka%period)), &
+    at(c_loc(ka%interpolation)), at(c_loc(ka%reserved))])
   call compare('riis_surface_info', c_sizeof(si), c_loc(si), [at(c_loc(si%n_vertices)), at(c_loc(si%n_triangles)), &
     at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
     at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene))])

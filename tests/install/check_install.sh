@@ -26,7 +26,7 @@ fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
 # All examples except that of MPI, which check_mpi_example.sh runs. Then the flags that a compiler needs for them besides riis.
 examples=(first_marking prosthesis opening_valve csr_from_elements openmp_caller)
-declare -A more_flags=([opening_valve]=-lm [openmp_caller]=-fopenmp)
+declare -A more_flags=([openmp_caller]=-fopenmp)
 expected=$source/tests/install/expected
 
 # The installed Fortran sources, in the order in which they use each other.
