@@ -49,7 +49,7 @@ std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
       uses.push_back({patch.u0.curve, &image, rim_u0});
       uses.push_back({patch.u1.curve, &image, rim_u1});
     }
-  std::stable_sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
+  std::sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
   std::vector<std::uint8_t> sides(n_ids, 0);
   for (auto first = uses.begin(); first != uses.end();) {
     const auto last = std::find_if(first, uses.end(), [&](const Use &use) { return use.curve != first->curve; });
