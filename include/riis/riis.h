@@ -863,7 +863,10 @@ RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, do
                                              double *rate);
 
 /* The phases of a switch. */
-enum { RIIS_PHASE_CLOSING = 0 /* or closed */, RIIS_PHASE_OPENING = 1 /* or open */ };
+enum {
+  RIIS_PHASE_CLOSING = 0, /* or closed */
+  RIIS_PHASE_OPENING = 1  /* or open */
+};
 
 /* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one.
  * An aortic valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the
