@@ -484,7 +484,8 @@ RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const do
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They copy
  * the coordinates: 41 bytes a node while the handle lives, 32 more while they are made.
- * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH for a coordinate that became non-finite
+ * after it was given. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* Neighbours of nodes, as compressed sparse rows: those of node i are columns[offsets[i]] to
