@@ -769,8 +769,8 @@ typedef struct riis_band_sums {
  *   inner, outer  mesh units, 0 <= inner <= outer <= distance limit of the marking
  *   n_nodes       the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM
  *   value         (n_nodes); NULL only for 0 nodes
- *   weight        (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for 0
- *                 nodes
+ *   weight        (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for
+ *                 0 nodes
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the result lacks. */
 RIIS_API riis_status riis_mark_result_band_sums(const riis_mark_result *result, double inner, double outer,
                                                 int64_t n_nodes, const double *value, const double *weight,
