@@ -53,7 +53,7 @@ class TriangleFields {
         nodes_(request.mesh.nodes()),
         locate_(kernels(request.instructions).locate),
         fields_(fields),
-        has_normals_((fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) != 0),
+        has_normals_(need_normals(surface_, fields, static_cast<std::int64_t>(list.size()))),
         list_(list),
         made_(made) {}
 
@@ -126,7 +126,7 @@ class TriangleFields {
   const StridedPoints &nodes_;
   void (*locate_)(const PointsAndTriangles &, PointsOnTriangles &);
   std::int32_t fields_;
-  bool has_normals_;  // true if the surface made them, for the sides
+  bool has_normals_;  // true if the surface has made them
   const NodeList &list_;
   NodeFields &made_;
 };
@@ -172,6 +172,13 @@ void check_fields(const Surface &surface, std::int32_t fields) {
   if ((fields & RIIS_FIELD_UV) && surface.triangles().uv.empty())
     fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,
          ", with RIIS_FIELD_UV, but the surface is from arrays, which have no patches");
+}
+
+bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
+  if (surface.other_distance()) return false;
+  if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) return true;
+  // A normal for each triangle is cheaper than one for each node if there are fewer triangles.
+  return (fields & RIIS_FIELD_NORMAL) && n_nodes > static_cast<std::int64_t>(surface.triangles().n_triangles());
 }
 
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made) {

@@ -25,6 +25,9 @@ struct NodeFields {
 // Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
 void check_fields(const Surface &surface, std::int32_t fields);
 
+// Returns whether the surface has to make the normals of its triangles first, for so many nodes (Surface::prepare_sides).
+bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
+
 // Writes the fields of the nodes in the list. Memory was reserved for both, so this does not throw.
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made);
 

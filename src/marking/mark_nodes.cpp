@@ -82,7 +82,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   // Calls that may fail come before the first list is overwritten.
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
-  if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) request.surface.prepare_sides();
+  if (need_normals(request.surface, fields, static_cast<std::int64_t>(result.found.size())))
+    request.surface.prepare_sides();
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                result.order_scratch, result.within, result.marked);
   make_fields(request, fields, result.within, result.fields_within);
