@@ -70,7 +70,9 @@ Opening opening_from_times(const riis_opening_times &times, double time) {
   const double opened = since / times.opening_seconds;
   const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_seconds;
   const double height = times.open - times.closed;
-  return {times.closed + height * (ramp(opened) - ramp(closed)),
+  // Rounding must not leave the range of openings.
+  return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
+                     std::max(times.closed, times.open)),
           height * (ramp_rate(opened) / times.opening_seconds - ramp_rate(closed) / times.closing_seconds)};
 }
 

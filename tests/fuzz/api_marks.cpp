@@ -104,6 +104,34 @@ void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std
          "dense arrays differ");
 }
 
+// The fields that were asked for are those of riis_closest_point, and no others are there.
+void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields, const riis_mark_result *result) {
+  riis_mark_fields made;
+  EXPECT_OK(riis_mark_result_within_limit_fields(result, &made, sizeof made));
+  const List within = within_of(result);
+  EXPECT(made.n_nodes == within.n, "%lld nodes", static_cast<long long>(made.n_nodes));
+  const auto is_as_asked = [&](const void *array, std::int32_t field) {
+    return (array != nullptr) == ((fields & field) != 0 && within.n > 0);
+  };
+  EXPECT(is_as_asked(made.point, RIIS_FIELD_POINT) && is_as_asked(made.normal, RIIS_FIELD_NORMAL) &&
+             is_as_asked(made.barycentric, RIIS_FIELD_BARYCENTRIC) && is_as_asked(made.side, RIIS_FIELD_SIDE) &&
+             is_as_asked(made.rim, RIIS_FIELD_RIM) && is_as_asked(made.uv, RIIS_FIELD_UV) &&
+             is_as_asked(made.velocity, RIIS_FIELD_VELOCITY) && is_as_asked(made.patch_id, RIIS_FIELD_PATCH),
+         "fields %d", fields);
+  for (std::int64_t i = 0; i < within.n && i < 64; ++i) {
+    const std::array<double, 3> p = nodes[within.node_id[i]];
+    riis_closest closest;
+    EXPECT_OK(riis_closest_point(surface, p.data(), &closest, sizeof closest));
+    for (int k = 0; k < 3; ++k)
+      EXPECT((!made.point || made.point[3 * i + k] == closest.point[k]) &&
+                 (!made.normal || made.normal[3 * i + k] == closest.normal[k]) &&
+                 (!made.barycentric || made.barycentric[3 * i + k] == closest.barycentric[k]),
+             "node %lld", static_cast<long long>(within.node_id[i]));
+    EXPECT(!made.side || made.side[i] == closest.side, "node %lld", static_cast<long long>(within.node_id[i]));
+    EXPECT(!made.rim || made.rim[i] == 0 || made.rim[i] == 1, "rim %d", made.rim[i]);
+  }
+}
+
 void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh, const riis_mark_options &options,
                    const ResultSlot &slot) {
   riis_surface_info info;
@@ -129,6 +157,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
          "%d", stats.search);
   EXPECT(stats.complete == (is_of_paper ? 0 : 1), "search %d, complete %d", options.search, stats.complete);
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
+  if (mesh.was_told) check_fields(surface, *mesh.nodes, options.fields, slot.handle);
 
   for (std::int64_t i = 0; i < mesh.nodes->n; ++i)  // moved without an update: nothing to compare with
     for (const double x : (*mesh.nodes)[i])
@@ -178,6 +207,7 @@ void mark(Input &in, State &state) {
       m = (bits = bits * 1664525u + 1013904223u) >> 28 > 5 ? static_cast<std::uint8_t>(1 + (bits >> 30)) : 0;
     options.node_mask = mask.data();
   }
+  if (in.one_in(4)) options.fields = in.one_in(16) ? in.raw<std::int32_t>() : in.below(256);
   const bool by_default = in.one_in(16);
   const std::vector<Found> before = copy_of(within_of(slot.handle));
   const riis_status status = call(

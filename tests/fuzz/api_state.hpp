@@ -91,6 +91,7 @@ void set_parameter(Input &in, State &state);
 void read_parameters(Input &in, State &state);
 void set_open_state(Input &in, State &state);
 void make_surface(Input &in, State &state);
+void move_surface(Input &in, State &state);
 void make_surface_of_arrays(Input &in, State &state);
 void read_surface(Input &in, State &state);
 void ask_closest_point(Input &in, State &state);
@@ -107,6 +108,9 @@ void mark(Input &in, State &state);
 void read_marks(Input &in, State &state);
 void find_leaks(Input &in, State &state);
 void destroy_something(Input &in, State &state);
+void add_forces(Input &in, State &state);
+void advance_laws(Input &in, State &state);
+void move_by_keyframes(Input &in, State &state);
 
 // The closest triangle by a loop over all, and its distance. The position is -1 if none is within the limit.
 struct Closest {

@@ -133,6 +133,47 @@ void make_surface(Input &in, State &state) {
       [&](riis_surface *surface) { return riis_surface_update(surface, valve.handle, &options); });
 }
 
+namespace {
+
+// Returns the velocities of all vertices; empty if there are none.
+std::vector<double> velocities_of(const riis_surface *surface) {
+  std::int64_t n = -9;
+  const double *velocity = nullptr;
+  EXPECT_OK(riis_surface_vertex_velocities(surface, &n, &velocity));
+  return velocity ? std::vector<double>(velocity, velocity + 3 * n) : std::vector<double>();
+}
+
+}  // namespace
+
+void move_surface(Input &in, State &state) {
+  riis_surface *slot = slot_of(in, state);
+  const ValveSlot &valve_slot = state.valves[in.slot()];
+  const Given<riis_surface> surface = given(in, state, State::surface, slot);
+  const Given<riis_valve> valve = given(in, state, State::valve, valve_slot.handle);
+  const Given<riis_valve> before = given(in, state, State::valve, state.valves[in.slot()].handle);
+  riis_surface_options options = options_of(in), options_before = options_of(in);
+  make_coarse(in, size_of(valve_slot), options);
+  make_distance_coarse(size_of(valve_slot), options);
+  const double seconds = in.one_in(4) ? in.number() : 0.01;
+  const riis_surface_options *how_before = in.one_in(2) ? &options_before : nullptr;
+  const std::vector<double> picture = slot ? picture_of(slot) : std::vector<double>();
+  const std::vector<double> velocities = slot ? velocities_of(slot) : std::vector<double>();
+  const riis_status status = call(in, [&] {
+    return riis_surface_update_moving(surface.handle, valve.handle, before.handle, seconds, &options, how_before);
+  });
+  if (!surface.is_right || !valve.is_right || !before.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (status != RIIS_OK) {
+    if (slot)
+      EXPECT(picture == picture_of(slot) && velocities == velocities_of(slot), "a refused update changed the surface: %s",
+             riis_last_error());
+    return;
+  }
+  EXPECT(std::abs(seconds) >= 1e-30 && std::abs(seconds) <= 1e30, "seconds %g", seconds);
+  const std::vector<double> made = velocities_of(slot);
+  EXPECT(!made.empty(), "no velocities");
+  for (const double v : made) EXPECT(std::isfinite(v), "velocity %g", v);
+}
+
 void make_surface_of_arrays(Input &in, State &state) {
   const riis_surface_options options = options_of(in);
   riis_surface_arrays arrays = initialised(in, riis_surface_arrays_init);
@@ -163,6 +204,14 @@ void make_surface_of_arrays(Input &in, State &state) {
   std::vector<std::int32_t> leaflets(static_cast<std::size_t>(n_faces));
   for (std::int32_t &leaflet : leaflets) leaflet = in.one_in(32) ? in.raw<std::int32_t>() : in.below(3);
   arrays.leaflet_id = in.one_in(2) ? leaflets.data() : nullptr;
+  std::vector<double> velocities(3 * static_cast<std::size_t>(n));
+  if (in.one_in(4)) {
+    for (double &v : velocities) v = in.place();
+    arrays.vx = mostly(in, velocities.data());
+    arrays.vy = mostly(in, velocities.data() + 1);
+    arrays.vz = mostly(in, velocities.data() + 2);
+    arrays.velocity_stride = in.one_in(16) ? -in.below(2) : 3;
+  }
   arrays.reserved = in.one_in(64) ? -1 : 0;
   // Sizes may be below those of the buffers, or impossible.
   if (in.one_in(32)) arrays.n_vertices = in.below(n + 1) - 1;

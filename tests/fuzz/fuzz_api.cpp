@@ -64,7 +64,7 @@ void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
 }  // namespace
 
 void call_init_functions(Input &in) {
-  switch (in.below(8)) {
+  switch (in.below(14)) {
     case 0:
       return init(in, riis_patches_init);
     case 1:
@@ -79,6 +79,18 @@ void call_init_functions(Input &in) {
       return init(in, riis_csr_init);
     case 6:
       return init(in, riis_cells_init);
+    case 7:
+      return init(in, riis_resistance_init);
+    case 8:
+      return init(in, riis_keyframe_arrays_init);
+    case 9:
+      return init(in, riis_opening_table_init);
+    case 10:
+      return init(in, riis_opening_times_init);
+    case 11:
+      return in.one_in(2) ? init(in, riis_opening_switch_init) : init(in, riis_opening_switch_state_init);
+    case 12:
+      return in.one_in(2) ? init(in, riis_opening_angle_init) : init(in, riis_opening_angle_state_init);
     default:
       return in.one_in(2) ? init(in, riis_faces_init) : init(in, riis_mark_options_init);
   }
@@ -135,6 +147,9 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            set_parameter,
                                            make_surface,
                                            mark,
+                                           move_surface,
+                                           mark,
+                                           add_forces,
                                            make_surface_of_arrays,
                                            mark,
                                            make_adjacency_of_cells,
@@ -156,6 +171,8 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            read_surface,
                                            ask_closest_point,
                                            ask_closest_points,
+                                           advance_laws,
+                                           move_by_keyframes,
                                            destroy_something,
                                            [](Input &in, State &) { call_status_functions(in); },
                                            [](Input &in, State &) { call_init_functions(in); }};
