@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// ./run bench moving: the cost of a valve's velocity, of the fields of the closest points and of the resistance, beside a plain
+// time step on the same nodes in the same run. Prints times and bars.
+//   argv[1]  thousands of nodes instead of a million, for a quick look
+#include <riis/riis.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "contest.hpp"
+#include "cylinder.hpp"
+#include "handles.hpp"
+
+namespace {
+
+using namespace bench;
+
+constexpr int n_turns = 60;
+constexpr std::int32_t all_fields = 255;
+
+// A valve that opens by a thousandth in each step, there and back, on one thread.
+class MovingSteps {
+ public:
+  MovingSteps(const char *kind, const CylinderNodes &nodes)
+      : valve_(make_valve(kind)), before_(make_valve(kind)), mesh_(mesh_over(nodes)), n_nodes_(nodes.n_nodes()) {
+    if (std::string(kind) == "aortic") {
+      const Valve open = make_valve(kind);
+      check(riis_valve_set_scalar(open.get(), "leaflet_angle", 60));
+      for (riis_valve *valve : {valve_.get(), before_.get()}) check(riis_valve_set_open_state(valve, open.get()));
+    }
+    move();
+    riis_surface_options of_surface;
+    check(riis_surface_options_init(&of_surface, sizeof of_surface));
+    of_surface.n_threads = 1;
+    riis_surface *surface = nullptr;
+    check(riis_surface_create(valve_.get(), &of_surface, &surface));
+    surface_.reset(surface);
+    check(riis_mesh_prepare(mesh_.get(), 1));
+    check(riis_mark_options_init(&marking_, sizeof marking_));
+    marking_.n_threads = 1;
+    check(riis_resistance_init(&resistance_, sizeof resistance_));
+    resistance_.resistance = 1;
+    coefficient_.resize(static_cast<std::size_t>(n_nodes_));
+    momentum_.resize(3 * static_cast<std::size_t>(n_nodes_));
+  }
+
+  void move() {
+    step_ = (step_ + 1) % 100;
+    const int now = step_ < 50 ? step_ : 100 - step_;
+    check(riis_valve_set_scalar(before_.get(), "opening", opening_));
+    check(riis_valve_set_scalar(valve_.get(), "opening", opening_ = 0.45 + 0.001 * now));
+  }
+  void update() { check(riis_surface_update(surface_.get(), valve_.get(), nullptr)); }
+  void update_moving() {
+    check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
+  }
+  void mark(std::int32_t fields) {
+    marking_.fields = fields;
+    check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
+  }
+  void add_resistance() {
+    check(riis_mark_result_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
+  }
+  riis_mark_stats stats() const {
+    riis_mark_stats stats;
+    check(riis_mark_result_stats(result_.get(), &stats, sizeof stats));
+    return stats;
+  }
+  double n_triangles() const { return n_triangles_of(surface_.get()); }
+
+ private:
+  Valve valve_, before_;
+  Mesh mesh_;
+  std::int64_t n_nodes_;
+  Surface surface_;
+  Result result_ = make_result();
+  riis_mark_options marking_;
+  riis_resistance resistance_;
+  std::vector<double> coefficient_, momentum_;
+  int step_ = 0;
+  double opening_ = 0.45;
+};
+
+void add(Contest &contest, const std::string &name, MovingSteps &steps, const Contest::Work &work) {
+  contest.add(name, n_turns, work, [&steps] { steps.move(); });
+}
+
+void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes) {
+  const char *kind = valve == 0 ? "aortic" : "mitral";
+  const CylinderNodes nodes(cylinders[valve], about_n_nodes);
+  MovingSteps steps(kind, nodes);
+  const auto name = [&](const char *what) { return std::string(kind) + ": " + what; };
+  add(contest, name("update"), steps, [&] { steps.update(); });
+  add(contest, name("moving update"), steps, [&] { steps.update_moving(); });
+  add(contest, name("step"), steps, [&] {
+    steps.update();
+    steps.mark(0);
+  });
+  add(contest, name("step with velocity"), steps, [&] {
+    steps.update_moving();
+    steps.mark(RIIS_FIELD_VELOCITY);
+  });
+  add(contest, name("step with velocity, K and K u"), steps, [&] {
+    steps.update_moving();
+    steps.mark(RIIS_FIELD_VELOCITY);
+    steps.add_resistance();
+  });
+  add(contest, name("step with all fields"), steps, [&] {
+    steps.update_moving();
+    steps.mark(all_fields);
+  });
+  contest.run();
+  std::printf("%s valve: %.0f triangles, %lld nodes, %lld marked.\n", kind, steps.n_triangles(),
+              static_cast<long long>(nodes.n_nodes()), static_cast<long long>(steps.stats().n_marked));
+  const auto ratio = [&](const char *above, const char *below, double bar) {
+    bars.add(name(above) + " / " + below, contest.ratio(name(above), name(below)), Wanted::at_most, bar);
+  };
+  ratio("moving update", "update", 1.7);
+  ratio("step with velocity, K and K u", "step", 1.5);
+  ratio("step with all fields", "step", 1.5);
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  const std::int64_t about_n_nodes = n_nodes_given(argc, argv, 1, 10);
+  Contest contest;
+  Bars bars;
+  for (const int valve : {0, 1}) measure(contest, bars, valve, about_n_nodes);
+  std::printf("\n");
+  contest.print();
+  std::printf("\n");
+  bars.print();
+  return 0;
+}
