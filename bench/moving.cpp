@@ -117,7 +117,6 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
     bars.add(name(above) + " / " + below, contest.ratio(name(above), name(below)), Wanted::at_most, bar);
   };
   ratio("moving update", "update", 1.7);
-  ratio("step with velocity, K and K u", "step", 1.5);
   ratio("step with all fields", "step", 1.5);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "geometry/point_triangle.hpp"
 #include "kernels/kernels.hpp"
@@ -58,8 +59,13 @@ class TriangleFields {
         made_(made) {}
 
   void write(const Range &range) const {
-    for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once)
+    // Nodes of a list are far apart in memory: their coordinates are fetched while the nodes before are computed.
+    constexpr std::int64_t ahead = 4 * pairs_at_once;
+    for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
+      for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
+        nodes_.prefetch(view(list_.node_id)[i]);
       write_at_once(static_cast<std::size_t>(first), static_cast<std::size_t>(std::min(first + pairs_at_once, range.end)));
+    }
   }
 
  private:

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/errors.hpp"
+#include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
@@ -18,16 +20,18 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
 }
 
-// Calls visit(i, K) for each node with a resistance, in ascending order.
+// Calls visit(i, K) for each node of a range with a resistance, in ascending order.
 template <class Visit>
-void for_each_resistance(const MarkResult &result, const Resistance &resistance, const Visit &visit) {
+void for_each_resistance(const MarkResult &result, const Resistance &resistance, const Range &range, const Visit &visit) {
   const NodeList &within = result.within;
-  for (std::size_t i = 0; i < within.size(); ++i) {
+  for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
     if (resistance.cuts_rim && result.fields_within.rim[i]) continue;
     const double k = coefficient_at(resistance, within.distance[i]);
     if (k > 0) visit(i, k);
   }
 }
+
+std::int64_t size_of(const MarkResult &result) { return static_cast<std::int64_t>(result.within.size()); }
 
 void require_field(const MarkResult &result, std::int32_t field, const char *field_name, const char *what) {
   if (!(result.fields & field))
@@ -55,19 +59,28 @@ Resistance checked_resistance(const riis_resistance &resistance, const MarkResul
 
 void add_resistance(const MarkResult &result, const Resistance &resistance, double *coefficient, double *momentum) {
   if (momentum) require_field(result, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "momentum");
-  for_each_resistance(result, resistance, [&](std::size_t i, double k) {
-    const std::int64_t node = result.within.node_id[i];
-    if (coefficient) coefficient[node] += k;
-    if (momentum)
-      for (std::size_t c = 0; c < 3; ++c)
-        momentum[3 * node + static_cast<std::int64_t>(c)] += k * result.fields_within.velocity[3 * i + c];
+  const std::vector<std::int64_t> &node_id = result.within.node_id;
+  const double *velocity = result.fields_within.velocity.data();
+  constexpr std::int64_t nodes_per_block = 4096;
+  parallel_for_ranges(size_of(result), nodes_per_block, result.n_threads, [&](const Range &range, int) {
+    for_each_resistance(result, resistance, range, [&](std::size_t i, double k) {
+      // Nodes are far apart in the caller's arrays: they are fetched while the nodes before are computed.
+      const std::int64_t ahead = node_id[std::min(i + 16, node_id.size() - 1)];
+      if (coefficient) __builtin_prefetch(coefficient + ahead, 1);
+      if (momentum) __builtin_prefetch(momentum + 3 * ahead, 1);
+      const std::int64_t node = node_id[i];
+      if (coefficient) coefficient[node] += k;
+      if (momentum)
+        for (int c = 0; c < 3; ++c) momentum[3 * node + c] += k * velocity[3 * i + static_cast<std::size_t>(c)];
+    });
   });
 }
 
 void add_reaction(const MarkResult &result, const Resistance &resistance, const double *velocity, const double *weight,
                   double *force) {
   const bool moves = (result.fields & RIIS_FIELD_VELOCITY) != 0;
-  for_each_resistance(result, resistance, [&](std::size_t i, double k) {
+  // One thread sums in the order of the nodes, so that the bits do not depend on their number.
+  for_each_resistance(result, resistance, {0, size_of(result)}, [&](std::size_t i, double k) {
     const std::int64_t node = result.within.node_id[i];
     for (std::size_t c = 0; c < 3; ++c) {
       const double surface_velocity = moves ? result.fields_within.velocity[3 * i + c] : 0;
