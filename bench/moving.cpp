@@ -60,7 +60,8 @@ class MovingSteps {
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
   void add_resistance() {
-    check(riis_mark_result_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
+    check(
+        riis_mark_result_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
   }
   riis_mark_stats stats() const {
     riis_mark_stats stats;

@@ -516,11 +516,11 @@ static void grids_that_are_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cells_of_every_kind),    cmocka_unit_test(one_cell_of_each_kind),
-      cmocka_unit_test(nothing_makes_empty_rows),
-      cmocka_unit_test(cells_that_are_refused), cmocka_unit_test(wildest_integers_are_refused),
-      cmocka_unit_test(faces_in_every_layout),  cmocka_unit_test(faces_that_are_refused),
-      cmocka_unit_test(grids_of_any_dimension), cmocka_unit_test(grids_that_are_refused),
+      cmocka_unit_test(cells_of_every_kind),          cmocka_unit_test(one_cell_of_each_kind),
+      cmocka_unit_test(nothing_makes_empty_rows),     cmocka_unit_test(cells_that_are_refused),
+      cmocka_unit_test(wildest_integers_are_refused), cmocka_unit_test(faces_in_every_layout),
+      cmocka_unit_test(faces_that_are_refused),       cmocka_unit_test(grids_of_any_dimension),
+      cmocka_unit_test(grids_that_are_refused),
   };
   rng = random_start("test_adjacency");
   return cmocka_run_group_tests(tests, NULL, NULL);

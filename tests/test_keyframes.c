@@ -169,8 +169,7 @@ static void bad_frames_are_refused(void **state) {
                 riis_surface_create_from_keyframes(keyframes, NAN, 0, NULL, &surface));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time is inf",
                 riis_surface_create_from_keyframes(keyframes, 0, INFINITY, NULL, &surface));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "keyframes",
-                riis_surface_create_from_keyframes(NULL, 0, 0, NULL, &surface));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "keyframes", riis_surface_create_from_keyframes(NULL, 0, 0, NULL, &surface));
   assert_null(surface);
   riis_keyframes_destroy(&keyframes);
 }

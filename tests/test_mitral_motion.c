@@ -16,11 +16,23 @@ static random_source rng;
 static const struct {
   const char *name;
   size_t at;
-} scalars[] = {FIELD(anterior_ratio), FIELD(AP_diameter), FIELD(ALPM_diameter), FIELD(ALPM_position_ratio),
-               FIELD(IT_distance), FIELD(indent_depth), FIELD(anterior_horn_height), FIELD(posterior_horn_height),
-               FIELD(anterior_length), FIELD(posteromedial_commissure_height), FIELD(posterior_scallop_length1),
-               FIELD(posterior_scallop_length2), FIELD(leaflet_arc_angle), FIELD(leaflet_inward_angle),
-               FIELD(surface_angle), FIELD(triangle_size_ratio), FIELD(opening)};
+} scalars[] = {FIELD(anterior_ratio),
+               FIELD(AP_diameter),
+               FIELD(ALPM_diameter),
+               FIELD(ALPM_position_ratio),
+               FIELD(IT_distance),
+               FIELD(indent_depth),
+               FIELD(anterior_horn_height),
+               FIELD(posterior_horn_height),
+               FIELD(anterior_length),
+               FIELD(posteromedial_commissure_height),
+               FIELD(posterior_scallop_length1),
+               FIELD(posterior_scallop_length2),
+               FIELD(leaflet_arc_angle),
+               FIELD(leaflet_inward_angle),
+               FIELD(surface_angle),
+               FIELD(triangle_size_ratio),
+               FIELD(opening)};
 enum { n_scalars = sizeof scalars / sizeof *scalars };
 
 static double *scalar_of(mitral_parameters *p, int i) { return (double *)(void *)((char *)p + scalars[i].at); }
@@ -288,8 +300,8 @@ static void a_bulge_goes_through_zero(void **state) {
   static const struct {
     double now, before;
     int is_straight;
-  } steps[] = {{0.5, 0.4, 1},   {0.5, 0.5 + 1e-3, 1}, {0.5 - 1e-3, 0.5, 1}, {0.5 + 1e-6, 0.5 - 1e-6, 1}, {0.7, 0.5, 0},
-               {0.25, 0.5, 0},  {0.75, 0.25, 0},      {0.3, 0.8, 0},        {0.2, 0.2 - 1e-4, 0}};
+  } steps[] = {{0.5, 0.4, 1},  {0.5, 0.5 + 1e-3, 1}, {0.5 - 1e-3, 0.5, 1}, {0.5 + 1e-6, 0.5 - 1e-6, 1}, {0.7, 0.5, 0},
+               {0.25, 0.5, 0}, {0.75, 0.25, 0},      {0.3, 0.8, 0},        {0.2, 0.2 - 1e-4, 0}};
   for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
     states now = paper_at(steps[i].now), before;
     now.closed.surface_angle = 25, now.open.surface_angle = -25;

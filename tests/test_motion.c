@@ -419,7 +419,8 @@ static void vertices_come_from_their_place_before(void **state) {
       for (int x = 0; x < 6; ++x)
         place[x % 2] += closest.barycentric[x / 2] * w.uv[2 * w.vertex_id[3 * t + x / 2] + x % 2];
       /* At the root u means nothing. */
-      const double off = fmax(fabs(place[1] - c.uv[2 * i + 1]), c.uv[2 * i + 1] > 0.2 ? fabs(place[0] - c.uv[2 * i]) : 0);
+      const double off =
+          fmax(fabs(place[1] - c.uv[2 * i + 1]), c.uv[2 * i + 1] > 0.2 ? fabs(place[0] - c.uv[2 * i]) : 0);
       worst_uv = fmax(worst_uv, off);
     }
     free_owned_after(owned_before);
@@ -465,8 +466,7 @@ static void a_copy_is_a_valve_of_its_own(void **state) {
     assert_true(is_same_content(a, b));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "copy is NULL", riis_valve_copy(copy, NULL));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &none));
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is a handle of another kind",
-                  riis_valve_copy((const void *)a, &none));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is a handle of another kind", riis_valve_copy((const void *)a, &none));
     assert_null(none);
   }
 }
@@ -499,7 +499,8 @@ static void check_kept(const kept *k) {
 static void refusals_leave_the_surface_as_it_was(void **state) {
   (void)state;
   const strip shape = random_strip(1);
-  riis_valve *aortic = random_valve(0), *before = copy_of(aortic), *mitral = random_valve(1), *patches = valve_of(&shape);
+  riis_valve *aortic = random_valve(0), *before = copy_of(aortic), *mitral = random_valve(1),
+             *patches = valve_of(&shape);
   CHECK_OK(riis_valve_set_scalar(aortic, "opening", 0.5));
   riis_surface *surface = new_surface(aortic, NULL);
   CHECK_OK(riis_surface_update_moving(surface, aortic, before, 0.5, NULL, NULL));
@@ -512,8 +513,8 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   static const struct {
     double seconds;
     const char *text;
-  } times[] = {{0, "seconds is 0;"},           {-0.0, "seconds is -0;"},         {NAN, "seconds is nan;"},
-               {INFINITY, "seconds is inf;"},  {-INFINITY, "seconds is -inf;"},  {1e-40, "seconds is 1e-40;"},
+  } times[] = {{0, "seconds is 0;"},           {-0.0, "seconds is -0;"},        {NAN, "seconds is nan;"},
+               {INFINITY, "seconds is inf;"},  {-INFINITY, "seconds is -inf;"}, {1e-40, "seconds is 1e-40;"},
                {-1e-40, "seconds is -1e-40;"}, {1e31, "seconds is 1e+31;"}};
   for (size_t i = 0; i < sizeof times / sizeof *times; ++i)
     MOVING_REFUSED(RIIS_INVALID_ARGUMENT, times[i].text, aortic, before, times[i].seconds, NULL, NULL);
@@ -521,8 +522,8 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
                 riis_surface_update_moving(NULL, aortic, before, 1, NULL, NULL));
   MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", NULL, before, 1, NULL, NULL);
   MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve_before is NULL", aortic, NULL, 1, NULL, NULL);
-  MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve_before is a handle of another kind", aortic, (const void *)surface, 1, NULL,
-                 NULL);
+  MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "valve_before is a handle of another kind", aortic, (const void *)surface, 1,
+                 NULL, NULL);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind mitral|aortic", aortic, mitral, 1, NULL, NULL);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind patches|aortic", aortic, patches, 1, NULL, NULL);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind aortic|mitral", mitral, aortic, 1, NULL, NULL);
@@ -572,7 +573,8 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   other.degree = degree, other.control = square, other.curve_id = sides;
   CHECK_OK(riis_valve_create_from_patches(&other, &bad));
   own(bad);
-  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before has 4 curves and 1 patches|10 and 3", patches, bad, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before has 4 curves and 1 patches|10 and 3", patches, bad, 1, NULL,
+                 NULL);
   CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL)); /* as good as new */
 }
 

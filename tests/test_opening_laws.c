@@ -119,12 +119,14 @@ static void bad_tables_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening", riis_opening_from_table(&table, 0, &got, NULL));
   table = table_of(3, time, opening);
   time[1] = 2;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time of key 2 is 2|above", riis_opening_from_table(&table, 0, &got, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time of key 2 is 2|above",
+                riis_opening_from_table(&table, 0, &got, NULL));
   time[1] = INFINITY;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.time of key 1 is inf", riis_opening_from_table(&table, 0, &got, NULL));
   time[1] = 1;
   opening[1] = 1.25;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening of key 1 is 1.25", riis_opening_from_table(&table, 0, &got, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening of key 1 is 1.25",
+                riis_opening_from_table(&table, 0, &got, NULL));
   opening[1] = NAN;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table.opening of key 1 is nan", riis_opening_from_table(&table, 0, &got, NULL));
   opening[1] = 1;
@@ -159,8 +161,9 @@ static void a_valve_opens_and_closes_at_its_times(void **state) {
   riis_opening_times times = some_times();
   const struct {
     double time, opening, rate;
-  } expected[] = {{0.45, 0, 0},  {0.475, 0.5, 1.875 / 0.05}, {0.5, 1, 0}, {0.7, 1, 0},
-                  {0.95, 0.5, -1.875 / 0.1}, {1.0, 0, 0}, {1.2, 0, 0}};
+  } expected[] = {{0.45, 0, 0}, {0.475, 0.5, 1.875 / 0.05}, {0.5, 1, 0},
+                  {0.7, 1, 0},  {0.95, 0.5, -1.875 / 0.1},  {1.0, 0, 0},
+                  {1.2, 0, 0}};
   for (int repeat = 0; repeat < 2; ++repeat) {
     times.period = repeat ? 1 : 0;
     for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i) {

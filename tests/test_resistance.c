@@ -238,7 +238,8 @@ static void sums_are_those_of_plain_loops(void **state) {
     /* Momentum is K times the surface's velocity. */
     for (int64_t j = 0; j < within.n && moves; ++j)
       for (int c = 0; c < 3; ++c)
-        CHECK_SAME(both[n + 3 * within.node_id[j] + c] + 0.0, both[within.node_id[j]] * fields.velocity[3 * j + c] + 0.0);
+        CHECK_SAME(both[n + 3 * within.node_id[j] + c] + 0.0,
+                   both[within.node_id[j]] * fields.velocity[3 * j + c] + 0.0);
     free_owned_after(owned_before);
   }
 }
@@ -271,7 +272,8 @@ static void ranks_add_up(void **state) {
     }
     /* Each rank with a mesh of its own nodes. */
     for (int r = 0; r < 2; ++r) {
-      double *of_mesh = own(malloc((size_t)n * 7 * sizeof *of_mesh)), *velocity = of_mesh + 3 * n, *own = of_mesh + 6 * n;
+      double *of_mesh = own(malloc((size_t)n * 7 * sizeof *of_mesh)), *velocity = of_mesh + 3 * n,
+             *own = of_mesh + 6 * n;
       int64_t m = 0;
       for (int64_t i = 0; i < n; ++i) {
         if (rank[i] != r) continue;
@@ -420,7 +422,8 @@ static void refusals_leave_the_arrays(void **state) {
   CHANGED_IS_REFUSED(resistance = -1e-300, "resistance.resistance is -1e-300;");
   CHANGED_IS_REFUSED(resistance = INFINITY, "resistance.resistance is inf;");
   CHANGED_IS_REFUSED(resistance = 1.1e60, "resistance.resistance is 1.1e+60;");
-  CHANGED_IS_REFUSED(half_thickness = 0.21, "resistance.half_thickness is 0.21;|the distance limit of the marking, 0.2");
+  CHANGED_IS_REFUSED(half_thickness = 0.21,
+                     "resistance.half_thickness is 0.21;|the distance limit of the marking, 0.2");
   CHANGED_IS_REFUSED(half_thickness = 0, "resistance.half_thickness is 0;|from 1e-50");
   CHANGED_IS_REFUSED(half_thickness = -0.1, "resistance.half_thickness is -0.1;");
   CHANGED_IS_REFUSED(half_thickness = NAN, "resistance.half_thickness is nan;");

@@ -20,7 +20,8 @@ namespace {
 // The structs' sizes in the first release.
 constexpr std::size_t closest_size = 96, options_size = 32, arrays_size = 64;
 
-const riis_closest_options default_options{sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};
+const riis_closest_options default_options{
+    sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};
 const riis_closest_arrays default_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
@@ -104,14 +105,15 @@ class WantedPoints {
       : mask_(options.point_mask), ids_(options.point_ids), n_(points.n) {
     if (!ids_) {
       if (options.n_point_ids != 0)
-        riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids, ", but options.point_ids is NULL");
+        riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
+                   ", but options.point_ids is NULL");
       if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
       return;
     }
     if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are given, both");
     if (options.n_point_ids < 0 || options.n_point_ids > points.n)
-      riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids, "; it must be from 0 to n_points, ",
-                 points.n);
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
+                 "; it must be from 0 to n_points, ", points.n);
     n_ = options.n_point_ids;
     if (n_ == 0) return;
     riis::check_points({0, points.x, points.y, points.z, points.stride}, "point", RIIS_INVALID_ARGUMENT);
@@ -119,8 +121,8 @@ class WantedPoints {
     for (std::int64_t k = 0; k < n_; ++k) {
       const std::int64_t id = ids_[k];
       if (id <= last || id >= points.n)
-        riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id, "; it must be above the entry before, ",
-                   last, ", and below n_points, ", points.n);
+        riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
+                   "; it must be above the entry before, ", last, ", and below n_points, ", points.n);
       riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
       last = id;
     }

@@ -13,8 +13,8 @@ namespace {
 // The structs' sizes in the first release.
 constexpr std::size_t frames_size = 56, faces_size = 88;
 
-const riis_keyframe_arrays default_frames{
-    sizeof(riis_keyframe_arrays), 0, 0, nullptr, nullptr, 0, RIIS_INTERPOLATION_LINEAR, 0};
+const riis_keyframe_arrays default_frames{sizeof(riis_keyframe_arrays), 0, 0, nullptr, nullptr, 0,
+                                          RIIS_INTERPOLATION_LINEAR,    0};
 
 riis_surface_arrays default_faces() {
   riis_surface_arrays faces;
@@ -34,8 +34,10 @@ riis_status riis_keyframes_create(const riis_surface_arrays *faces, const riis_k
                                   riis_keyframes **keyframes) {
   return guarded([&] {
     require(keyframes, "keyframes");
-    const riis_surface_arrays whole_faces = riis::completed<faces_size>(require(faces, "faces"), "faces", default_faces());
-    const riis_keyframe_arrays whole = riis::completed<frames_size>(require(frames, "frames"), "frames", default_frames);
+    const riis_surface_arrays whole_faces =
+        riis::completed<faces_size>(require(faces, "faces"), "faces", default_faces());
+    const riis_keyframe_arrays whole =
+        riis::completed<frames_size>(require(frames, "frames"), "frames", default_frames);
     *keyframes = new riis_keyframes(riis::Keyframes(whole_faces, whole));
   });
 }

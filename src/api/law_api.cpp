@@ -17,7 +17,8 @@ constexpr std::size_t table_size = 48, times_size = 64, switch_size = 56, switch
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-const riis_opening_table default_table{sizeof(riis_opening_table), 0, nullptr, nullptr, 0, RIIS_INTERPOLATION_LINEAR, 0};
+const riis_opening_table default_table{sizeof(riis_opening_table), 0, nullptr, nullptr, 0,
+                                       RIIS_INTERPOLATION_LINEAR,  0};
 const riis_opening_times default_times{sizeof(riis_opening_times), no_value, no_value, no_value, no_value, 0, 1, 0};
 const riis_opening_switch default_switch{sizeof(riis_opening_switch), no_value, no_value, 0, 0, 0, 0};
 const riis_opening_switch_state default_switch_state{

@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
                       leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
 
-const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0,
-                                        RIIS_INSTRUCTIONS_AUTO,    0,         0,       0};
+const riis_mark_options default_options{
+    sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0, RIIS_INSTRUCTIONS_AUTO, 0, 0, 0};
 const riis_resistance default_resistance{sizeof(riis_resistance), std::numeric_limits<double>::quiet_NaN(), RIIS_AUTO,
                                          RIIS_RIM_ROUND, 0};
 
@@ -122,8 +122,7 @@ riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh
 void check_is_of_marking(const riis::SearchRequest &request, const riis::MarkResult &result) {
   if (!request.mesh.adjacency().has_value())
     riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges may leak: see riis_mesh_set_adjacency");
-  if (!result.was_marked)
-    riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
+  if (!result.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
   if (result.stats.n_nodes != request.mesh.nodes().n)
     riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ",
                request.mesh.nodes().n);
@@ -286,9 +285,8 @@ riis_status riis_mark_result_within_limit_fields(const riis_mark_result *result,
 }
 
 riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size) {
-  return guarded([&] {
-    riis::init_struct<resistance_size>(resistance, struct_size, "resistance", default_resistance);
-  });
+  return guarded(
+      [&] { riis::init_struct<resistance_size>(resistance, struct_size, "resistance", default_resistance); });
 }
 
 riis_status riis_mark_result_add_resistance(const riis_mark_result *result, const riis_resistance *resistance,
@@ -324,10 +322,9 @@ riis_status riis_mark_result_band_sums(const riis_mark_result *result, double in
     if (!(outer <= content.distance_limit))
       riis::fail(RIIS_INVALID_ARGUMENT, "outer is ", outer, "; it must be at most the distance limit of the marking, ",
                  content.distance_limit);
-    riis::write_struct<band_sums_size>(
-        sums, struct_size, "sums",
-        riis::band_sums(content, inner, outer, require_of_nodes(value, "value", n_nodes),
-                        require_of_nodes(weight, "weight", n_nodes)));
+    riis::write_struct<band_sums_size>(sums, struct_size, "sums",
+                                       riis::band_sums(content, inner, outer, require_of_nodes(value, "value", n_nodes),
+                                                       require_of_nodes(weight, "weight", n_nodes)));
   });
 }
 

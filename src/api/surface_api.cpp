@@ -25,13 +25,28 @@ constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 const riis_surface_options default_options{
     sizeof(riis_surface_options), RIIS_AUTO, 0.05,     1.0, {0, 0, 1}, 0, {0, 0, 0}, RIIS_ZERO_AREA_REFUSE, 0,
     RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO};
-const riis_surface_arrays default_arrays{
-    sizeof(riis_surface_arrays), 0, nullptr, nullptr, nullptr, 1, 0, nullptr, 32, 0, 3, 0, nullptr,
-    nullptr, nullptr, nullptr, 1};
+const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
+                                         0,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         1,
+                                         0,
+                                         nullptr,
+                                         32,
+                                         0,
+                                         3,
+                                         0,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         1};
 
 void check_range(const char *options, const char *name, double value, double minimum, double maximum) {
   if (!(value >= minimum && value <= maximum))
-    riis::fail(RIIS_INVALID_ARGUMENT, options, ".", name, " is ", value, "; it must be from ", minimum, " to ", maximum);
+    riis::fail(RIIS_INVALID_ARGUMENT, options, ".", name, " is ", value, "; it must be from ", minimum, " to ",
+               maximum);
 }
 
 void check_flag(const char *name, std::int32_t value) {
@@ -53,7 +68,8 @@ void check_placement(const riis_surface_options &options, const char *name) {
 
 void check_options(const riis_surface_options &options) {
   check_placement(options, "options");
-  if (options.half_thickness != RIIS_AUTO) check_range("options", "half_thickness", options.half_thickness, 1e-50, 1e50);
+  if (options.half_thickness != RIIS_AUTO)
+    check_range("options", "half_thickness", options.half_thickness, 1e-50, 1e50);
   check_range("options", "tolerance", options.tolerance, 1e-6, 1.0);
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
@@ -261,8 +277,9 @@ riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis
                                                double since, const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    fill_from_keyframes(*surface, keyframes, time, since,
-                        riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+    fill_from_keyframes(
+        *surface, keyframes, time, since,
+        riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 

@@ -31,7 +31,7 @@ struct Options {
       leaflets;  // of the surface's file: "connected", the name of a cell array, or "" for the array riis_leaflet
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
-  std::optional<double> resistance;  // R, for an array of K
+  std::optional<double> resistance;           // R, for an array of K
   std::string output, surface_output, stats;  // "": not wanted
   std::vector<Picture> pictures;
   std::int32_t n_steps = 0;     // to be timed

@@ -98,8 +98,7 @@ void check_distinct(const Options &options) {
   for (const NamedFile &output : outputs_of(options)) {
     for (const NamedFile &other : others) {
       if (is_same_file(output.path, other.path) && !may_replace(output, other)) {
-        throw Refusal{exit_wrong_usage,
-                      output.option + ": " + output.path + " is also the file of " + other.option};
+        throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is also the file of " + other.option};
       }
     }
     others.push_back(output);

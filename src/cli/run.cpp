@@ -193,9 +193,8 @@ void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
     int32_t has = 0;
     check(riis_vtk_mesh_has_point_array(mesh, (options.prefix + what).c_str(), &has));
     if (!has) continue;
-    throw Refusal{exit_wrong_usage,
-                  options.mesh + " already has an array " + options.prefix + what +
-                      ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
+    throw Refusal{exit_wrong_usage, options.mesh + " already has an array " + options.prefix + what +
+                                        ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
   }
 }
 

@@ -77,7 +77,8 @@ class Reader {
     check_object(open, "\"open\"", {"curves"});
     const Curves found = curves_of(open, "open: ");
     for (const std::string &name : found.names) {
-      if (closed.position.count(name) == 0) refuse("open: curve " + quoted(name) + " is not a curve of the closed state");
+      if (closed.position.count(name) == 0)
+        refuse("open: curve " + quoted(name) + " is not a curve of the closed state");
     }
     Curves ordered{closed.names, closed.position, {}, {}};
     std::vector<std::size_t> begins = {0};
@@ -152,7 +153,8 @@ class Reader {
     check_object(patch, subject, {"v0", "v1", "u0", "u1", "leaflet"});
     for (const char *key : side_keys) {
       const Json &side = member(patch, key, subject + ": ");
-      if (!side.is_string()) refuse(subject + ": " + key + " is " + json_text(side) + "; it must be the name of a curve");
+      if (!side.is_string())
+        refuse(subject + ": " + key + " is " + json_text(side) + "; it must be the name of a curve");
       const std::string &text = side.get_ref<const std::string &>();
       const bool reversed = !text.empty() && text[0] == '-';
       const auto found = curves.position.find(text.substr(reversed ? 1 : 0));

@@ -129,12 +129,12 @@ void decide(int32_t n, const int32_t *point, const int32_t *triangle, const doub
 }
 
 void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
-  const auto vector = [&](const double (*from)[pairs_at_once]) RIIS_LAMBDA {
+  const auto vector = [&](const double(*from)[pairs_at_once]) RIIS_LAMBDA {
     return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
   };
-  const ClosestPoints closest =
-      closest_points<true>(vector(pairs.point), vector(pairs.corners), vector(pairs.corners + 3), vector(pairs.corners + 6));
-  const auto store = [](Doubles3 v, double (*to)[pairs_at_once]) RIIS_LAMBDA {
+  const ClosestPoints closest = closest_points<true>(vector(pairs.point), vector(pairs.corners),
+                                                     vector(pairs.corners + 3), vector(pairs.corners + 6));
+  const auto store = [](Doubles3 v, double(*to)[pairs_at_once]) RIIS_LAMBDA {
     v.x.store(to[0]);
     v.y.store(to[1]);
     v.z.store(to[2]);

@@ -132,7 +132,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
   const double per_second = is_opening ? 1 / law.opening_seconds : -1 / law.closing_seconds;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
   now.opening = ramp(now.progress);
-  now.rate = ramp_rate(now.progress) * (now.phase == RIIS_PHASE_OPENING ? 1 / law.opening_seconds : -1 / law.closing_seconds);
+  now.rate =
+      ramp_rate(now.progress) * (now.phase == RIIS_PHASE_OPENING ? 1 / law.opening_seconds : -1 / law.closing_seconds);
   return now;
 }
 
@@ -202,7 +203,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   check_range("law.angle_min", law.angle_min, 0, 90);
   check_range("law.angle_max", law.angle_max, law.angle_min, 90);
   if (!(law.angle_max > law.angle_min))
-    fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ", law.angle_min);
+    fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
+         law.angle_min);
   check_range("before.angle", before.angle, law.angle_min, law.angle_max);
   check_range("before.angle_rate", before.angle_rate, -largest, largest);
   const double step = checked_step(before.time, time, pressure_difference, flow);
@@ -216,14 +218,16 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;
   if (!(n_wanted <= max_steps))
-    fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, ", n_wanted, " steps of the angle's motion; at most ",
-         max_steps, " are taken: take shorter steps, or look at the gains' units");
+    fail(RIIS_LIMIT_EXCEEDED, "time is ", step, " after before.time, ", n_wanted,
+         " steps of the angle's motion; at most ", max_steps,
+         " are taken: take shorter steps, or look at the gains' units");
   const auto n = std::max<std::int64_t>(1, static_cast<std::int64_t>(n_wanted));
   const double least = law.angle_min * degree, most = law.angle_max * degree;
   Motion at{before.angle * degree, before.angle_rate * degree};
   if (step > 0)
     for (std::int64_t i = 0; i < n; ++i) {
-      const double from = static_cast<double>(i) / static_cast<double>(n), until = static_cast<double>(i + 1) / static_cast<double>(n);
+      const double from = static_cast<double>(i) / static_cast<double>(n),
+                   until = static_cast<double>(i + 1) / static_cast<double>(n);
       at = stopped(runge_kutta(angle_law, at, from, until, step / static_cast<double>(n)), least, most);
     }
 

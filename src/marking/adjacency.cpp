@@ -190,10 +190,8 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
   check_base("csr.index_base", csr.index_base);
   check_reserved("csr.reserved", csr.reserved);
   if (csr.n_rows > 0) require(csr.offsets, "csr.offsets");
-  const Adjacency made{csr.n_rows,
-                       {csr.offsets, csr.offset_bits == 64},
-                       {csr.columns, csr.column_bits == 64},
-                       csr.index_base};
+  const Adjacency made{
+      csr.n_rows, {csr.offsets, csr.offset_bits == 64}, {csr.columns, csr.column_bits == 64}, csr.index_base};
   if (csr.offsets && made.offsets[0] != made.base)
     fail(RIIS_INVALID_MESH, "csr.offsets begins with ", made.offsets[0], "; it must begin with ", made.base);
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {

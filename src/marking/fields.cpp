@@ -64,7 +64,8 @@ class TriangleFields {
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
         nodes_.prefetch(view(list_.node_id)[i]);
-      write_at_once(static_cast<std::size_t>(first), static_cast<std::size_t>(std::min(first + pairs_at_once, range.end)));
+      write_at_once(static_cast<std::size_t>(first),
+                    static_cast<std::size_t>(std::min(first + pairs_at_once, range.end)));
     }
   }
 
@@ -102,7 +103,8 @@ class TriangleFields {
   void write(std::size_t i, std::size_t triangle, Vec3 p, const PointOnTriangle &on) const {
     if (has(RIIS_FIELD_POINT)) put(made_.point, i, on.point);
     if (has(RIIS_FIELD_NORMAL)) put(made_.normal, i, normal(triangle));
-    if (has(RIIS_FIELD_BARYCENTRIC)) put(made_.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
+    if (has(RIIS_FIELD_BARYCENTRIC))
+      put(made_.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
     if (has(RIIS_FIELD_SIDE)) made_.side[i] = surface_.side(p, triangle, on);
     if (has(RIIS_FIELD_RIM)) made_.rim[i] = surface_.is_on_rim(triangle, on) ? 1 : 0;
     if (has(RIIS_FIELD_PATCH)) made_.patch_id[i] = set_.patch_id[triangle];
@@ -118,7 +120,8 @@ class TriangleFields {
 
   // Interpolates a field that has n components per vertex.
   template <std::size_t n>
-  void interpolate(const std::vector<double> &field, std::size_t triangle, const PointOnTriangle &on, double *to) const {
+  void interpolate(const std::vector<double> &field, std::size_t triangle, const PointOnTriangle &on,
+                   double *to) const {
     const std::int64_t *id = set_.vertex_id.data() + 3 * triangle;
     const double *a = field.data() + static_cast<std::int64_t>(n) * id[0],
                  *b = field.data() + static_cast<std::int64_t>(n) * id[1],
@@ -165,7 +168,8 @@ void NodeFields::resize(std::int32_t fields, std::size_t n) {
 
 void check_fields(const Surface &surface, std::int32_t fields) {
   if (fields < 0 || (fields & ~all_fields) != 0)
-    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, "; it must be a sum of RIIS_FIELD_*, at most ", all_fields);
+    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, "; it must be a sum of RIIS_FIELD_*, at most ",
+         all_fields);
   if (const PatchDistance *other = surface.other_distance()) {
     constexpr std::int32_t of_patches = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH;
     if (fields & ~of_patches)
@@ -173,7 +177,8 @@ void check_fields(const Surface &surface, std::int32_t fields) {
            ", which has no fields but RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH");
   }
   if ((fields & RIIS_FIELD_VELOCITY) && surface.triangles().velocity.empty())
-    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields, ", with RIIS_FIELD_VELOCITY, but the surface has no velocity: "
+    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,
+         ", with RIIS_FIELD_VELOCITY, but the surface has no velocity: "
          "update it with riis_surface_update_moving, or give the velocity of its vertices in arrays");
   if ((fields & RIIS_FIELD_UV) && surface.triangles().uv.empty())
     fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,

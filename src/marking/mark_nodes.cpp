@@ -87,8 +87,7 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                result.order_scratch, result.within, result.marked);
   make_fields(request, fields, result.within, result.fields_within);
-  if (limit_is_wider)
-    select_fields(fields, result.within, result.fields_within, result.marked, result.fields_marked);
+  if (limit_is_wider) select_fields(fields, result.within, result.fields_within, result.marked, result.fields_marked);
   result.fields = fields;
   result.was_marked = true;
   result.limit_is_wider = limit_is_wider;

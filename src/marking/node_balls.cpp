@@ -63,9 +63,8 @@ void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
   resize(balls.balls, n_parts(view(balls.order).size(), NodeBalls::nodes_per_ball));
   resize(balls.large_balls, n_parts(view(balls.balls).size(), NodeBalls::balls_per_large_ball));
   for_each(view(balls.balls).size(), n_threads, [&](std::int64_t ball) {
-    view(balls.balls)[ball] = ball_around(balls.nodes_of(ball), [&](std::int64_t at) {
-      return Ball{node_at(nodes, view(balls.order)[at]), 0};
-    });
+    view(balls.balls)[ball] = ball_around(
+        balls.nodes_of(ball), [&](std::int64_t at) { return Ball{node_at(nodes, view(balls.order)[at]), 0}; });
   });
   for_each(view(balls.large_balls).size(), n_threads, [&](std::int64_t large_ball) {
     view(balls.large_balls)[large_ball] =

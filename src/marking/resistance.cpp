@@ -22,7 +22,8 @@ double coefficient_at(const Resistance &resistance, double distance) {
 
 // Calls visit(i, K) for each node of a range with a resistance, in ascending order.
 template <class Visit>
-void for_each_resistance(const MarkResult &result, const Resistance &resistance, const Range &range, const Visit &visit) {
+void for_each_resistance(const MarkResult &result, const Resistance &resistance, const Range &range,
+                         const Visit &visit) {
   const NodeList &within = result.within;
   for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
     if (resistance.cuts_rim && result.fields_within.rim[i]) continue;
@@ -35,8 +36,8 @@ std::int64_t size_of(const MarkResult &result) { return static_cast<std::int64_t
 
 void require_field(const MarkResult &result, std::int32_t field, const char *field_name, const char *what) {
   if (!(result.fields & field))
-    fail(RIIS_INVALID_ARGUMENT, what, " needs ", field_name, ", but the result was marked with options.fields = ",
-         result.fields);
+    fail(RIIS_INVALID_ARGUMENT, what, " needs ", field_name,
+         ", but the result was marked with options.fields = ", result.fields);
 }
 
 }  // namespace
@@ -47,8 +48,8 @@ Resistance checked_resistance(const riis_resistance &resistance, const MarkResul
     fail(RIIS_INVALID_ARGUMENT, "resistance.resistance is ", resistance.resistance, "; it must be from 0 to 1e+60");
   const double eps = resistance.half_thickness == RIIS_AUTO ? result.half_thickness : resistance.half_thickness;
   if (!(eps >= 1e-50 && eps <= result.distance_limit))
-    fail(RIIS_INVALID_ARGUMENT, "resistance.half_thickness is ", eps, "; it must be from 1e-50 to the distance limit of ",
-         "the marking, ", result.distance_limit);
+    fail(RIIS_INVALID_ARGUMENT, "resistance.half_thickness is ", eps,
+         "; it must be from 1e-50 to the distance limit of ", "the marking, ", result.distance_limit);
   if (resistance.rim != RIIS_RIM_ROUND && resistance.rim != RIIS_RIM_CUT)
     fail(RIIS_INVALID_ARGUMENT, "resistance.rim is ", resistance.rim, "; it must be RIIS_RIM_ROUND or RIIS_RIM_CUT");
   check_reserved("resistance.reserved", resistance.reserved);

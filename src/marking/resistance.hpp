@@ -21,6 +21,7 @@ Resistance checked_resistance(const riis_resistance &resistance, const MarkResul
 void add_resistance(const MarkResult &result, const Resistance &resistance, double *coefficient, double *momentum);
 void add_reaction(const MarkResult &result, const Resistance &resistance, const double *velocity, const double *weight,
                   double *force);
-riis_band_sums band_sums(const MarkResult &result, double inner, double outer, const double *value, const double *weight);
+riis_band_sums band_sums(const MarkResult &result, double inner, double outer, const double *value,
+                         const double *weight);
 
 }  // namespace riis

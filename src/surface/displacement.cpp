@@ -71,8 +71,8 @@ class ArcMotion {
         bulge_before_(moved.before.patches[moved.patch].bulge),
         base_(moved, &Patch::v0, moved.sides.side_v0),
         edge_(moved, &Patch::v1, moved.sides.side_v1),
-        is_at_rest_(base_.is_at_rest() && edge_.is_at_rest() &&
-                    moved.now.patches[moved.patch].bulge == bulge_before_) {}
+        is_at_rest_(base_.is_at_rest() && edge_.is_at_rest() && moved.now.patches[moved.patch].bulge == bulge_before_) {
+  }
 
   std::vector<Vec3> displacements(const GridLines &lines) const {
     std::vector<Vec3> made;
@@ -175,9 +175,9 @@ void check_same_build(const PatchSet &now, const PatchSet &before) {
          ": they must be two states of one valve");
   for (std::size_t i = 0; i < now.patches.size(); ++i) {
     const auto &images = now.patches[i].images, &images_before = before.patches[i].images;
-    const bool is_same =
-        std::equal(images.begin(), images.end(), images_before.begin(), images_before.end(),
-                   [](const PatchImage &a, const PatchImage &b) { return a.mirror == b.mirror && a.patch_id == b.patch_id; });
+    const bool is_same = std::equal(
+        images.begin(), images.end(), images_before.begin(), images_before.end(),
+        [](const PatchImage &a, const PatchImage &b) { return a.mirror == b.mirror && a.patch_id == b.patch_id; });
     if (!is_same)
       fail(RIIS_INVALID_PARAMETER, "patch ", i, " of valve_before is not patch ", i,
            " of valve: they must be two states of one valve");

@@ -22,7 +22,7 @@ struct Motion {
 struct MovedPatch {
   const PatchSet &now, &before;
   std::size_t patch;
-  const PatchSides &sides;            // of the patch now
+  const PatchSides &sides;           // of the patch now
   const std::vector<Vec3> *offsets;  // O on each u line now; null for a Coons patch
 };
 

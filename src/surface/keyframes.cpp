@@ -28,18 +28,20 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
   if (frames.n_vertices < 1 || frames.n_vertices > std::numeric_limits<std::int32_t>::max())
     fail(RIIS_INVALID_SURFACE, "frames.n_vertices is ", frames.n_vertices, "; it must be from 1 to 2147483647");
   if (frames.n_keys > std::numeric_limits<std::int64_t>::max() / 24 / frames.n_vertices)
-    fail(RIIS_LIMIT_EXCEEDED, frames.n_keys, " frames of ", frames.n_vertices, " vertices are more than memory can hold");
+    fail(RIIS_LIMIT_EXCEEDED, frames.n_keys, " frames of ", frames.n_vertices,
+         " vertices are more than memory can hold");
   const std::int64_t n = 3 * frames.n_vertices;
   for (std::int64_t key = 0; key < frames.n_keys; ++key)
     for (std::int64_t i = 0; i < n; ++i)
       if (!is_usable(frames.xyz[key * n + i]))
-        fail(RIIS_INVALID_SURFACE, axes[static_cast<std::size_t>(i % 3)], " of vertex ", i / 3, " in frame ", key, " is ", frames.xyz[key * n + i],
-             "; it must be finite and at most ", max_coordinate, " in magnitude");
+        fail(RIIS_INVALID_SURFACE, axes[static_cast<std::size_t>(i % 3)], " of vertex ", i / 3, " in frame ", key,
+             " is ", frames.xyz[key * n + i], "; it must be finite and at most ", max_coordinate, " in magnitude");
   if (checked.is_closed())
     for (std::int64_t i = 0; i < n; ++i)
       if (frames.xyz[i] != frames.xyz[(frames.n_keys - 1) * n + i])
         fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
-             axes[static_cast<std::size_t>(i % 3)], " ", frames.xyz[(frames.n_keys - 1) * n + i], "; it must be that of the first, ", frames.xyz[i]);
+             axes[static_cast<std::size_t>(i % 3)], " ", frames.xyz[(frames.n_keys - 1) * n + i],
+             "; it must be that of the first, ", frames.xyz[i]);
   // The faces are checked once, as a surface from the first frame.
   faces_.x = frames.xyz;
   faces_.y = frames.xyz + 1;

@@ -31,9 +31,8 @@ bool lies_in_mirror(const Curve &curve, Mirror mirror) {
 // Returns whether both uses put the curve in the same place.
 bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
   if (!are_equal(a.rotation, b.rotation) || !(a.translation == b.translation)) return false;
-  return a.mirror == b.mirror ||
-         (lies_in_mirror(curve, a.mirror == Mirror::none ? b.mirror : a.mirror) &&
-          (a.mirror == Mirror::none || b.mirror == Mirror::none));
+  return a.mirror == b.mirror || (lies_in_mirror(curve, a.mirror == Mirror::none ? b.mirror : a.mirror) &&
+                                  (a.mirror == Mirror::none || b.mirror == Mirror::none));
 }
 
 }  // namespace
@@ -68,9 +67,7 @@ std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
 bool is_on_rim_side(const TriangleSet &set, std::size_t triangle, std::size_t k) {
   const std::uint8_t rim = set.rim_sides[static_cast<std::size_t>(set.patch_id[triangle])];
   if (rim == 0) return false;
-  const auto place = [&](std::size_t corner) {
-    return set.uv.data() + 2 * set.vertex_id[3 * triangle + corner % 3];
-  };
+  const auto place = [&](std::size_t corner) { return set.uv.data() + 2 * set.vertex_id[3 * triangle + corner % 3]; };
   const double *a = place(k), *b = place(k + 1);
   // Vertices on a side have its parameter exactly.
   return ((rim & rim_u0) && a[0] == 0 && b[0] == 0) || ((rim & rim_u1) && a[0] == 1 && b[0] == 1) ||

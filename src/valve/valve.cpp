@@ -116,8 +116,8 @@ PatchSet Valve::make_patches() const {
 
 PatchSet Valve::make_patches_before(const Valve &before) const {
   if (before.kind_ != kind_)
-    fail(RIIS_INVALID_PARAMETER, "valve_before is of the kind ", before.kind_->name, ", valve of the kind ", kind_->name,
-         ": they must be two states of one valve");
+    fail(RIIS_INVALID_PARAMETER, "valve_before is of the kind ", before.kind_->name, ", valve of the kind ",
+         kind_->name, ": they must be two states of one valve");
   if (kind_->check_states) kind_->check_states(state_, before.state_, "valve_before");
   try {
     return before.make_patches();

@@ -185,8 +185,7 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
 }
 
 std::string drawable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 

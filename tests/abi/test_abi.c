@@ -19,7 +19,7 @@
     assert_int_equal(sizeof(((type *)0)->field), size); \
   } while (0)
 /* Checks the type of a function, including its arguments. Callers in other languages do not see the header and rely on it. */
-#define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
+#define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments: 1, default: 0))
 
 static void test_structs(void **state) {
   (void)state;
@@ -346,7 +346,7 @@ static void test_signatures(void **state) {
   (void)state;
   SIZE(riis_status, 4);
   assert_true((riis_status)-1 < 0);
-  assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *) : 1, default : 0));
+  assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *): 1, default: 0));
   SIGNATURE(riis_status_name, const char *, (riis_status));
   SIGNATURE(riis_last_error, const char *, (void));
   SIGNATURE(riis_version, void, (int32_t *, int32_t *, int32_t *));
@@ -410,8 +410,9 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_mark_result_dense, int32_t,
             (const riis_mark_result *, int64_t, double, uint8_t *, double *, int64_t *, int32_t *));
   SIGNATURE(riis_mark_result_stats, int32_t, (const riis_mark_result *, riis_mark_stats *, int64_t));
-  SIGNATURE(riis_find_leaks, int32_t,
-            (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *, riis_leaks *, int64_t));
+  SIGNATURE(
+      riis_find_leaks, int32_t,
+      (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *, riis_leaks *, int64_t));
   SIGNATURE(riis_mark_result_leaking_edges, int32_t,
             (const riis_mark_result *, int64_t *, const int64_t **, const double **, const double **));
   SIGNATURE(riis_valve_copy, int32_t, (const riis_valve *, riis_valve **));
@@ -426,9 +427,9 @@ static void test_signatures(void **state) {
             (const riis_mark_result *, const riis_resistance *, int64_t, double *, double *));
   SIGNATURE(riis_mark_result_add_reaction, int32_t,
             (const riis_mark_result *, const riis_resistance *, int64_t, const double *, const double *, double *));
-  SIGNATURE(riis_mark_result_band_sums, int32_t,
-            (const riis_mark_result *, double, double, int64_t, const double *, const double *, riis_band_sums *,
-             int64_t));
+  SIGNATURE(
+      riis_mark_result_band_sums, int32_t,
+      (const riis_mark_result *, double, double, int64_t, const double *, const double *, riis_band_sums *, int64_t));
   SIGNATURE(riis_opening_table_init, int32_t, (riis_opening_table *, int64_t));
   SIGNATURE(riis_opening_from_table, int32_t, (const riis_opening_table *, double, double *, double *));
   SIGNATURE(riis_opening_times_init, int32_t, (riis_opening_times *, int64_t));
@@ -458,10 +459,8 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_long_edges, int32_t,
             (const riis_vtk_mesh *, const riis_surface *, double, int32_t, int64_t *, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
-  SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t,
-            (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
-  SIGNATURE(riis_vtk_mesh_set_point_array, int32_t,
-            (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
+  SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
+  SIGNATURE(riis_vtk_mesh_set_point_array, int32_t, (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
   SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
   SIGNATURE(riis_vtk_mesh_median_edge, int32_t, (const riis_vtk_mesh *, double *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));

@@ -47,7 +47,8 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "--search is 4, clusters", mesh, "--distance", "sampling", "--search", "clusters");
   RUN_REFUSED(1, "more than 16777216 samples", mesh, "--distance", "sampling", "--distance-tolerance", "1e-4");
   RUN_REFUSED(2, "--view", mesh, "--picture", "a.png", "--view", "below");
-  RUN_REFUSED(2, "--view: there are more views than pictures", mesh, "--picture", "a.png", "--view", "top", "--view", "side");
+  RUN_REFUSED(2, "--view: there are more views than pictures", mesh, "--picture", "a.png", "--view", "top", "--view",
+              "side");
   RUN_REFUSED(2, "--output", mesh, "--output", "a.vtu", "--output", "b.vtu");
   RUN_REFUSED(2, "--output", mesh, "--output");
 }

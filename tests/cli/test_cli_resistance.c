@@ -14,8 +14,8 @@ static void test_resistance(void **state) {
   (void)state;
   static double distance[n_box], resistance[n_box];
   const double R = 10, eps = 0.3, pi = acos(-1);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10",
-           "--output", scratch_path("out.vtu"));
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10", "--output",
+           scratch_path("out.vtu"));
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_distance", NULL, NULL, NULL, distance), 1);
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_resistance", NULL, NULL, NULL, resistance), 1);
   int n_resisting = 0;
@@ -31,7 +31,8 @@ static void test_resistance(void **state) {
 static void test_no_array_unless_asked(void **state) {
   (void)state;
   static double resistance[n_box];
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output", scratch_path("plain.vtu"));
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output",
+           scratch_path("plain.vtu"));
   assert_int_equal(shim_read_array(scratch_path("plain.vtu"), 'p', "riis_resistance", NULL, NULL, NULL, resistance), 0);
 }
 

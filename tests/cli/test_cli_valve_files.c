@@ -179,8 +179,7 @@ static void test_bad_files(void **state) {
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");
-  RUN_REFUSED(1, "v.json: the valve has no area", scratch_path("in.vtu"), "--valve",
-              scratch_path("v.json"));
+  RUN_REFUSED(1, "v.json: the valve has no area", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   RUN_REFUSED(1, "missing.json: cannot be read: No such file", scratch_path("in.vtu"), "--valve",
               scratch_path("missing.json"));
 }

@@ -49,8 +49,8 @@ inline void check_status(riis_status status, const std::string &text_before) {
     return;
   }
   // RIIS_UNAVAILABLE is for instructions that this processor lacks.
-  EXPECT((status >= RIIS_INVALID_ARGUMENT && status <= RIIS_OUT_OF_MEMORY) || status == RIIS_UNAVAILABLE, "status %d: %s",
-         status, text);
+  EXPECT((status >= RIIS_INVALID_ARGUMENT && status <= RIIS_OUT_OF_MEMORY) || status == RIIS_UNAVAILABLE,
+         "status %d: %s", status, text);
   EXPECT(std::strcmp(riis_status_name(status), "unknown status") != 0, "status %d", status);
   EXPECT(std::strlen(text) > 8 && std::strlen(text) < 512, "status %d has the text '%s'", status, text);
 }

@@ -105,7 +105,8 @@ void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std
 }
 
 // The fields that were asked for are those of riis_closest_point, and no others are there.
-void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields, const riis_mark_result *result) {
+void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields,
+                  const riis_mark_result *result) {
   riis_mark_fields made;
   EXPECT_OK(riis_mark_result_within_limit_fields(result, &made, sizeof made));
   const List within = within_of(result);

@@ -31,8 +31,8 @@ void add_forces(Input &in, State &state) {
   std::vector<double> coefficient(n, 1.5), momentum(3 * n, 2.5), force(3, 3.5);
   const std::vector<double> coefficient_before = coefficient, momentum_before = momentum, force_before = force;
   double *const k = mostly(in, coefficient.data()), *const ku = in.one_in(2) ? momentum.data() : nullptr;
-  riis_status status = call(
-      in, [&] { return riis_mark_result_add_resistance(result.handle, mostly(in, &resistance), n_given, k, ku); });
+  riis_status status =
+      call(in, [&] { return riis_mark_result_add_resistance(result.handle, mostly(in, &resistance), n_given, k, ku); });
   if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK)
     EXPECT(are_equal(coefficient, coefficient_before) && are_equal(momentum, momentum_before), "refused, but added");
@@ -96,8 +96,7 @@ void read_times(Input &in) {
   if (in.one_in(4)) times.open = in.number();
   double got = -7, rate = -7;
   const double at = in.number();
-  if (call(in, [&] { return riis_opening_from_times(&times, at, &got, &rate); }) == RIIS_OK)
-    expect_opening(got, rate);
+  if (call(in, [&] { return riis_opening_from_times(&times, at, &got, &rate); }) == RIIS_OK) expect_opening(got, rate);
 }
 
 void advance_switch(Input &in) {

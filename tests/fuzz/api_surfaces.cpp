@@ -164,8 +164,8 @@ void move_surface(Input &in, State &state) {
   if (!surface.is_right || !valve.is_right || !before.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {
     if (slot)
-      EXPECT(picture == picture_of(slot) && velocities == velocities_of(slot), "a refused update changed the surface: %s",
-             riis_last_error());
+      EXPECT(picture == picture_of(slot) && velocities == velocities_of(slot),
+             "a refused update changed the surface: %s", riis_last_error());
     return;
   }
   EXPECT(std::abs(seconds) >= 1e-30 && std::abs(seconds) <= 1e30, "seconds %g", seconds);

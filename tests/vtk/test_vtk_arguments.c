@@ -47,8 +47,10 @@ static void test_null(void **state) {
   riis_adjacency *adjacency = NULL;
   expect_refused(riis_vtk_mesh_adjacency(NULL, 1, &adjacency), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_adjacency(mesh, 1, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
-  expect_refused(riis_vtk_mesh_long_edges(NULL, surface, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_long_edges(mesh, NULL, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_mesh_long_edges(NULL, surface, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+                 "mesh is NULL");
+  expect_refused(riis_vtk_mesh_long_edges(mesh, NULL, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+                 "surface is NULL");
   expect_refused(riis_vtk_mesh_long_edges(mesh, surface, 0, 1, NULL, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
   expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1), RIIS_INVALID_ARGUMENT, "result is NULL");
