@@ -46,8 +46,7 @@ void Surface::measure_by(std::unique_ptr<const PatchDistance> other_distance, do
   triangle_error_ = triangle_error;
 }
 
-const Pseudonormals &Surface::pseudonormals() const {
-  if (const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire)) return *made;
+const Pseudonormals &Surface::make_pseudonormals() const {
   const std::lock_guard<std::mutex> lock(pseudonormals_mutex_);
   if (!pseudonormals_owner_) {
     pseudonormals_owner_ = std::make_unique<const Pseudonormals>(triangles_);

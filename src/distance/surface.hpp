@@ -50,7 +50,11 @@ class Surface {
   void prepare_sides() const { pseudonormals(); }
 
  private:
-  const Pseudonormals &pseudonormals() const;
+  const Pseudonormals &pseudonormals() const {
+    const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire);
+    return made ? *made : make_pseudonormals();
+  }
+  const Pseudonormals &make_pseudonormals() const;
 
   TriangleSet triangles_;
   TriangleScene scene_;

@@ -130,7 +130,7 @@ Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &baryce
   return {Feature::face, 0};
 }
 
-Vec3 Pseudonormals::at(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+Vec3 Pseudonormals::at_border(std::size_t triangle, const std::array<double, 3> &barycentric) const {
   const auto [feature, corner] = place_of(barycentric);
   if (feature == Feature::face) return face_[triangle];
   const std::size_t slot = 3 * triangle + corner;
@@ -139,7 +139,7 @@ Vec3 Pseudonormals::at(std::size_t triangle, const std::array<double, 3> &baryce
   return length(normal) > 1e-9 ? normal : face_[triangle];
 }
 
-bool Pseudonormals::is_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+bool Pseudonormals::is_border_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const {
   const auto [feature, corner] = place_of(barycentric);
   const std::size_t slot = 3 * triangle + corner;
   return feature == Feature::vertex ? corner_is_rim_[position_[slot]] != 0

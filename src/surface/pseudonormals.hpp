@@ -24,13 +24,25 @@ class Pseudonormals {
   Vec3 of_face(std::size_t triangle) const { return face_[triangle]; }
 
   // Returns the normal, of any length, of the face, edge or vertex that the barycentric weights lie on.
-  Vec3 at(std::size_t triangle, const std::array<double, 3> &barycentric) const;
+  Vec3 at(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+    return is_inside(barycentric) ? face_[triangle] : at_border(triangle, barycentric);
+  }
 
   // Returns whether the edge or vertex that the barycentric weights lie on is of the rim. The rim of a valve consists of the
   // sides of patches that nothing shares (surface/rims.hpp), that of triangles from arrays of the edges of one triangle.
-  bool is_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const;
+  bool is_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+    return !is_inside(barycentric) && is_border_on_rim(triangle, barycentric);
+  }
 
  private:
+  // Most closest points are inside, so that this is decided where it is called.
+  static bool is_inside(const std::array<double, 3> &barycentric) {
+    return barycentric[0] != 0 && barycentric[1] != 0 && barycentric[2] != 0;
+  }
+  // The same for points that may be on an edge or a vertex.
+  Vec3 at_border(std::size_t triangle, const std::array<double, 3> &barycentric) const;
+  bool is_border_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const;
+
   // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
   enum class Feature { face, edge, vertex };
   struct Place {
