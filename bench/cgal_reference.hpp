@@ -2,6 +2,7 @@
 // A competitor of the library's marking, if CGAL was found: its tree of boxes round triangles (AABB_tree).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "references.hpp"

@@ -2,6 +2,7 @@
 // A solver's time step: the valve moves, its surface is made again, nodes are marked, and their list is read.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "handles.hpp"

@@ -3,6 +3,7 @@
 // the caller does not know takes its default on the way in and is not written on the way out.
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 

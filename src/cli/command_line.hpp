@@ -4,6 +4,7 @@
 
 #include <riis/riis_vtk.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 // surface passes over the other blocks as a whole.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "geometry/bounds.hpp"

@@ -2,6 +2,8 @@
 // Marking from request to result: runs the search, then makes the lists.
 #pragma once
 
+#include <cstdint>
+
 #include "marking/mark_result.hpp"
 #include "marking/search.hpp"
 

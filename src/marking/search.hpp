@@ -3,6 +3,8 @@
 // In: surface, mesh, limit. Out: the nodes within the limit, with distance and triangle, in any order.
 #pragma once
 
+#include <cstdint>
+
 #include "distance/surface.hpp"
 #include "marking/found_nodes.hpp"
 #include "marking/mesh.hpp"

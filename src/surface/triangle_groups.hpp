@@ -3,6 +3,7 @@
 // In: a triangle set. Out: groups in the surface's frame, their bounds, and all corners as they are.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "geometry/bounds.hpp"

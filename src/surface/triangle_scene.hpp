@@ -7,6 +7,7 @@
 // decided in double.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "base/array_view.hpp"
