@@ -3,7 +3,8 @@
 
 Every block of ```sh is run in the scratch folder, in order, and must succeed. A block of ```text that follows holds the
 commands' output. check compares it; write puts the new output into the tutorial. Seconds and numbers of threads are not
-compared. With another gmsh than the tutorial's, no numbers are compared.
+compared. Another gmsh than the tutorial's makes other meshes: then only the first two words of each line are compared, without
+their numbers, because even "1 edge crosses" may be "3 edges cross".
 """
 import os
 import pathlib
@@ -21,8 +22,8 @@ def comparable(text, same_gmsh):
     for line in text.splitlines():
         line = re.sub(r"\d+ threads?", "# threads", line)
         if line.startswith("seconds") or not same_gmsh:
-            line = re.sub(NUMBER, "#", line)
-        lines.append(line.rstrip())
+            line = re.sub("-?" + NUMBER, "#", line)
+        lines.append(line.rstrip() if same_gmsh else " ".join(line.split()[:2]))
     return lines
 
 
