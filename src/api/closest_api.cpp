@@ -110,7 +110,7 @@ class WantedPoints {
       if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
       return;
     }
-    if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are given, both");
+    if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are both given");
     if (options.n_point_ids < 0 || options.n_point_ids > points.n)
       riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
                  "; it must be from 0 to n_points, ", points.n);

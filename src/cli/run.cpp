@@ -189,7 +189,9 @@ void warn_of_incomplete_marks() {
 // The program replaces no array of the user's by chance.
 void check_new_arrays(const Options &options, const riis_vtk_mesh *mesh) {
   if (options.output.empty() || options.replace) return;
-  for (const char *what : {"_marked", "_distance", "_leaflet", options.resistance ? "_resistance" : "_marked"}) {
+  std::vector<const char *> arrays = {"_marked", "_distance", "_leaflet"};
+  if (options.resistance) arrays.push_back("_resistance");
+  for (const char *what : arrays) {
     int32_t has = 0;
     check(riis_vtk_mesh_has_point_array(mesh, (options.prefix + what).c_str(), &has));
     if (!has) continue;

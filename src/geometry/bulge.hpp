@@ -18,6 +18,9 @@ namespace riis {
 // Returns O from W and T; 0 if O has no direction.
 Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 
+// Returns O of a side that is an arc, from its control points: both patches at the side get the same bits.
+inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.control[0] + arc.control[2]); }
+
 class Bulge {
  public:
   // Keeps copies of both curves. The edge may be a point.

@@ -17,18 +17,18 @@ namespace {
 constexpr std::int32_t all_fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE |
                                     RIIS_FIELD_RIM | RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH;
 
-// Calls visit(array, numbers per node) for the array of every field in `fields`.
-template <class Fields, class Visit>
-void for_each_array(std::int32_t fields, Fields &made, const Visit &visit) {
+// Calls visit(pointer to the member of NodeFields, numbers per node) for every field in `fields`.
+template <class Visit>
+void for_each_array(std::int32_t fields, const Visit &visit) {
   const auto has = [&](std::int32_t field) { return (fields & field) != 0; };
-  if (has(RIIS_FIELD_POINT)) visit(made.point, std::size_t{3});
-  if (has(RIIS_FIELD_NORMAL)) visit(made.normal, std::size_t{3});
-  if (has(RIIS_FIELD_BARYCENTRIC)) visit(made.barycentric, std::size_t{3});
-  if (has(RIIS_FIELD_VELOCITY)) visit(made.velocity, std::size_t{3});
-  if (has(RIIS_FIELD_UV)) visit(made.uv, std::size_t{2});
-  if (has(RIIS_FIELD_SIDE)) visit(made.side, std::size_t{1});
-  if (has(RIIS_FIELD_RIM)) visit(made.rim, std::size_t{1});
-  if (has(RIIS_FIELD_PATCH)) visit(made.patch_id, std::size_t{1});
+  if (has(RIIS_FIELD_POINT)) visit(&NodeFields::point, std::size_t{3});
+  if (has(RIIS_FIELD_NORMAL)) visit(&NodeFields::normal, std::size_t{3});
+  if (has(RIIS_FIELD_BARYCENTRIC)) visit(&NodeFields::barycentric, std::size_t{3});
+  if (has(RIIS_FIELD_VELOCITY)) visit(&NodeFields::velocity, std::size_t{3});
+  if (has(RIIS_FIELD_UV)) visit(&NodeFields::uv, std::size_t{2});
+  if (has(RIIS_FIELD_SIDE)) visit(&NodeFields::side, std::size_t{1});
+  if (has(RIIS_FIELD_RIM)) visit(&NodeFields::rim, std::size_t{1});
+  if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::size_t{1});
 }
 
 void put(std::vector<double> &to, std::size_t i, Vec3 value) {
@@ -154,16 +154,17 @@ void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::
 }  // namespace
 
 void NodeFields::reserve(std::int32_t fields, std::size_t n) {
-  for_each_array(fields, *this, [&](auto &array, std::size_t per_node) {
+  for_each_array(fields, [&](auto member, std::size_t per_node) {
+    auto &array = this->*member;
     // Reserves half as much again: a moving valve would otherwise need more memory at every new largest number of nodes.
     if (per_node * n > array.capacity()) array.reserve(per_node * (n + n / 2));
   });
 }
 
 void NodeFields::resize(std::int32_t fields, std::size_t n) {
-  for_each_array(all_fields & ~fields, *this, [](auto &array, std::size_t) { array.clear(); });
+  for_each_array(all_fields & ~fields, [&](auto member, std::size_t) { (this->*member).clear(); });
   // Old entries need not be cleared, because every entry is written.
-  for_each_array(fields, *this, [&](auto &array, std::size_t per_node) { array.resize(per_node * n); });
+  for_each_array(fields, [&](auto member, std::size_t per_node) { (this->*member).resize(per_node * n); });
 }
 
 void check_fields(const Surface &surface, std::int32_t fields) {
@@ -217,17 +218,10 @@ void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &f
   std::size_t from = 0;
   for (std::size_t to = 0; to < some.size(); ++to, ++from) {
     while (all.node_id[from] != some.node_id[to]) ++from;
-    const auto copy = [&](const auto &source, auto &target, std::size_t per_node) {
-      if (!source.empty()) std::copy_n(source.data() + per_node * from, per_node, target.data() + per_node * to);
-    };
-    copy(fields_of_all.point, made.point, 3);
-    copy(fields_of_all.normal, made.normal, 3);
-    copy(fields_of_all.barycentric, made.barycentric, 3);
-    copy(fields_of_all.velocity, made.velocity, 3);
-    copy(fields_of_all.uv, made.uv, 2);
-    copy(fields_of_all.side, made.side, 1);
-    copy(fields_of_all.rim, made.rim, 1);
-    copy(fields_of_all.patch_id, made.patch_id, 1);
+    for_each_array(fields, [&](auto member, std::size_t per_node) {
+      const auto *source = (fields_of_all.*member).data() + per_node * from;
+      std::copy_n(source, per_node, (made.*member).data() + per_node * to);
+    });
   }
 }
 

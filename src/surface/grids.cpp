@@ -131,11 +131,7 @@ class GridMaker {
     const auto curve = [&](const Side &side) {
       return side.reversed ? set_.curves[side.curve].reversed() : set_.curves[side.curve];
     };
-    // The control points give the offset that makes the side an arc, so both patches at it get the same bits.
-    const auto offset = [&](const Side &side) {
-      const auto &control = set_.curves[side.curve].pieces().front().control;
-      return control[1] - 0.5 * (control[0] + control[2]);
-    };
+    const auto offset = [&](const Side &side) { return arc_offset(set_.curves[side.curve].pieces().front()); };
     const Vec3 at_u0 = offset(patch.u0), at_u1 = offset(patch.u1);
     // More lines than this make too many triangles.
     const double n_rows = std::max(1.0, rows_for(std::max(length(at_u0), length(at_u1))));

@@ -18,8 +18,7 @@ constexpr std::array<const char *, 3> axes{"x", "y", "z"};
 }  // namespace
 
 Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_arrays &frames)
-    : period_(frames.period), interpolation_(frames.interpolation), faces_(faces) {
-  const KeyTimes checked("frames", frames.n_keys, frames.time, frames.period, frames.interpolation);
+    : keys_("frames", frames.n_keys, frames.time, frames.period, frames.interpolation), faces_(faces) {
   check_reserved("frames.reserved", frames.reserved);
   require(frames.xyz, "frames.xyz");
   if (frames.n_vertices != faces.n_vertices)
@@ -36,7 +35,7 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
       if (!is_usable(frames.xyz[key * n + i]))
         fail(RIIS_INVALID_SURFACE, axes[static_cast<std::size_t>(i % 3)], " of vertex ", i / 3, " in frame ", key,
              " is ", frames.xyz[key * n + i], "; it must be finite and at most ", max_coordinate, " in magnitude");
-  if (checked.is_closed())
+  if (keys_.is_closed())
     for (std::int64_t i = 0; i < n; ++i)
       if (frames.xyz[i] != frames.xyz[(frames.n_keys - 1) * n + i])
         fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
@@ -51,6 +50,7 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
   triangles_from_arrays(faces_, {1, no_rotation, {0, 0, 0}}, true, false);
 
   time_.assign(frames.time, frames.time + frames.n_keys);
+  keys_ = {"frames", frames.n_keys, time_.data(), frames.period, frames.interpolation};
   xyz_.assign(frames.xyz, frames.xyz + frames.n_keys * n);
   const std::int64_t n_ids = faces.n_faces * faces.corners_per_face;
   const IntegerArray ids{faces.vertex_ids, faces.vertex_id_bits == 64};
@@ -66,13 +66,12 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
 }
 
 void Keyframes::at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const {
-  const KeyTimes times = keys();
-  const KeyTimes::Place now = times.place(time), before = times.place(since);
+  const KeyTimes::Place now = keys_.place(time), before = keys_.place(since);
   const auto n = static_cast<std::size_t>(3 * faces_.n_vertices);
   const auto value = [&](const KeyTimes::Place &place, std::size_t i) {
     std::array<double, 4> values;
     for (std::size_t k = 0; k < 4; ++k) values[k] = xyz_[static_cast<std::size_t>(place.key[k]) * n + i];
-    return times.between(place, values);
+    return keys_.between(place, values);
   };
   xyz.resize(n);
   velocity.resize(n);

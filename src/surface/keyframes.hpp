@@ -14,7 +14,8 @@ namespace riis {
 
 class Keyframes {
  public:
-  // Copies all arrays. Fails as triangles_from_arrays does for faces without area in a frame's place, and names the frame.
+  // Copies all arrays. Fails as triangles_from_arrays does for the faces in the first frame, except that faces without area are
+  // left to the surfaces. A bad coordinate is named with its frame.
   Keyframes(const riis_surface_arrays &faces, const riis_keyframe_arrays &frames);
   // The arrays that the faces point to move along; a copy would point to those of the original.
   Keyframes(Keyframes &&) = default;
@@ -27,15 +28,10 @@ class Keyframes {
   const riis_surface_arrays &faces() const { return faces_; }
 
  private:
-  KeyTimes keys() const {
-    return {"frames", static_cast<std::int64_t>(time_.size()), time_.data(), period_, interpolation_};
-  }
-
   std::vector<double> time_, xyz_;
+  KeyTimes keys_;  // checked once; it borrows the times, which stay in place when the vector moves
   std::vector<std::int64_t> vertex_ids_;
   std::vector<std::int32_t> leaflet_id_;
-  double period_;
-  std::int32_t interpolation_;
   riis_surface_arrays faces_;
 };
 

@@ -38,10 +38,11 @@ void make_points_double(vtkUnstructuredGrid *grid) {
 }
 
 template <class Array>
-vtkSmartPointer<Array> point_array(const std::string &name, vtkIdType n_points) {
+vtkSmartPointer<Array> point_array(const std::string &name, vtkIdType n_points, int n_components = 1) {
   const auto array = vtkSmartPointer<Array>::New();
   array->SetName(name.c_str());
-  array->SetNumberOfValues(n_points);
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(n_points);
   return array;
 }
 
@@ -92,10 +93,7 @@ void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::in
          "n_nodes is " + std::to_string(n_nodes) + "; the mesh has " + std::to_string(n) + " nodes");
   if (n_components < 1 || n_components > 9)
     fail(RIIS_INVALID_ARGUMENT, "n_components is " + std::to_string(n_components) + "; it must be from 1 to 9");
-  const auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(static_cast<int>(n_components));
-  array->SetNumberOfTuples(n);
+  const auto array = point_array<vtkDoubleArray>(name, n, static_cast<int>(n_components));
   std::copy_n(values, n * n_components, array->GetPointer(0));
   grid->GetPointData()->AddArray(array);
 }
