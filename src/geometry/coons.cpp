@@ -22,13 +22,6 @@ double smallest_step(const std::vector<double> &t) {
   return smallest;
 }
 
-std::vector<double> middles(const std::vector<GridLine> &lines) {
-  std::vector<double> values;
-  values.reserve(lines.size());
-  for (const GridLine &line : lines) values.push_back(line.middle);
-  return values;
-}
-
 // Bounds how far a side is from its curve between each two grid lines. The bound is the error of the segment there plus
 // the shift of shared lines along the side.
 std::vector<double> errors_between(const std::vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
@@ -103,6 +96,13 @@ class ArcRefinement {
 
 }  // namespace
 
+std::vector<double> middles(const std::vector<GridLine> &lines) {
+  std::vector<double> values;
+  values.reserve(lines.size());
+  for (const GridLine &line : lines) values.push_back(line.middle);
+  return values;
+}
+
 std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
   const std::vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
   // The tolerance is never so wide that two vertices of one side compete for a partner.
@@ -127,33 +127,45 @@ std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &si
   return lines;
 }
 
+std::vector<Vec3> coons_combination(const std::vector<double> &u, const std::vector<double> &v,
+                                    const SideVectors &sides) {
+  const std::size_t n_u = u.size(), n_v = v.size();
+  const Vec3 p00 = sides.v0.front(), p10 = sides.v0.back(), p01 = sides.v1.front(), p11 = sides.v1.back();
+  std::vector<Vec3> made;
+  made.reserve(n_u * n_v);
+  for (std::size_t j = 0; j < n_v; ++j)
+    for (std::size_t i = 0; i < n_u; ++i) {
+      // The boundary consists of the sides' own vectors, to the last bit, because neighbouring patches share it.
+      if (j == 0)
+        made.push_back(sides.v0[i]);
+      else if (j + 1 == n_v)
+        made.push_back(sides.v1[i]);
+      else if (i == 0)
+        made.push_back(sides.u0[j]);
+      else if (i + 1 == n_u)
+        made.push_back(sides.u1[j]);
+      else
+        made.push_back(mix(sides.v0[i], sides.v1[i], v[j]) + mix(sides.u0[j], sides.u1[j], u[i]) -
+                       mix(mix(p00, p10, u[i]), mix(p01, p11, u[i]), v[j]));
+    }
+  return made;
+}
+
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines) {
   const std::vector<GridLine> u_lines = lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift);
   const std::vector<GridLine> v_lines = lines_between(*sides.side_u0, *sides.side_u1, max_merge_shift);
 
   QuadGrid grid{middles(u_lines), middles(v_lines), {}, {}};
-  grid.points.reserve(u_lines.size() * v_lines.size());
-  const Vec3 p00 = sides.side_v0->points.front(), p10 = sides.side_v0->points.back();
-  const Vec3 p01 = sides.side_v1->points.front(), p11 = sides.side_v1->points.back();
-  for (std::size_t j = 0; j < v_lines.size(); ++j) {
-    const double v = v_lines[j].middle;
-    const Vec3 left = evaluate(*sides.side_u0, v_lines[j].t0), right = evaluate(*sides.side_u1, v_lines[j].t1);
-    for (std::size_t i = 0; i < u_lines.size(); ++i) {
-      const double u = u_lines[i].middle;
-      const Vec3 bottom = evaluate(*sides.side_v0, u_lines[i].t0), top = evaluate(*sides.side_v1, u_lines[i].t1);
-      // The boundary consists of the polylines' own points, to the last bit, because neighbouring patches share it.
-      if (j == 0)
-        grid.points.push_back(bottom);
-      else if (j + 1 == v_lines.size())
-        grid.points.push_back(top);
-      else if (i == 0)
-        grid.points.push_back(left);
-      else if (i + 1 == u_lines.size())
-        grid.points.push_back(right);
-      else
-        grid.points.push_back(mix(bottom, top, v) + mix(left, right, u) - mix(mix(p00, p10, u), mix(p01, p11, u), v));
-    }
+  SideVectors sides_on_lines;
+  for (const GridLine &line : u_lines) {
+    sides_on_lines.v0.push_back(evaluate(*sides.side_v0, line.t0));
+    sides_on_lines.v1.push_back(evaluate(*sides.side_v1, line.t1));
   }
+  for (const GridLine &line : v_lines) {
+    sides_on_lines.u0.push_back(evaluate(*sides.side_u0, line.t0));
+    sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
+  }
+  grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
   // A point of the patch inherits the errors of its four side points, with their weights.
   const std::vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const std::vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);

@@ -48,6 +48,15 @@ struct QuadGrid {
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }
 };
 
+// Vectors on the four sides of a patch, one for each line of its grid that ends there.
+struct SideVectors {
+  std::vector<Vec3> v0, v1;  // on the lines u
+  std::vector<Vec3> u0, u1;  // on the lines v; the first and the last are not read, because they are corners
+};
+
+// Returns the Coons combination of the sides' vectors, points or displacements, in the order of QuadGrid::points.
+std::vector<Vec3> coons_combination(const std::vector<double> &u, const std::vector<double> &v, const SideVectors &sides);
+
 // Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if
 // that moves a point by at most max_merge_shift along a side. Writes the lines where they are wanted.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
@@ -74,6 +83,9 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 
 // Makes rows of equal height h. An arc is at most |O| / 2 times h squared from its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
+
+// Returns the parameters of lines.
+std::vector<double> middles(const std::vector<GridLine> &lines);
 
 // Returns the lines of that grid.
 GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);

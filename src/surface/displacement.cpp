@@ -99,9 +99,7 @@ class ArcMotion {
     return arc_offset(edge_.before(u) - frame.point, frame.tangent, bulge_before_);
   }
 
-  Vec3 offset_before(const Side &side) const {
-    return arc_offset(moved_.before.curves[side.curve].pieces().front());
-  }
+  Vec3 offset_before(const Side &side) const { return arc_offset(moved_.before.curves[side.curve].pieces().front()); }
 
   const MovedPatch &moved_;
   double bulge_before_;
@@ -112,34 +110,17 @@ class ArcMotion {
 std::vector<Vec3> coons_displacements(const MovedPatch &moved, const GridLines &lines) {
   const MovedSide v0(moved, &Patch::v0, moved.sides.side_v0), v1(moved, &Patch::v1, moved.sides.side_v1),
       u0(moved, &Patch::u0, moved.sides.side_u0), u1(moved, &Patch::u1, moved.sides.side_u1);
-  std::vector<Vec3> bottom, top, made;
+  SideVectors sides;
   for (const GridLine &line : lines.u) {
-    bottom.push_back(v0.displacement(line.t0));
-    top.push_back(v1.displacement(line.t1));
+    sides.v0.push_back(v0.displacement(line.t0));
+    sides.v1.push_back(v1.displacement(line.t1));
   }
-  const Vec3 d00 = bottom.front(), d10 = bottom.back(), d01 = top.front(), d11 = top.back();
-  const std::size_t n_u = lines.u.size(), n_v = lines.v.size();
-  made.reserve(n_u * n_v);
-  for (std::size_t j = 0; j < n_v; ++j) {
-    const double v = lines.v[j].middle;
-    const bool is_inside = j > 0 && j + 1 < n_v;
-    const Vec3 left = is_inside ? u0.displacement(lines.v[j].t0) : Vec3{0, 0, 0};
-    const Vec3 right = is_inside ? u1.displacement(lines.v[j].t1) : Vec3{0, 0, 0};
-    for (std::size_t i = 0; i < n_u; ++i) {
-      const double u = lines.u[i].middle;
-      if (j == 0)
-        made.push_back(bottom[i]);
-      else if (j + 1 == n_v)
-        made.push_back(top[i]);
-      else if (i == 0)
-        made.push_back(left);
-      else if (i + 1 == n_u)
-        made.push_back(right);
-      else
-        made.push_back(mix(bottom[i], top[i], v) + mix(left, right, u) - mix(mix(d00, d10, u), mix(d01, d11, u), v));
-    }
+  for (const GridLine &line : lines.v) {
+    const bool is_inside = line.middle > 0 && line.middle < 1;
+    sides.u0.push_back(is_inside ? u0.displacement(line.t0) : Vec3{0, 0, 0});
+    sides.u1.push_back(is_inside ? u1.displacement(line.t1) : Vec3{0, 0, 0});
   }
-  return made;
+  return coons_combination(middles(lines.u), middles(lines.v), sides);
 }
 
 }  // namespace
