@@ -71,6 +71,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_DISTANCE_SAMPLING = 1
   integer(c_int32_t), parameter :: RIIS_DISTANCE_MINIMIZATION = 2
 
+  integer(c_int32_t), parameter :: RIIS_TRIANGULATION_ADAPTED = 0
+  integer(c_int32_t), parameter :: RIIS_TRIANGULATION_FIXED = 1
+
   integer(c_int32_t), parameter :: RIIS_INTERPOLATION_LINEAR = 0
   integer(c_int32_t), parameter :: RIIS_INTERPOLATION_CUBIC = 1
 
@@ -143,6 +146,8 @@ module riis_c
     integer(c_int32_t) :: distance
     integer(c_int32_t) :: n_threads
     real(c_double) :: distance_tolerance
+    integer(c_int32_t) :: triangulation
+    integer(c_int32_t) :: reserved
   end type riis_surface_options
 
   type, bind(c) :: riis_surface_arrays
@@ -183,6 +188,8 @@ module riis_c
     real(c_double) :: lower(3), upper(3) !< bounds of the triangles, placed units
     real(c_double) :: seconds_triangles  !< wall time of the last create or update: checks and triangles
     real(c_double) :: seconds_scene      !< Embree scene, and the samples or patches of another distance
+    real(c_double) :: error_bound        !< at most tolerance * half_thickness: no point's distances to the triangles
+                                         !! and to the smooth valve differ by more. 0 for a surface from arrays
   end type riis_surface_info
 
   !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.

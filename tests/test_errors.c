@@ -378,8 +378,8 @@ static void struct_sizes_are_checked(void **state) {
   memset(&options, 0x5a, sizeof options);
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 95|96", riis_surface_options_init(&options, 95));
   char parts[40];
-  snprintf(parts, sizeof parts, "options is 120|riis %s ", riis_version_string());
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 120));
+  snprintf(parts, sizeof parts, "options is 128|riis %s ", riis_version_string());
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 128));
   assert_int_equal(options.zero_area, 0x5a5a5a5a); /* untouched */
   riis_surface *surface = NULL;
   riis_valve *valve = new_valve("aortic");

@@ -129,12 +129,9 @@ typedef struct {
   int64_t n_triangles;
 } deviation;
 
-static deviation measure(const smooth_valve *smooth, const riis_valve *valve, double tolerance, random_source *rng) {
-  riis_surface_options options = surface_options();
-  options.tolerance = tolerance;
-  riis_surface *surface = new_surface(valve, &options);
+static deviation measure_surface(const smooth_valve *smooth, const riis_surface *surface, double bound,
+                                 random_source *rng) {
   deviation d = {0, 0, info_of(surface).n_triangles};
-  const double bound = tolerance * 0.1;
   /* Every smooth point is near a triangle ... */
   for (int32_t patch = 0; patch < smooth->n_patches; ++patch)
     for (int k = 0; k < 400; ++k) {
@@ -163,6 +160,15 @@ static deviation measure(const smooth_valve *smooth, const riis_valve *valve, do
         d.to_smooth = fmax(d.to_smooth, distance_to_smooth(smooth, patch_id[t], at, p, bound) / bound);
     }
   }
+  CHECK_AT_MOST(info_of(surface).error_bound, bound);
+  return d;
+}
+
+static deviation measure(const smooth_valve *smooth, const riis_valve *valve, double tolerance, random_source *rng) {
+  riis_surface_options options = surface_options();
+  options.tolerance = tolerance;
+  riis_surface *surface = new_surface(valve, &options);
+  const deviation d = measure_surface(smooth, surface, tolerance * 0.1, rng);
   free_one_owned(surface);
   return d;
 }
@@ -303,7 +309,25 @@ static void so_it_does_for_other_aortic_valves(void **state) {
   assert_true(n_tried > 20);
 }
 
-/* All parameters change at once by up to a quarter, at any opening, between two such states. */
+/* A valve between two states. All parameters of each change at once by up to a quarter. */
+static riis_valve *random_mitral(mitral_parameters *parameters, random_source *rng) {
+  riis_valve *valves[2];
+  for (int k = 0; k < 2; ++k) {
+    parameters[k] = mitral_defaults();
+    valves[k] = new_valve("mitral");
+    double *values = &parameters[k].anterior_ratio; /* doubles all, in the table's order */
+    for (int i = 0; i < 16; ++i) {
+      riis_parameter parameter;
+      CHECK_OK(riis_valve_parameter(valves[k], i, &parameter, sizeof parameter));
+      CHECK_SAME(parameter.default_values[0], values[i]);
+      values[i] *= random_between(rng, 0.75, 1.25);
+      CHECK_OK(riis_valve_set_scalar(valves[k], parameter.name, values[i]));
+    }
+  }
+  CHECK_OK(riis_valve_set_open_state(valves[0], valves[1]));
+  return valves[0];
+}
+
 static void so_it_does_for_other_mitral_valves(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
@@ -312,29 +336,16 @@ static void so_it_does_for_other_mitral_valves(void **state) {
   for (int trial = 0; trial < 60; ++trial) {
     const int owned_before = n_owned();
     mitral_parameters parameters[2];
-    riis_valve *valves[2];
-    for (int k = 0; k < 2; ++k) {
-      parameters[k] = mitral_defaults();
-      valves[k] = new_valve("mitral");
-      double *values = &parameters[k].anterior_ratio; /* doubles all, in the table's order */
-      for (int i = 0; i < 16; ++i) {
-        riis_parameter parameter;
-        CHECK_OK(riis_valve_parameter(valves[k], i, &parameter, sizeof parameter));
-        CHECK_SAME(parameter.default_values[0], values[i]);
-        values[i] *= random_between(&rng, 0.75, 1.25);
-        CHECK_OK(riis_valve_set_scalar(valves[k], parameter.name, values[i]));
-      }
-    }
+    riis_valve *valve = random_mitral(parameters, &rng);
     parameters[0].opening = random_between(&rng, 0, 1);
-    CHECK_OK(riis_valve_set_scalar(valves[0], "opening", parameters[0].opening));
-    CHECK_OK(riis_valve_set_open_state(valves[0], valves[1]));
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", parameters[0].opening));
     const double tolerance = pow(10, random_between(&rng, -2, 0));
     riis_surface *surface = NULL;
-    const riis_status status = riis_surface_create(valves[0], NULL, &surface);
+    const riis_status status = riis_surface_create(valve, NULL, &surface);
     riis_surface_destroy(&surface);
     if (status == RIIS_OK) {
       mitral = mitral_oracle_create(&parameters[0], &parameters[1]);
-      const deviation d = measure(&smooth_mitral, valves[0], tolerance, &rng);
+      const deviation d = measure(&smooth_mitral, valve, tolerance, &rng);
       mitral_oracle_destroy(mitral);
       if (d.to_triangles > 1 || d.to_smooth > 1)
         fail_msg("trial %d, opening %.17g, tolerance %.17g: %.3f and %.3f of the bound", trial, parameters[0].opening,
@@ -350,6 +361,50 @@ static void so_it_does_for_other_mitral_valves(void **state) {
   assert_true(n_tried > 40);
 }
 
+/* One triangulation for all openings, at openings that it was not chosen at. */
+static void so_does_a_fixed_triangulation(void **state) {
+  (void)state;
+  random_source rng = random_start("test_tolerance");
+  riis_surface_options options = surface_options();
+  double worst = 0;
+  int n_tried = 0, n_refused = 0;
+  options.triangulation = RIIS_TRIANGULATION_FIXED;
+  for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
+    mitral_parameters parameters[2];
+    riis_valve *valve = random_mitral(parameters, &rng);
+    options.tolerance = pow(10, random_between(&rng, -2, 0));
+    riis_surface *surface = NULL;
+    const riis_status status = riis_surface_create(valve, &options, &surface);
+    if (status != RIIS_OK) {
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not go together at some opening */
+      free_owned_after(owned_before);
+      continue;
+    }
+    own(surface);
+    for (int i = 0; i < 4; ++i) {
+      parameters[0].opening = i == 0 ? 0 : random_between(&rng, 0, 1);
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", parameters[0].opening));
+      if (riis_surface_update(surface, valve, NULL) != RIIS_OK) {
+        CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "fixed triangulation", riis_surface_update(surface, valve, NULL));
+        ++n_refused;
+        continue;
+      }
+      mitral = mitral_oracle_create(&parameters[0], &parameters[1]);
+      const deviation d = measure_surface(&smooth_mitral, surface, options.tolerance * 0.1, &rng);
+      mitral_oracle_destroy(mitral);
+      if (d.to_triangles > 1 || d.to_smooth > 1)
+        fail_msg("trial %d, opening %.17g, tolerance %.17g: %.3f and %.3f of the bound", trial, parameters[0].opening,
+                 options.tolerance, d.to_triangles, d.to_smooth);
+      worst = fmax(worst, fmax(d.to_triangles, d.to_smooth));
+      ++n_tried;
+    }
+    free_owned_after(owned_before);
+  }
+  printf("%d states of fixed triangulations: at most %.2f of the bound; %d refused\n", n_tried, worst, n_refused);
+  assert_true(n_tried > 20 && n_refused <= 4);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(aortic_deviation_stays_within_the_bound),
@@ -357,6 +412,7 @@ int main(void) {
       cmocka_unit_test(every_quad_stays_within_its_own_bound),
       cmocka_unit_test(so_it_does_for_other_aortic_valves),
       cmocka_unit_test(so_it_does_for_other_mitral_valves),
+      cmocka_unit_test(so_does_a_fixed_triangulation),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -235,6 +235,17 @@ enum {
                                     error, but above by any amount, unnoticed, in a local minimum */
 };
 
+/* How the smooth valve is cut into triangles. */
+enum {
+  RIIS_TRIANGULATION_ADAPTED = 0, /* as few as each state of the valve needs; they change as the valve opens */
+  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen when the
+                                     surface first has this option. Then only opening and placement may move:
+                                     RIIS_INVALID_PARAMETER names another parameter that did, and
+                                     RIIS_LIMIT_EXCEEDED refuses an opening where the tolerance does not hold.
+                                     A triangle without area is left out and keeps its id. A surface with the
+                                     other option forgets the choice */
+};
+
 /* How a surface is made and, last, placed: x -> scale * rotation * x + translation, for valves and arrays. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
@@ -252,6 +263,8 @@ typedef struct riis_surface_options {
                               RIIS_DISTANCE_TRIANGLES, the only one for arrays */
   int32_t n_threads;       /* default 0: 1 per 4096 triangles of the last content, at most 1 a processor */
   double distance_tolerance; /* for the other two distances: 1e-6 to 1, default RIIS_AUTO: tolerance */
+  int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
+  int32_t reserved;        /* 0 */
 } riis_surface_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
@@ -372,6 +385,8 @@ typedef struct riis_surface_info {
   double lower[3], upper[3]; /* bounds of the triangles, placed units */
   double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
   double seconds_scene;      /* Embree scene, and the samples or patches of another distance */
+  double error_bound;        /* at most tolerance * half_thickness: no point's distances to the triangles and to
+                                the smooth valve differ by more. 0 for a surface from arrays */
 } riis_surface_info;
 /* Tells the size of the surface. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,

@@ -15,6 +15,7 @@
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
 #include "parallel/keeps_arenas.hpp"
+#include "pipeline/fixed_triangulation.hpp"
 #include "surface/keyframes.hpp"
 #include "valve/valve.hpp"
 
@@ -65,6 +66,7 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   std::unique_ptr<riis::Surface> surface;
   std::unique_ptr<riis::Surface> before;  // the last content, kept to reuse its memory
   riis_surface_options options;           // completed by defaults
+  std::unique_ptr<const riis::FixedTriangulation> fixed;  // null without RIIS_TRIANGULATION_FIXED
   double seconds_triangles, seconds_scene;
   std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
   // No earlier surface had this number. An address may be used again, so it does not identify a surface.

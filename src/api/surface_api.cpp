@@ -24,7 +24,7 @@ constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 
 const riis_surface_options default_options{
     sizeof(riis_surface_options), RIIS_AUTO, 0.05,     1.0, {0, 0, 1}, 0, {0, 0, 0}, RIIS_ZERO_AREA_REFUSE, 0,
-    RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO};
+    RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO, RIIS_TRIANGULATION_ADAPTED, 0};
 const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          0,
                                          nullptr,
@@ -75,6 +75,9 @@ void check_options(const riis_surface_options &options) {
   check_flag("flip_normals", options.flip_normals);
   if (options.distance < RIIS_DISTANCE_TRIANGLES || options.distance > RIIS_DISTANCE_MINIMIZATION)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance, "; it must be one of RIIS_DISTANCE_*");
+  if (options.triangulation < RIIS_TRIANGULATION_ADAPTED || options.triangulation > RIIS_TRIANGULATION_FIXED)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
+               "; it must be one of RIIS_TRIANGULATION_*");
   riis::threads_asked_for(options.n_threads, "options.n_threads");
   if (options.distance_tolerance != RIIS_AUTO)
     check_range("options", "distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
@@ -165,14 +168,23 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   check_options(options);
   std::optional<riis::ValveMotion> valve_motion;
   if (motion) valve_motion.emplace(motion_of(*motion, options));
-  const riis::ValveAccuracy accuracy{options.tolerance * half_thickness_of(options), options.distance,
-                                     distance_error_of(options)};
-  check_precision(options, "tolerance", accuracy.triangle_error);
+  const double triangle_error = options.tolerance * half_thickness_of(options);
+  check_precision(options, "tolerance", triangle_error);
+  const bool is_fixed = options.triangulation == RIIS_TRIANGULATION_FIXED;
+  std::unique_ptr<const riis::FixedTriangulation> newly_fixed;
+  if (is_fixed && !surface.fixed)
+    newly_fixed = std::make_unique<riis::FixedTriangulation>(valve->valve, triangle_error / options.scale,
+                                                             threads_for(surface, options));
+  const riis::FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : surface.fixed.get();
+  const riis::ValveAccuracy accuracy{triangle_error, options.distance, distance_error_of(options),
+                                     is_fixed ? fixed : nullptr};
   if (options.distance != RIIS_DISTANCE_TRIANGLES)
     check_precision(options, "distance_tolerance", accuracy.distance_error);
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
   });
+  if (!is_fixed) surface.fixed.reset();
+  if (newly_fixed) surface.fixed = std::move(newly_fixed);
 }
 
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
@@ -182,6 +194,10 @@ void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, 
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance,
                ", which works on patches, but a surface from arrays has triangles only: it must be "
                "RIIS_DISTANCE_TRIANGLES, 0");
+  if (options.triangulation != RIIS_TRIANGULATION_ADAPTED)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
+               ", which is for valves, but a surface from arrays has the caller's triangles: it must be "
+               "RIIS_TRIANGULATION_ADAPTED, 0");
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(whole, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
   });
@@ -299,7 +315,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                                     {lower.x, lower.y, lower.z},
                                                     {upper.x, upper.y, upper.z},
                                                     surface->seconds_triangles,
-                                                    surface->seconds_scene});
+                                                    surface->seconds_scene,
+                                                    set.error_bound});
   });
 }
 

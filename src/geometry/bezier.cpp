@@ -85,25 +85,44 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Bounds the curvature |B' x B''| / |B'|^3; infinite if the curve may turn on the spot. B' and B'' are Bézier curves
-// with differences of control points as control points. Products of these differences bound the numerator. The least
-// component of the differences in B' along the chord bounds the denominator from below.
-double curvature_bound(const Bezier &curve) {
-  const std::size_t n = degree_of(curve);
-  const Vec3 chord = curve.last() - curve.first();
-  std::array<Vec3, 3> first{};
-  double least_along = std::numeric_limits<double>::infinity(), largest_product = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    first[i] = static_cast<double>(n) * (curve.control[i + 1] - curve.control[i]);
-    least_along = std::min(least_along, dot(first[i], chord));
+// Integrates the speed over a range so short, below a thousandth, that the rule with 2 points is exact to rounding.
+double short_quadrature(const Speed &speed, double t0, double t1) {
+  constexpr double node = 0.57735026918962576451;
+  const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
+  return half * (speed(middle - half * node) + speed(middle + half * node));
+}
+
+// Integrates over steps so short that the rule with 8 points is exact to rounding for all curves but those that nearly stop.
+double stepwise_quadrature(const Speed &speed, double t0, double t1) {
+  constexpr double longest = 1.0 / 12;
+  if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
+  const int n = static_cast<int>(std::ceil((t1 - t0) / longest));
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += quadrature(speed, t0 + (t1 - t0) * i / n, t0 + (t1 - t0) * (i + 1) / n);
+  return sum;
+}
+
+// Finds the parameters of ascending lengths, each from the one before. Returns false if the lengths do not add up to that of
+// the curve. The speed is no polynomial then, as at a cusp, and one quadrature a step is not enough.
+bool find_in_one_pass(const Speed &speed, double curve_length, const std::vector<double> &behind, double *t) {
+  const double close_enough = 1e-14 * curve_length;
+  double at = 0, at_length = 0;
+  for (std::size_t k = 0; k < behind.size(); ++k) {
+    const double wanted = behind[k] - at_length, start = speed(at);
+    const double straight = std::min(at + wanted / start, 1.0);
+    double next = std::min(at + 2 * wanted / (start + speed(straight)), 1.0);
+    if (!(next >= at)) return false;
+    double made = stepwise_quadrature(speed, at, next);
+    for (int i = 0; i < 6 && std::abs(made - wanted) > close_enough; ++i) {
+      const double closer = std::clamp(next - (made - wanted) / speed(next), at, 1.0);
+      made += std::abs(closer - next) < 1e-3 ? short_quadrature(speed, next, closer)
+                                             : stepwise_quadrature(speed, next, closer);
+      next = closer;
+    }
+    at = t[k] = next;
+    at_length += made;
   }
-  if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j + 1 < n; ++j) {
-    const Vec3 second = static_cast<double>(n - 1) * (first[j + 1] - first[j]);
-    for (std::size_t i = 0; i < n; ++i) largest_product = std::max(largest_product, length(cross(first[i], second)));
-  }
-  const double least_speed = least_along / length(chord);
-  return largest_product / (least_speed * least_speed * least_speed);
+  return std::abs(at_length + stepwise_quadrature(speed, at, 1) - curve_length) <= 1e-12 * curve_length;
 }
 
 }  // namespace
@@ -146,12 +165,33 @@ double flatness(const Bezier &curve) {
   return largest;
 }
 
+// Bounds the curvature |B' x B''| / |B'|^3; infinite if the curve may turn on the spot. B' and B'' are Bézier curves
+// with differences of control points as control points. Products of these differences bound the numerator. The least
+// component of the differences in B' along the chord bounds the denominator from below.
+double rough_curvature(const Bezier &curve) {
+  const std::size_t n = degree_of(curve);
+  const Vec3 chord = curve.last() - curve.first();
+  std::array<Vec3, 3> first{};
+  double least_along = std::numeric_limits<double>::infinity(), largest_product = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    first[i] = static_cast<double>(n) * (curve.control[i + 1] - curve.control[i]);
+    least_along = std::min(least_along, dot(first[i], chord));
+  }
+  if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j + 1 < n; ++j) {
+    const Vec3 second = static_cast<double>(n - 1) * (first[j + 1] - first[j]);
+    for (std::size_t i = 0; i < n; ++i) largest_product = std::max(largest_product, length(cross(first[i], second)));
+  }
+  const double least_speed = least_along / length(chord);
+  return largest_product / (least_speed * least_speed * least_speed);
+}
+
 double largest_curvature(const Bezier &curve) {
   // The bound from control points is loose if they vary much; in quarters of the curve they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
-  return std::max({curvature_bound(first), curvature_bound(second), curvature_bound(third), curvature_bound(fourth)});
+  return std::max({rough_curvature(first), rough_curvature(second), rough_curvature(third), rough_curvature(fourth)});
 }
 
 double parameter_at_length(const Bezier &curve, double curve_length, double behind) {
@@ -169,6 +209,11 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
     t = next;
   }
   return t;
+}
+
+void parameters_at_lengths(const Bezier &curve, double curve_length, const std::vector<double> &behind, double *t) {
+  if (curve_length > 0 && find_in_one_pass(Speed(curve), curve_length, behind, t)) return;
+  for (std::size_t k = 0; k < behind.size(); ++k) t[k] = parameter_at_length(curve, curve_length, behind[k]);
 }
 
 }  // namespace riis

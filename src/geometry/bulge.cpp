@@ -130,15 +130,14 @@ Bulge::Bulge(Curve base, Curve edge, double factor) : base_(std::move(base)), ed
 
 Vec3 Bulge::at(double u) const { return offset_at(base_, edge_, u, factor_); }
 
-double Bulge::linear_error(double u0, double u1, double enough) const {
-  const double du = u1 - u0;
-  const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
-
+OffsetBounds bound_offset(const ArcRange &range, double factor) {
+  const double du = range.du;
   // W stays near the line between its ends: the largest bend of all pairs of pieces bounds the distance.
-  const Vec3 start = edge.first() - base.first(), end = edge.last() - base.last();
+  const Vec3 start = range.edge.front().first() - range.base.front().first();
+  const Vec3 end = range.edge.back().last() - range.base.back().last();
   std::vector<Along> along_base, along_edge;
-  for (const Bezier &piece : base.pieces()) along_base.push_back(along_piece(piece, base_.length(), du));
-  for (const Bezier &piece : edge.pieces()) along_edge.push_back(along_piece(piece, edge_.length(), du));
+  for (const Bezier &piece : range.base) along_base.push_back(along_piece(piece, range.base_length, du));
+  for (const Bezier &piece : range.edge) along_edge.push_back(along_piece(piece, range.edge_length, du));
   Vec3 bend{0, 0, 0};
   for (const Along &b : along_base)
     for (const Along &e : along_edge) {
@@ -149,21 +148,25 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
   const double eighth = 0.125 * du * du;
   w = {widened(w.x, eighth * bend.x), widened(w.y, eighth * bend.y), widened(w.z, eighth * bend.z)};
 
-  // `second` bounds |O''| on the smooth parts.
   double second = 0;
   for (const Along &b : along_base)
     for (const Along &e : along_edge) {
-      const std::optional<JetVector> offset = offset_jet(w, b, e, factor_);
+      const std::optional<JetVector> offset = offset_jet(w, b, e, factor);
       second = std::max(second, offset ? norm(offset->second()) : infinity);
     }
-
   // |O| and the length of its linear interpolation are never more than |factor| |W|.
-  const double largest = 2 * std::abs(factor_) * norm(w);
+  return {second, 2 * std::abs(factor) * norm(w)};
+}
+
+double Bulge::linear_error(double u0, double u1, double enough) const {
+  const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
+  const OffsetBounds bounds =
+      bound_offset({base.pieces(), edge.pieces(), base_.length(), edge_.length(), u1 - u0}, factor_);
   // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound serves only
   // between neighbouring points. If the range has n parts, the bound counts n^2 times less.
   double error = infinity;
-  for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, second);
-  return error <= largest ? error : largest;  // also if the error is NaN
+  for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, bounds.second);
+  return error <= bounds.largest ? error : bounds.largest;  // also if the error is NaN
 }
 
 // Bounds the error from O at n - 1 points between u0 and u1, and from the bound on |O''|.

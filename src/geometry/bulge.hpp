@@ -21,6 +21,20 @@ Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 // Returns O of a side that is an arc, from its control points: both patches at the side get the same bits.
 inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.control[0] + arc.control[2]); }
 
+// The parts of both curves on a range of u that is du wide, and the lengths of the whole curves.
+struct ArcRange {
+  const std::vector<Bezier> &base, &edge;
+  double base_length, edge_length;
+  double du;
+};
+
+// Bounds on such a range.
+struct OffsetBounds {
+  double second;   // of |O''| on the smooth parts; infinite if W may run along T
+  double largest;  // of twice |O|
+};
+OffsetBounds bound_offset(const ArcRange &range, double factor);
+
 class Bulge {
  public:
   // Keeps copies of both curves. The edge may be a point.

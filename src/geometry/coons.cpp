@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -152,9 +153,15 @@ std::vector<Vec3> coons_combination(const std::vector<double> &u, const std::vec
 }
 
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines) {
-  const std::vector<GridLine> u_lines = lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift);
-  const std::vector<GridLine> v_lines = lines_between(*sides.side_u0, *sides.side_u1, max_merge_shift);
+  GridLines made{lines_between(*sides.side_v0, *sides.side_v1, max_merge_shift),
+                 lines_between(*sides.side_u0, *sides.side_u1, max_merge_shift)};
+  QuadGrid grid = make_quad_grid(sides, made);
+  if (lines) *lines = std::move(made);
+  return grid;
+}
 
+QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
+  const std::vector<GridLine> &u_lines = lines.u, &v_lines = lines.v;
   QuadGrid grid{middles(u_lines), middles(v_lines), {}, {}};
   SideVectors sides_on_lines;
   for (const GridLine &line : u_lines) {
@@ -176,7 +183,6 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLin
     for (std::size_t i = 0; i < error_v0.size(); ++i)
       grid.errors.push_back(larger_mix(error_v0[i], error_v1[i], grid.v[j], grid.v[j + 1]) +
                             larger_mix(error_u0[j], error_u1[j], grid.u[i], grid.u[i + 1]));
-  if (lines) *lines = {u_lines, v_lines};
   return grid;
 }
 

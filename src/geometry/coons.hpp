@@ -60,6 +60,8 @@ std::vector<Vec3> coons_combination(const std::vector<double> &u, const std::vec
 // Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if
 // that moves a point by at most max_merge_shift along a side. Writes the lines where they are wanted.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
+// Makes it on given lines, which end on vertices of the sides.
+QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
 // (geometry/bulge.hpp). It is made in two steps, because patches that share an arc must agree on the number of rows.

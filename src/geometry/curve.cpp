@@ -10,9 +10,6 @@
 namespace riis {
 namespace {
 
-// A share of a curve's length that is negligible.
-constexpr double negligible = 1e-14;
-
 // A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
 constexpr int max_depth = 20;
 
@@ -111,9 +108,9 @@ Curve::Place Curve::place(double share) const {
   const double behind = std::max(share, 0.0) * length();
   // A place at a joint, or off it by rounding, is the start of the later piece.
   std::size_t piece = 0;
-  while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible * length()) ++piece;
+  while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible_share * length()) ++piece;
   const double start = piece == 0 ? 0 : ends_[piece - 1];
-  if (behind <= start + negligible * length()) return {piece, 0};
+  if (behind <= start + negligible_share * length()) return {piece, 0};
   return {piece, parameter_at_length(pieces_[piece], length(piece), behind - start)};
 }
 
@@ -162,6 +159,14 @@ Curve Curve::through(Vec3 first, Vec3 last) const {
   moved.pieces_.front().control[0] = first;
   moved.pieces_.back().control[static_cast<std::size_t>(moved.pieces_.back().degree)] = last;
   return moved;
+}
+
+bool are_equal(const Curve &a, const Curve &b) {
+  return std::equal(a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(),
+                    [](const Bezier &p, const Bezier &q) {
+                      const auto n = static_cast<std::ptrdiff_t>(p.degree) + 1;
+                      return p.degree == q.degree && std::equal(p.control.begin(), p.control.begin() + n, q.control.begin());
+                    });
 }
 
 Flattened flatten(const Curve &curve, double max_error) {

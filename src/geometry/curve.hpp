@@ -10,6 +10,9 @@
 
 namespace riis {
 
+// A share of a curve's length that is negligible.
+inline constexpr double negligible_share = 1e-14;
+
 // Every piece but the first begins at the end of the piece before, in the direction of that end. So the curve may change its
 // curvature there, but not its course. (A curve with corners is several curves, and its patch several patches.)
 class Curve {
@@ -55,6 +58,9 @@ class Curve {
   std::vector<Bezier> pieces_;
   std::vector<double> ends_;  // length from the start of the curve to the end of each piece
 };
+
+// Returns whether both have the same control points, to the last bit.
+bool are_equal(const Curve &a, const Curve &b);
 
 // A curve replaced by chords.
 struct Flattened {

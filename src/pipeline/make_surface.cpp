@@ -43,6 +43,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
                             const ValveAccuracy &accuracy, Surface &surface) {
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
+  if (accuracy.fixed) accuracy.fixed->check(valve);
   // Parameters become curves and patches.
   const PatchSet patches = valve.make_patches();
   // So do those of the state before, whose points have the same u and v.
@@ -54,8 +55,10 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   }
   // Curves become polylines, patches become quads, and quads become triangles.
   TriangleSet triangles =
-      triangulate(patches, accuracy.triangle_error / placement.scale, placement, request.flip_normals,
-                  request.n_threads, surface.take_triangles(), motion ? &*motion : nullptr);
+      triangulate(patches,
+                  {accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
+                   motion ? &*motion : nullptr, accuracy.fixed ? &accuracy.fixed->plan() : nullptr},
+                  surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
   // Another method for distances is made before the surface, because it may be refused.

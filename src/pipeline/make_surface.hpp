@@ -9,6 +9,7 @@
 
 #include "distance/surface.hpp"
 #include "geometry/placement.hpp"
+#include "pipeline/fixed_triangulation.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
@@ -26,6 +27,7 @@ struct ValveAccuracy {
   double triangle_error;
   std::int32_t distance;  // RIIS_DISTANCE_*
   double distance_error;  // unused if triangles measure distances
+  const FixedTriangulation *fixed;  // null: triangles as large as the opening allows
 };
 
 // The state of a valve before the one that a surface is made of, for the velocity of the surface.

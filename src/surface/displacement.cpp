@@ -9,16 +9,6 @@
 namespace riis {
 namespace {
 
-bool are_equal(const Bezier &a, const Bezier &b) {
-  const auto n = static_cast<std::ptrdiff_t>(a.degree) + 1;
-  return a.degree == b.degree && std::equal(a.control.begin(), a.control.begin() + n, b.control.begin());
-}
-
-bool are_equal(const Curve &a, const Curve &b) {
-  return std::equal(a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(),
-                    [](const Bezier &p, const Bezier &q) { return are_equal(p, q); });
-}
-
 // A side of a patch at both states.
 class MovedSide {
  public:

@@ -15,14 +15,6 @@
 namespace riis {
 namespace {
 
-// The allowed error is shared out as in docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a
-// u curve, a v curve and merged grid lines, each bounded as below. At least 1 - 2 * (curve_share + merge_share) is left
-// for the split of a quad into triangles.
-constexpr double curve_share = 0.45, merge_share = 0.01;
-// A point of a patch of arcs inherits the mean of two curves' errors, at most half of the error of O, and the error of
-// the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
-constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
-
 class GridMaker {
  public:
   GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness, int n_threads,
@@ -60,7 +52,7 @@ class GridMaker {
     // Patches of arcs meet along arcs, so all have the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
-    const double n_rows = std::max(1.0, rows_for(offset));
+    const double n_rows = rows_for(offset, max_error_);
     double n = 0;
     for (std::size_t i = 0; i < n_patches; ++i) n += n_triangles(i, n_rows);
     check_count(n, max_error_);
@@ -125,8 +117,6 @@ class GridMaker {
             is_coons ? polyline(patch.u1) : nullptr};
   }
 
-  double rows_for(double offset) const { return std::ceil(std::sqrt(0.5 * offset / (row_share * max_error_))); }
-
   ArcLines arc_lines(const Patch &patch, const PatchSides &sides) const {
     const auto curve = [&](const Side &side) {
       return side.reversed ? set_.curves[side.curve].reversed() : set_.curves[side.curve];
@@ -134,7 +124,7 @@ class GridMaker {
     const auto offset = [&](const Side &side) { return arc_offset(set_.curves[side.curve].pieces().front()); };
     const Vec3 at_u0 = offset(patch.u0), at_u1 = offset(patch.u1);
     // More lines than this make too many triangles.
-    const double n_rows = std::max(1.0, rows_for(std::max(length(at_u0), length(at_u1))));
+    const double n_rows = rows_for(std::max(length(at_u0), length(at_u1)), max_error_);
     const auto max_lines = static_cast<std::size_t>(static_cast<double>(max_triangles) / n_rows) + 2;
     ArcLines lines = make_arc_lines(sides, Bulge(curve(patch.v0), curve(patch.v1), patch.bulge), at_u0, at_u1,
                                     {merge_share * max_error_, offset_share * max_error_, max_lines});
@@ -188,6 +178,10 @@ class GridMaker {
 std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness,
                                  int n_threads, const PatchSet *before) {
   return GridMaker(set, max_error, tightness, n_threads, before).make();
+}
+
+double rows_for(double offset, double max_error) {
+  return std::max(1.0, std::ceil(std::sqrt(0.5 * offset / (row_share * max_error))));
 }
 
 void check_count(double n_triangles, double max_error) {

@@ -11,6 +11,17 @@
 
 namespace riis {
 
+// The allowed error is shared out as in docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a
+// u curve, a v curve and merged grid lines, each bounded as below. At least 1 - 2 * (curve_share + merge_share) is left
+// for the split of a quad into triangles.
+inline constexpr double curve_share = 0.45, merge_share = 0.01;
+// A point of a patch of arcs inherits the mean of two curves' errors, at most half of the error of O, and the error of
+// the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
+inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
+
+// Returns the rows that keep the chords of arcs with offsets up to `offset` within their share of max_error.
+double rows_for(double offset, double max_error);
+
 // Makes one grid for each patch, in their order, before any image of the patch is placed. Keeps each curve within its
 // share of max_error times its tightness; an empty `tightness` means 1 for all. Fails with RIIS_LIMIT_EXCEEDED if the
 // surface would take more than max_triangles triangles.

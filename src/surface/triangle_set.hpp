@@ -27,6 +27,7 @@ struct TriangleSet {
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // triangles that were left out
+  double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
   std::vector<std::uint8_t> rim_sides;    // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
   Grouping grouping;                      // empty if the maker of the triangles knows no groups
 
@@ -37,6 +38,7 @@ struct TriangleSet {
     for (auto *ids : {&leaflet_id, &patch_id, &grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
     n_zero_area = 0;
+    error_bound = 0;
   }
   std::size_t n_vertices() const { return xyz.size() / 3; }
   std::size_t n_triangles() const { return triangle_id.size(); }

@@ -21,30 +21,45 @@ Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {
   return {grid.point(i, j), grid.point(i + 1, j), grid.point(i + 1, j + 1), grid.point(i, j + 1)};
 }
 
-bool is_flat_enough(const Quad &quad, int level, double max_error) {
+// Bounds the distance between a quad and its triangles at a level of subdivision. Looks no closer than `enough` needs.
+double split_error_at(const Quad &quad, int level, double enough) {
+  // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
+  constexpr int few = 5;
+  const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
+  if (level >= few || at_equal_uv <= enough) return at_equal_uv;
   const int n = 1 << level;
+  double largest = 0;
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) {
       const double s0 = static_cast<double>(column) / n, s1 = static_cast<double>(column + 1) / n;
       const double t0 = static_cast<double>(row) / n, t1 = static_cast<double>(row + 1) / n;
-      if (!(split_error({quad.at(s0, t0), quad.at(s1, t0), quad.at(s1, t1), quad.at(s0, t1)}) <= max_error))
-        return false;
+      largest =
+          std::max(largest, split_error({quad.at(s0, t0), quad.at(s1, t0), quad.at(s1, t1), quad.at(s0, t1)}));
+      if (!(largest <= enough)) return at_equal_uv;
     }
-  return true;
+  return std::min(largest, at_equal_uv);
 }
 
-// Returns how often a quad's sides are halved until its parts are close enough to their triangles. Each halving divides the
-// twist of all parts by exactly 4, so there is an end. No quad that the library accepts needs more than 12 halvings.
-int subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
+// How often a quad's sides are halved, and how far its triangles may then be from the smooth patch.
+struct Level {
+  int level;
+  double error;
+};
+
+// Halves a quad until its parts are close enough to their triangles. There is an end, because the twist falls by 4 at each
+// level. No quad that the library accepts needs more than 12 halvings.
+Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
-  int enough = 0;
-  for (double kappa = quad_flatness(quad); kappa > left && enough < 13; kappa *= 0.25) ++enough;
-  // All parts are checked while there are few.
-  constexpr int few = 5;
-  for (int level = 0; level < std::min(enough, few); ++level)
-    if (is_flat_enough(quad, level, left)) return level;
-  return enough;
+  for (int level = 0;; ++level) {
+    const double error = split_error_at(quad, level, left);
+    if (error <= left || level == 13) return {level, grid.error(i, j) + error};
+  }
+}
+
+Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
+  const double left = max_error - grid.error(i, j);
+  return {level, grid.error(i, j) + split_error_at(quad_of(grid, i, j), level, left)};
 }
 
 template <class Visit>
@@ -57,16 +72,22 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
 struct LevelledGrid {
   QuadGrid grid;
   std::vector<int> levels;
-  std::int64_t n_triangles;  // of one image, including triangles that turn out to have no area
-  std::int64_t n_vertices;
+  std::int64_t n_triangles = 0;  // of one image, including triangles that turn out to have no area
+  std::int64_t n_vertices = 0;
+  double error_bound = 0;  // of the distance between the triangles and the smooth patch
 };
 
-LevelledGrid with_levels(QuadGrid grid, double max_error) {
-  LevelledGrid made{std::move(grid), {}, 0, 0};
+// Takes the levels of a plan, if there is one.
+LevelledGrid with_levels(QuadGrid grid, double max_error, const std::vector<int> *planned) {
+  LevelledGrid made{std::move(grid), {}};
   made.n_vertices = view(made.grid.u).size() * view(made.grid.v).size();
+  if (planned) made.levels.reserve(planned->size());
   for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
-    made.levels.push_back(subdivision_level(made.grid, i, j, max_error));
-    const std::int64_t n = std::int64_t{1} << made.levels.back();
+    const Level level = planned ? planned_level(made.grid, i, j, max_error, (*planned)[made.levels.size()])
+                                : subdivision_level(made.grid, i, j, max_error);
+    made.levels.push_back(level.level);
+    made.error_bound = std::max(made.error_bound, level.error);
+    const std::int64_t n = std::int64_t{1} << level.level;
     made.n_triangles += 2 * n * n;
     if (n > 1) made.n_vertices += (n + 1) * (n + 1);
   });
@@ -87,13 +108,8 @@ struct Piece {
 class PieceBuilder {
  public:
   // The motion is that of the piece's image, or null.
-  PieceBuilder(Piece &piece, const Placement &placement, bool flip_normals, const ImageMotion *motion, TriangleSet &set)
-      : piece_(piece),
-        grid_(piece.levelled->grid),
-        placement_(placement),
-        flip_normals_(flip_normals),
-        motion_(motion),
-        set_(set) {}
+  PieceBuilder(Piece &piece, const Triangulation &how, const ImageMotion *motion, TriangleSet &set)
+      : piece_(piece), grid_(piece.levelled->grid), how_(how), motion_(motion), set_(set) {}
 
   void build() {
     auto level_of_next = piece_.levelled->levels.begin();
@@ -116,7 +132,8 @@ class PieceBuilder {
         add_subdivided_quad(i, j, level);
     });
     first_of_quad_.push_back(next_triangle());
-    group({0, n_u - 1, 0, n_v - 1});
+    // A plan has its own groups.
+    if (!how_.plan) group({0, n_u - 1, 0, n_v - 1});
   }
 
  private:
@@ -173,7 +190,7 @@ class PieceBuilder {
 
   void add_vertex(Vec3 p, double u, double v) {
     const std::int64_t at = piece_.first_vertex + n_vertices_++;
-    const Vec3 placed = place(placement_, place(*piece_.image, p));
+    const Vec3 placed = place(how_.placement, place(*piece_.image, p));
     double *xyz = set_.xyz.data() + 3 * at, *uv = set_.uv.data() + 2 * at;
     xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
     uv[0] = u, uv[1] = v;
@@ -225,20 +242,20 @@ class PieceBuilder {
       ++piece_.n_zero_area;
       return false;
     }
-    if ((piece_.image->mirror != Mirror::none) != flip_normals_) std::swap(b, c);
+    if ((piece_.image->mirror != Mirror::none) != how_.flip_normals) std::swap(b, c);
     const std::int64_t at = next_triangle();
     std::int64_t *id = set_.vertex_id.data() + 3 * at;
     id[0] = a, id[1] = b, id[2] = c;
     view(set_.leaflet_id)[at] = piece_.image->leaflet_id;
     view(set_.patch_id)[at] = piece_.image->patch_id;
+    view(set_.triangle_id)[at] = piece_.first_triangle + piece_.n_triangles + piece_.n_zero_area;
     ++piece_.n_triangles;
     return true;
   }
 
   Piece &piece_;
   const QuadGrid &grid_;
-  const Placement &placement_;
-  bool flip_normals_;
+  const Triangulation &how_;
   const ImageMotion *motion_;
   TriangleSet &set_;
   std::int64_t n_vertices_ = 0;
@@ -253,11 +270,12 @@ void make_room(std::int64_t n_vertices, std::int64_t n_triangles, bool has_veloc
   resize(set.vertex_id, 3 * n_triangles);
   resize(set.leaflet_id, n_triangles);
   resize(set.patch_id, n_triangles);
+  resize(set.triangle_id, n_triangles);
   set.n_zero_area = 0;
 }
 
 // Moves the triangles of all pieces together. Pieces may have fewer triangles than there was room for.
-void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
+void close_gaps(const std::vector<Piece> &pieces, bool has_planned_ids, TriangleSet &set) {
   set.grouping.order.clear();
   set.grouping.end.clear();
   std::int64_t n = 0;
@@ -270,6 +288,7 @@ void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
     move_down(set.vertex_id, 3);
     move_down(set.leaflet_id, 1);
     move_down(set.patch_id, 1);
+    move_down(set.triangle_id, 1);
     const auto n_grouped = static_cast<std::int32_t>(set.grouping.order.size());
     for (const std::int32_t triangle : piece.grouping.order)
       set.grouping.order.push_back(static_cast<std::int32_t>(triangle - piece.first_triangle + n));
@@ -281,7 +300,7 @@ void close_gaps(const std::vector<Piece> &pieces, TriangleSet &set) {
   resize(set.leaflet_id, n);
   resize(set.patch_id, n);
   resize(set.triangle_id, n);
-  std::iota(set.triangle_id.begin(), set.triangle_id.end(), std::int64_t{0});
+  if (!has_planned_ids) std::iota(set.triangle_id.begin(), set.triangle_id.end(), std::int64_t{0});
 }
 
 // The same image of the same patch in an earlier state.
@@ -292,14 +311,92 @@ const PatchImage &image_before(const Piece &piece, const std::vector<LevelledGri
   return before.patches[patch].images[static_cast<std::size_t>(image)];
 }
 
-std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error,
-                                              const std::vector<double> &tightness, int n_threads,
-                                              const PatchSet *before) {
-  std::vector<QuadGrid> grids = make_grids(set, max_error, tightness, n_threads, before);
+std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
+                                              const std::vector<double> &tightness) {
+  const PatchSet *before = how.motion ? &how.motion->patches_before : nullptr;
+  const TriangulationPlan *plan = how.plan;
+  std::vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, how.max_error, how.n_threads, before)
+                                     : make_grids(set, how.max_error, tightness, how.n_threads, before);
   std::vector<LevelledGrid> levelled(grids.size());
-  parallel_for(view(grids).size(), n_threads,
-               [&](std::int64_t i, int) { view(levelled)[i] = with_levels(std::move(view(grids)[i]), max_error); });
+  parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
+    view(levelled)[i] =
+        with_levels(std::move(view(grids)[i]), how.max_error, plan ? &view(plan->levels)[i] : nullptr);
+  });
   return levelled;
+}
+
+// Returns the patches of which triangles without area are missed.
+std::vector<std::size_t> vanished_patches(const std::vector<Piece> &pieces, const std::vector<LevelledGrid> &grids) {
+  std::vector<std::size_t> vanished;
+  for (const Piece &piece : pieces) {
+    const auto i = static_cast<std::size_t>(piece.levelled - grids.data());
+    if (!piece.is_whole && (vanished.empty() || vanished.back() != i)) vanished.push_back(i);
+  }
+  return vanished;
+}
+
+// Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
+// there are none.
+std::vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const std::vector<LevelledGrid> &grids,
+                               TriangleSet &triangles) {
+  std::vector<Piece> pieces;
+  std::int64_t n_triangles = 0, n_vertices = 0;
+  double error_bound = 0;
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    error_bound = std::max(error_bound, grids[i].error_bound);
+    for (const PatchImage &image : set.patches[i].images) {
+      pieces.push_back({&grids[i], &image, n_vertices, n_triangles});
+      n_triangles += grids[i].n_triangles;
+      n_vertices += grids[i].n_vertices;
+      check_count(static_cast<double>(n_triangles), how.max_error);
+    }
+  }
+  make_room(n_vertices, n_triangles, how.motion != nullptr, triangles);
+  parallel_for(view(pieces).size(), how.n_threads, [&](std::int64_t i, int) {
+    Piece &piece = view(pieces)[i];
+    std::optional<ImageMotion> image_motion;
+    if (how.motion)
+      image_motion.emplace(*piece.image, image_before(piece, grids, set, how.motion->patches_before), how.placement,
+                           *how.motion);
+    PieceBuilder(piece, how, image_motion ? &*image_motion : nullptr, triangles).build();
+  });
+  std::vector<std::size_t> vanished = vanished_patches(pieces, grids);
+  if (!vanished.empty()) return vanished;
+  close_gaps(pieces, how.plan != nullptr, triangles);
+  triangles.error_bound = error_bound * how.placement.scale;
+  triangles.rim_sides = rim_sides(set);
+  return vanished;
+}
+
+[[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where) {
+  fail(RIIS_INVALID_PARAMETER, "patch ", set.patches[patch].images.front().patch_id, " has no area", where,
+       ", at least in part: a surface is no curve");
+}
+
+void make_finer(const PatchSet &set, const std::vector<std::size_t> &patches, std::vector<double> &tightness) {
+  for (const std::size_t i : patches)
+    for (const Side &side : {set.patches[i].v0, set.patches[i].v1, set.patches[i].u0, set.patches[i].u1})
+      tightness[side.curve] *= 0.1;
+}
+
+// Patches thinner than the tolerance lose their area if their sides become the same chords. Their curves have to be finer.
+constexpr int max_attempts = 12;
+
+// Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
+TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
+  const std::vector<LevelledGrid> grids = make_levelled_grids(set, how, {});
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    if (!(grids[i].error_bound <= how.max_error))
+      fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
+           " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
+           how.max_error, ", which is tolerance * half_thickness before scaling");
+  const std::vector<std::size_t> vanished = build(set, how, grids, triangles);
+  if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
+  if (triangles.triangle_id == how.plan->triangle_id)
+    triangles.grouping = how.plan->grouping;
+  else
+    group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), triangles.grouping);
+  return triangles;
 }
 
 }  // namespace
@@ -318,48 +415,75 @@ double split_error(const Quad &q) {
   return std::min(at_equal_uv, 0.5 * std::abs(dot(twist, normal)) / size);
 }
 
-TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals,
-                        int n_threads, TriangleSet memory, const Motion *motion) {
-  const PatchSet *before = motion ? &motion->patches_before : nullptr;
-  if (before) check_same_build(set, *before);
+TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory) {
+  if (how.motion) check_same_build(set, how.motion->patches_before);
+  if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
   std::vector<double> tightness(set.curves.size(), 1);
-  TriangleSet triangles = std::move(memory);
   for (int attempt = 0;; ++attempt) {
-    const std::vector<LevelledGrid> grids = make_levelled_grids(set, max_error, tightness, n_threads, before);
-    std::vector<Piece> pieces;
-    std::int64_t n_triangles = 0, n_vertices = 0;
-    for (std::size_t i = 0; i < grids.size(); ++i)
-      for (const PatchImage &image : set.patches[i].images) {
-        pieces.push_back({&grids[i], &image, n_vertices, n_triangles});
-        n_triangles += grids[i].n_triangles;
-        n_vertices += grids[i].n_vertices;
-        check_count(static_cast<double>(n_triangles), max_error);
-      }
-    make_room(n_vertices, n_triangles, motion != nullptr, triangles);
-    parallel_for(view(pieces).size(), n_threads, [&](std::int64_t i, int) {
-      Piece &piece = view(pieces)[i];
-      std::optional<ImageMotion> image_motion;
-      if (motion) image_motion.emplace(*piece.image, image_before(piece, grids, set, *before), placement, *motion);
-      PieceBuilder(piece, placement, flip_normals, image_motion ? &*image_motion : nullptr, triangles).build();
-    });
-    std::vector<std::size_t> vanished;
-    for (const Piece &piece : pieces) {
-      const auto i = static_cast<std::size_t>(piece.levelled - grids.data());
-      if (!piece.is_whole && (vanished.empty() || vanished.back() != i)) vanished.push_back(i);
-    }
+    const std::vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
+    const std::vector<std::size_t> vanished = build(set, how, grids, memory);
+    if (vanished.empty()) return memory;
+    if (attempt == max_attempts) fail_for_vanished(set, vanished.front(), "");
+    make_finer(set, vanished, tightness);
+  }
+}
+
+bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error) {
+  const Placement in_place{1, no_rotation, {0, 0, 0}};
+  const std::vector<LevelledGrid> grids =
+      make_levelled_grids(state, {max_error, in_place, false, 1, nullptr, &plan}, {});
+  return std::all_of(grids.begin(), grids.end(),
+                     [&](const LevelledGrid &grid) { return grid.error_bound <= max_error; });
+}
+
+namespace {
+
+// Lifts the levels to those that a state needs.
+void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
+  const std::vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
+  plan.levels.resize(grids.size());
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    std::vector<int> needed = with_levels(grids[i], max_error, nullptr).levels;
+    plan.levels[i].resize(needed.size(), 0);
+    std::transform(needed.begin(), needed.end(), plan.levels[i].begin(), plan.levels[i].begin(),
+                   [](int a, int b) { return std::max(a, b); });
+  }
+}
+
+// Returns the patches of which triangles are missed at one of the openings.
+std::vector<std::size_t> vanished_anywhere(const std::vector<PatchSet> &states, const Triangulation &how,
+                                           TriangleSet &triangles) {
+  for (const PatchSet &state : states) {
+    const std::vector<std::size_t> vanished = build(state, how, make_levelled_grids(state, how, {}), triangles);
+    if (!vanished.empty()) return vanished;
+  }
+  return {};
+}
+
+}  // namespace
+
+TriangulationPlan plan_triangulation(const std::vector<PatchSet> &states, double max_error, int n_threads) {
+  // The rest is for openings between these.
+  constexpr double share = 0.98;
+  const PatchSet &middle = states[states.size() / 2];
+  for (const PatchSet &state : states) check_same_build(middle, state);
+  const Placement in_place{1, no_rotation, {0, 0, 0}};
+  std::vector<double> tightness(middle.curves.size(), 1);
+  for (int attempt = 0;; ++attempt) {
+    TriangulationPlan plan{plan_grids(states, share * max_error, tightness), {}, {}, {}};
+    for (const PatchSet &state : states) raise_levels(state, share * max_error, plan);
+    TriangleSet triangles;
+    const std::vector<std::size_t> vanished =
+        vanished_anywhere(states, {max_error, in_place, false, n_threads, nullptr, &plan}, triangles);
     if (vanished.empty()) {
-      close_gaps(pieces, triangles);
-      triangles.rim_sides = rim_sides(set);
-      return triangles;
+      const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};
+      build(middle, how, make_levelled_grids(middle, how, {}), triangles);
+      plan.triangle_id = triangles.triangle_id;
+      group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), plan.grouping);
+      return plan;
     }
-    // Patches thinner than the tolerance lose their area if their sides become the same chords. Their curves have to be finer.
-    constexpr int max_attempts = 12;
-    if (attempt == max_attempts)
-      fail(RIIS_INVALID_PARAMETER, "patch ", set.patches[vanished.front()].images.front().patch_id,
-           " has no area, at least in part: a surface is no curve");
-    for (const std::size_t i : vanished)
-      for (const Side &side : {set.patches[i].v0, set.patches[i].v1, set.patches[i].u0, set.patches[i].u1})
-        tightness[side.curve] *= 0.1;
+    if (attempt == max_attempts) fail_for_vanished(middle, vanished.front(), " at an opening");
+    make_finer(middle, vanished, tightness);
   }
 }
 

@@ -3,19 +3,45 @@
 // In: curves and patches of a valve, the allowed error, the placement. Out: triangles with their patch, leaflet, u and v.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "geometry/placement.hpp"
 #include "surface/displacement.hpp"
+#include "surface/grid_plan.hpp"
 #include "surface/triangle_set.hpp"
 #include "valve/patches.hpp"
 
 namespace riis {
 
-// Makes triangles in the memory of triangles that are no longer wanted. max_error bounds the distance between them and
-// the smooth surface, in the patches' units (before placement). Fails with RIIS_LIMIT_EXCEEDED for more than
-// max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area. With a motion the vertices have velocities: the
-// triangles are the same, bit for bit.
-TriangleSet triangulate(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals,
-                        int n_threads, TriangleSet memory = {}, const Motion *motion = nullptr);
+// A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its groups.
+struct TriangulationPlan {
+  GridPlan grids;
+  std::vector<std::vector<int>> levels;   // of each patch's quads
+  std::vector<std::int64_t> triangle_id;  // at one of the openings
+  Grouping grouping;                      // of these triangles
+};
+
+// Makes the plan for a valve's patches at many openings; max_error as below. Keeps a small part of it for openings between
+// these. Fails as triangulate does.
+TriangulationPlan plan_triangulation(const std::vector<PatchSet> &states, double max_error, int n_threads);
+
+// Returns whether the plan's triangles are within max_error of a state.
+bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error);
+
+struct Triangulation {
+  double max_error;  // bounds the distance between triangles and smooth surface, in the patches' units (before placement)
+  const Placement &placement;
+  bool flip_normals;
+  int n_threads;
+  const Motion *motion = nullptr;           // gives the vertices velocities; the triangles are the same, bit for bit
+  const TriangulationPlan *plan = nullptr;  // null: grids as coarse as the state allows
+};
+
+// Makes triangles in the memory of triangles that are no longer wanted. Fails with RIIS_LIMIT_EXCEEDED for more than
+// max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area. With a plan, triangles keep their ids if others lose
+// their area. A plan that is not within max_error of this state fails with RIIS_LIMIT_EXCEEDED.
+TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory = {});
 
 // A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into triangles along p00 p11.
 struct Quad {

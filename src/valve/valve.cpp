@@ -101,17 +101,51 @@ void Valve::set_open_state(const Valve &open) {
   open_ = ValveState(open.state_);  // copied aside first: an assignment member by member could stop half way
 }
 
+namespace {
+
+constexpr const char *fixed_for = ", but the surface's triangulation is fixed for ";
+
+// `where` says which state it is.
+void check_same_state(const ValveKind &kind, const ValveState &fixed, const ValveState &now, const char *where) {
+  for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
+    const ParameterSpec &spec = kind.parameters[i];
+    const auto &was = fixed.values[i], &is = now.values[i];
+    if (i == kind.opening) continue;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(spec.n_values); ++k)
+      if (was[k] != is[k])
+        fail(RIIS_INVALID_PARAMETER, spec.name, where, " is ", is[k], fixed_for, was[k],
+             ": only opening and placement may move");
+  }
+  for (std::size_t i = 0; i < fixed.patches.curves.size(); ++i)
+    if (!are_equal(fixed.patches.curves[i], now.patches.curves[i]))
+      fail(RIIS_INVALID_PARAMETER, "curve ", i, where, " is another than that which the surface's triangulation is fixed for",
+           ": only opening and placement may move");
+}
+
+}  // namespace
+
+void Valve::check_same_but_for_opening(const Valve &other) const {
+  if (other.kind_ != kind_)
+    fail(RIIS_INVALID_PARAMETER, "the valve is of the kind ", other.kind_->name, fixed_for, "one of the kind ",
+         kind_->name);
+  if (kind_->check_states) kind_->check_states(state_, other.state_, "the valve");
+  check_same_state(*kind_, state_, other.state_, "");
+  if (open_.has_value() != other.open_.has_value())
+    fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
+         other.open_ ? "none" : "one");
+  if (open_) check_same_state(*kind_, *open_, *other.open_, " in the open state");
+}
+
 PatchSet Valve::make_patches() const {
-  const double opening = state_.values[kind_->opening][0];
-  if (opening != 0 && !open_ && !kind_->opens_by_itself)
-    fail(RIIS_INVALID_PARAMETER, "opening is ", opening, ", but the ", kind_->name,
+  if (opening() != 0 && !can_open())
+    fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
          " valve has one state only: give it another to open to with riis_valve_set_open_state or riis-mark "
          "--params-open");
   if (kind_->check_values) {
     kind_->check_values(state_.values);
     if (open_) check_open_values();
   }
-  return kind_->make_patches(state_, open_ ? *open_ : state_, opening);
+  return kind_->make_patches(state_, open_ ? *open_ : state_, opening());
 }
 
 PatchSet Valve::make_patches_before(const Valve &before) const {

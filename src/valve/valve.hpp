@@ -66,6 +66,13 @@ class Valve {
   // Takes the other valve's own state as the state to open to. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
+  // Returns whether the opening may be another than 0.
+  bool can_open() const { return open_ || kind_->opens_by_itself; }
+  double opening() const { return state_.values[kind_->opening][0]; }
+
+  // Fails unless the other valve is this one, but for its opening. Names the first parameter that differs.
+  void check_same_but_for_opening(const Valve &other) const;
+
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
   // Makes the patches of another valve, of the same kind and built like this one: an earlier state of it.

@@ -44,7 +44,7 @@ static void test_structs(void **state) {
   FIELD(riis_parameter, minimum, 56, 8);
   FIELD(riis_parameter, maximum, 64, 8);
 
-  SIZE(riis_surface_options, 112);
+  SIZE(riis_surface_options, 120);
   FIELD(riis_surface_options, struct_size, 0, 8);
   FIELD(riis_surface_options, half_thickness, 8, 8);
   FIELD(riis_surface_options, tolerance, 16, 8);
@@ -57,6 +57,8 @@ static void test_structs(void **state) {
   FIELD(riis_surface_options, distance, 96, 4);
   FIELD(riis_surface_options, n_threads, 100, 4);
   FIELD(riis_surface_options, distance_tolerance, 104, 8);
+  FIELD(riis_surface_options, triangulation, 112, 4);
+  FIELD(riis_surface_options, reserved, 116, 4);
 
   SIZE(riis_surface_arrays, 120);
   FIELD(riis_surface_arrays, struct_size, 0, 8);
@@ -77,7 +79,7 @@ static void test_structs(void **state) {
   FIELD(riis_surface_arrays, vz, 104, 8);
   FIELD(riis_surface_arrays, velocity_stride, 112, 8);
 
-  SIZE(riis_surface_info, 104);
+  SIZE(riis_surface_info, 112);
   FIELD(riis_surface_info, n_vertices, 0, 8);
   FIELD(riis_surface_info, n_triangles, 8, 8);
   FIELD(riis_surface_info, n_zero_area, 16, 8);
@@ -87,6 +89,7 @@ static void test_structs(void **state) {
   FIELD(riis_surface_info, upper, 64, 24);
   FIELD(riis_surface_info, seconds_triangles, 88, 8);
   FIELD(riis_surface_info, seconds_scene, 96, 8);
+  FIELD(riis_surface_info, error_bound, 104, 8);
 
   SIZE(riis_closest, 96);
   FIELD(riis_closest, distance, 0, 8);
@@ -333,6 +336,8 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_RIM_CUT, 1);
   assert_int_equal(RIIS_INTERPOLATION_LINEAR, 0);
   assert_int_equal(RIIS_INTERPOLATION_CUBIC, 1);
+  assert_int_equal(RIIS_TRIANGULATION_ADAPTED, 0);
+  assert_int_equal(RIIS_TRIANGULATION_FIXED, 1);
   assert_int_equal(RIIS_PHASE_CLOSING, 0);
   assert_int_equal(RIIS_PHASE_OPENING, 1);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);

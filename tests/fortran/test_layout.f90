@@ -42,7 +42,8 @@ program test_layout
   call compare('riis_surface_options', c_sizeof(so), c_loc(so), [at(c_loc(so%struct_size)), &
     at(c_loc(so%half_thickness)), at(c_loc(so%tolerance)), at(c_loc(so%scale)), at(c_loc(so%rotation_axis)), &
     at(c_loc(so%rotation_angle)), at(c_loc(so%translation)), at(c_loc(so%zero_area)), at(c_loc(so%flip_normals)), &
-    at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%distance_tolerance))])
+    at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%distance_tolerance)), &
+    at(c_loc(so%triangulation)), at(c_loc(so%reserved))])
   call compare('riis_surface_arrays', c_sizeof(sa), c_loc(sa), [at(c_loc(sa%struct_size)), at(c_loc(sa%n_vertices)), &
     at(c_loc(sa%x)), at(c_loc(sa%y)), at(c_loc(sa%z)), at(c_loc(sa%stride)), at(c_loc(sa%n_faces)), &
     at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), &
@@ -53,7 +54,8 @@ program test_layout
     at(c_loc(ka%interpolation)), at(c_loc(ka%reserved))])
   call compare('riis_surface_info', c_sizeof(si), c_loc(si), [at(c_loc(si%n_vertices)), at(c_loc(si%n_triangles)), &
     at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
-    at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene))])
+    at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene)), &
+    at(c_loc(si%error_bound))])
   call compare('riis_closest', c_sizeof(c), c_loc(c), [at(c_loc(c%distance)), at(c_loc(c%point)), &
     at(c_loc(c%barycentric)), at(c_loc(c%normal)), at(c_loc(c%triangle_id)), at(c_loc(c%leaflet_id)), &
     at(c_loc(c%side))])

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/curve_points.hpp"
+
+#include <algorithm>
+
+namespace riis {
+namespace {
+
+// Returns the part of a piece from t0 to t1.
+Bezier part_of(const Bezier &piece, double t0, double t1) {
+  const Bezier left = t1 < 1 ? split(piece, t1).first : piece;
+  return t0 > 0 ? split(left, t0 / t1).second : left;
+}
+
+}  // namespace
+
+CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const std::vector<double> &shares)
+    : curve_(curve), is_reversed_(is_reversed), shares_(shares) {
+  const std::vector<Bezier> &pieces = curve.pieces();
+  const std::size_t n = shares.size();
+  places_.reserve(n);
+  const auto behind = [&](std::size_t i) {
+    return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length();
+  };
+  std::vector<double> in_piece, t;
+  double start = 0;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    const double length = curve.length(piece);
+    const bool is_last = piece + 1 == pieces.size();
+    // A share at a joint, or off it by rounding, is the start of the later piece.
+    const double end = is_last ? curve.length() : start + length - negligible_share * curve.length();
+    in_piece.clear();
+    for (std::size_t i = places_.size(); i < n && (is_last || behind(i) < end); ++i) {
+      const double from_start = behind(i) - start;
+      in_piece.push_back(from_start <= negligible_share * curve.length() ? 0 : std::min(from_start, length));
+      places_.push_back({piece, 0});
+    }
+    t.assign(in_piece.size(), 0);
+    parameters_at_lengths(pieces[piece], length, in_piece, t.data());
+    const std::size_t first = places_.size() - in_piece.size();
+    for (std::size_t k = 0; k < t.size(); ++k) places_[first + k].t = in_piece[k] == 0 ? 0 : t[k];
+    start += length;
+  }
+  // The ends are the curve's own points, to the last bit.
+  places_.front() = {0, 0};
+  places_.back() = {pieces.size() - 1, 1};
+}
+
+Vec3 CurvePoints::point(std::size_t i) const {
+  const Place &at = place(i);
+  return evaluate(curve_.pieces()[at.piece], at.t);
+}
+
+Vec3 CurvePoints::tangent(std::size_t i) const {
+  const Place &at = place(i);
+  const Vec3 along = derivative(curve_.pieces()[at.piece], at.t);
+  const double speed = length(along);
+  if (!(speed > 0)) return {0, 0, 0};
+  return (is_reversed_ ? -1 / speed : 1 / speed) * along;
+}
+
+const std::vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
+  const Place &from = is_reversed_ ? place(j) : place(i), &to = is_reversed_ ? place(i) : place(j);
+  parts_.clear();
+  for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {
+    const double t0 = piece == from.piece ? from.t : 0, t1 = piece == to.piece ? to.t : 1;
+    // A part that ends where the later piece starts has nothing of that piece.
+    if (t1 > t0) parts_.push_back(part_of(curve_.pieces()[piece], t0, t1));
+  }
+  if (parts_.empty()) parts_.push_back(Bezier::point(point(i)));
+  if (is_reversed_) {
+    std::reverse(parts_.begin(), parts_.end());
+    for (Bezier &part : parts_) part = part.reversed();
+  }
+  return parts_;
+}
+
+double CurvePoints::chord_error(std::size_t i, std::size_t j, double enough) {
+  const double part_length = (shares_[j] - shares_[i]) * curve_.length();
+  if (!(part_length > 0)) return 0;
+  const double eighth = 0.125 * part_length * part_length;
+  double quick = 0, close = 0;
+  between(i, j);
+  for (const Bezier &part : parts_) quick = std::max(quick, eighth * rough_curvature(part));
+  if (quick <= enough) return quick;
+  for (const Bezier &part : parts_) close = std::max(close, eighth * largest_curvature(part));
+  return std::min(part_length, close);
+}
+
+}  // namespace riis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points of a curve at many shares of its length, found in one pass.
+// In: a curve, ascending shares. Out: points, tangents, and bounds for the parts between them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geometry/curve.hpp"
+
+namespace riis {
+
+class CurvePoints {
+ public:
+  // Finds the points at these shares, which ascend from 0 to 1. The shares of a reversed curve count from its last point. The
+  // curve has to stay. A curve without length has all its points in one place.
+  CurvePoints(const Curve &curve, bool is_reversed, const std::vector<double> &shares);
+
+  std::size_t size() const { return places_.size(); }
+  Vec3 point(std::size_t i) const;
+  // Returns the unit vector along the curve, or 0 if the curve has no direction there.
+  Vec3 tangent(std::size_t i) const;
+
+  // Returns the pieces of the curve from share i to share j, i < j, in the order of the shares. The reference is good until the
+  // next call.
+  const std::vector<Bezier> &between(std::size_t i, std::size_t j);
+
+  // Bounds how far the chord from share i to share j is from the curve, at equal shares of their lengths (docs/theory.md,
+  // "Chord error"). Refines the bound no further once it is at most `enough`.
+  double chord_error(std::size_t i, std::size_t j, double enough);
+
+ private:
+  struct Place {
+    std::size_t piece;
+    double t;
+  };
+  const Place &place(std::size_t i) const { return places_[is_reversed_ ? places_.size() - 1 - i : i]; }
+
+  const Curve &curve_;
+  bool is_reversed_;
+  std::vector<double> shares_;  // as given
+  std::vector<Place> places_;   // along the curve
+  std::vector<Bezier> parts_;
+};
+
+}  // namespace riis

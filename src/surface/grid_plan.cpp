@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/grid_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "base/array_view.hpp"
+#include "base/errors.hpp"
+#include "geometry/curve_points.hpp"
+#include "parallel/parallel_for.hpp"
+#include "surface/displacement.hpp"
+#include "surface/grids.hpp"
+
+namespace riis {
+namespace {
+
+// A curve may be halved so often. Only requests that no surface of this library could meet reach the limit.
+constexpr int max_rounds = 24;
+
+// The bound counts at most so many parts between two lines.
+constexpr int most_parts = 8;
+
+const Curve &curve_of(const PatchSet &set, const Side &side) { return set.curves[side.curve]; }
+
+// Returns the joints of a side, by the patch's parameter.
+std::vector<double> joints_of(const PatchSet &set, const Side &side) {
+  std::vector<double> joints = curve_of(set, side).joints();
+  if (!side.reversed) return joints;
+  std::reverse(joints.begin(), joints.end());
+  for (double &joint : joints) joint = 1 - joint;
+  return joints;
+}
+
+// Moves lines with the joints between them. Other numbers of joints leave the lines in place.
+std::vector<double> moved(const std::vector<double> &lines, const std::vector<double> &from,
+                          const std::vector<double> &to) {
+  std::vector<double> made = lines;
+  if (from.empty() || from.size() != to.size()) return made;
+  std::size_t k = 0;
+  for (double &u : made) {
+    while (k < from.size() && u >= from[k]) ++k;
+    const double a = k == 0 ? 0 : from[k - 1], b = k == from.size() ? 1 : from[k];
+    const double a_now = k == 0 ? 0 : to[k - 1], b_now = k == from.size() ? 1 : to[k];
+    u = u == a ? a_now : u == 1 ? 1 : a_now + (u - a) / (b - a) * (b_now - a_now);
+  }
+  return made;
+}
+
+// How far a patch of arcs may be from its grid between two lines.
+struct ColumnErrors {
+  double base, edge;     // of the chords
+  double off_line;       // distance of O from the line at the points between
+  double second;         // bound on |O''|
+  double largest, width;
+  // Bounds the distance of O from the line, with O evaluated between n parts.
+  double offset(int n) const {
+    const double step = width / n;
+    return std::min(largest, off_line + 0.125 * step * step * second);
+  }
+};
+
+// A patch of arcs on the lines of a plan.
+class PlannedArcs {
+ public:
+  PlannedArcs(const PatchSet &set, const Patch &patch, const PatchPlan &plan, double max_error)
+      : set_(set),
+        patch_(patch),
+        max_error_(max_error),
+        lines_(moved(plan.u, plan.joints, joints_of(set, patch.v0))),
+        shares_(shares_for(plan.n_parts)),
+        base_(curve_of(set, patch.v0), patch.v0.reversed, shares_),
+        edge_(curve_of(set, patch.v1), patch.v1.reversed, shares_) {
+    for (std::size_t i = 0; i < shares_.size(); ++i)
+      offsets_.push_back(arc_offset(edge_.point(i) - base_.point(i), base_.tangent(i), patch.bulge));
+  }
+
+  std::vector<ColumnErrors> errors() {
+    std::vector<ColumnErrors> made;
+    for (std::size_t i = 0; i + 1 < at_.size(); ++i) made.push_back(column(at_[i], at_[i + 1]));
+    return made;
+  }
+
+  Polyline base_polyline(const std::vector<ColumnErrors> &errors) const {
+    return polyline(base_, curve_of(set_, patch_.v0), errors, &ColumnErrors::base);
+  }
+  Polyline edge_polyline(const std::vector<ColumnErrors> &errors) const {
+    return polyline(edge_, curve_of(set_, patch_.v1), errors, &ColumnErrors::edge);
+  }
+
+  // The neighbours have the same offsets at the ends, to the last bit.
+  ArcLines arc_lines(const std::vector<ColumnErrors> &errors, const std::vector<int> &n_parts) const {
+    ArcLines made;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
+      made.offsets.push_back(offsets_[at_[i]]);
+    }
+    made.offsets.front() = offset_of(patch_.u0), made.offsets.back() = offset_of(patch_.u1);
+    for (std::size_t i = 0; i < errors.size(); ++i) made.errors.push_back(errors[i].offset(n_parts[i]));
+    return made;
+  }
+
+ private:
+  Vec3 offset_of(const Side &side) const { return arc_offset(curve_of(set_, side).pieces().front()); }
+
+  // Returns the lines and the shares between them; at_ tells where the lines are.
+  std::vector<double> shares_for(const std::vector<int> &n_parts) {
+    std::vector<double> shares;
+    for (std::size_t i = 0; i + 1 < lines_.size(); ++i) {
+      at_.push_back(shares.size());
+      for (int k = 0; k < n_parts[i]; ++k)
+        shares.push_back(lines_[i] + static_cast<double>(k) / n_parts[i] * (lines_[i + 1] - lines_[i]));
+    }
+    at_.push_back(shares.size());
+    shares.push_back(1);
+    return shares;
+  }
+
+  ColumnErrors column(std::size_t i, std::size_t j) {
+    const double enough = arc_curve_share * max_error_;
+    ColumnErrors made{base_.chord_error(i, j, enough), edge_.chord_error(i, j, enough), 0, 0, 0,
+                      shares_[j] - shares_[i]};
+    const std::vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
+    const Curve &base = curve_of(set_, patch_.v0), &edge = curve_of(set_, patch_.v1);
+    if (on_base.size() > 1 || on_edge.size() > 1) {
+      // O' may jump inside, which the other bound counts.
+      const auto along = [](const Curve &curve, const Side &side) { return side.reversed ? curve.reversed() : curve; };
+      made.off_line = made.largest = Bulge(along(base, patch_.v0), along(edge, patch_.v1), patch_.bulge)
+                                         .linear_error(shares_[i], shares_[j], offset_share * max_error_);
+      return made;
+    }
+    const OffsetBounds bounds =
+        bound_offset({on_base, on_edge, base.length(), edge.length(), made.width}, patch_.bulge);
+    made.second = bounds.second, made.largest = bounds.largest;
+    for (std::size_t k = i + 1; k < j; ++k) {
+      const double share = static_cast<double>(k - i) / static_cast<double>(j - i);
+      made.off_line = std::max(made.off_line, distance(offsets_[k], mix(offsets_[i], offsets_[j], share)));
+    }
+    return made;
+  }
+
+  Polyline polyline(const CurvePoints &points, const Curve &curve, const std::vector<ColumnErrors> &errors,
+                    double ColumnErrors::*error) const {
+    Polyline made{{}, lines_, {}, curve.length()};
+    for (const std::size_t at : at_) made.points.push_back(points.point(at));
+    for (const ColumnErrors &column : errors) made.errors.push_back(column.*error);
+    return made;
+  }
+
+  const PatchSet &set_;
+  const Patch &patch_;
+  double max_error_;
+  std::vector<double> lines_;
+  std::vector<std::size_t> at_;
+  std::vector<double> shares_;
+  CurvePoints base_, edge_;
+  std::vector<Vec3> offsets_;
+};
+
+// Returns the polyline of a curve with vertices at these shares.
+Polyline polyline_at(const Curve &curve, const std::vector<double> &shares, double enough) {
+  CurvePoints points(curve, false, shares);
+  Polyline made{{}, shares, {}, curve.length()};
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    made.points.push_back(points.point(i));
+    if (i > 0) made.errors.push_back(points.chord_error(i - 1, i, enough));
+  }
+  return made;
+}
+
+// Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
+std::vector<double> halved(const std::vector<double> &values, const std::vector<bool> &is_too_large) {
+  std::vector<double> made;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    made.push_back(values[i]);
+    if (is_too_large[i]) made.push_back(0.5 * (values[i] + values[i + 1]));
+  }
+  made.push_back(values.back());
+  return made;
+}
+
+[[noreturn]] void fail_for(const Patch &patch, double max_error) {
+  fail(RIIS_INVALID_PARAMETER, "no fixed triangulation of patch ", patch.images.front().patch_id,
+       " is right to ", max_error, ", which is tolerance * half_thickness before scaling, at every opening");
+}
+
+class Planner {
+ public:
+  Planner(const std::vector<PatchSet> &states, double max_error, const std::vector<double> &tightness)
+      : states_(states), set_(states.front()), max_error_(max_error), tightness_(tightness) {}
+
+  GridPlan plan() {
+    plan_.shares.resize(set_.curves.size());
+    plan_.patches.resize(set_.patches.size());
+    for (std::size_t i = 0; i < set_.patches.size(); ++i) {
+      plan_.patches[i].has_arcs =
+          std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
+      if (plan_.patches[i].has_arcs)
+        plan_arcs(i);
+      else
+        plan_sides(set_.patches[i]);
+      count(i);
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  double tightness(const Side &side) const { return tightness_.empty() ? 1 : tightness_[side.curve]; }
+
+  // Gives the four curves of a Coons patch their vertices, and the patch its lines.
+  void plan_sides(const Patch &patch) {
+    for (const Side &side : {patch.v0, patch.v1, patch.u0, patch.u1})
+      if (plan_.shares[side.curve].empty()) plan_.shares[side.curve] = vertices(patch, side);
+    PatchPlan &plan = plan_.patches[static_cast<std::size_t>(&patch - set_.patches.data())];
+    plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
+  }
+
+  std::vector<double> vertices(const Patch &patch, const Side &side) const {
+    const double enough = curve_share * max_error_ * tightness(side);
+    std::vector<double> shares{0, 1};
+    for (int round = 0;; ++round) {
+      std::vector<bool> is_too_large(shares.size() - 1, false);
+      for (const PatchSet &state : states_) {
+        const Polyline polyline = polyline_at(curve_of(state, side), shares, enough);
+        for (std::size_t i = 0; i < polyline.errors.size(); ++i)
+          if (!(polyline.errors[i] <= enough)) is_too_large[i] = true;
+      }
+      if (std::find(is_too_large.begin(), is_too_large.end(), true) == is_too_large.end()) return shares;
+      if (round == max_rounds) fail_for(patch, max_error_);
+      shares = halved(shares, is_too_large);
+      check_count(static_cast<double>(shares.size()), max_error_);
+    }
+  }
+
+  // Returns the shares by the patch's parameter. A side that is always collapsed has lines at its ends only.
+  std::vector<double> along(const Side &side) const {
+    const bool is_collapsed = std::none_of(states_.begin(), states_.end(),
+                                           [&](const PatchSet &set) { return curve_of(set, side).length() > 0; });
+    if (is_collapsed) return {0, 1};
+    std::vector<double> shares = plan_.shares[side.curve];
+    if (!side.reversed) return shares;
+    std::reverse(shares.begin(), shares.end());
+    for (double &share : shares) share = 1 - share;
+    return shares;
+  }
+
+  // The shares are binary fractions, so they are equal to the last bit or far apart.
+  std::vector<GridLine> lines(const Side &a, const Side &b) const {
+    const std::vector<double> on_a = along(a), on_b = along(b);
+    std::vector<double> both;
+    std::set_union(on_a.begin(), on_a.end(), on_b.begin(), on_b.end(), std::back_inserter(both));
+    std::vector<GridLine> made;
+    for (const double t : both) made.push_back({t, t, t});
+    return made;
+  }
+
+  // Returns the joints at the first opening, if the lines can move with them: the base has the same number at every
+  // opening, none near an end.
+  std::vector<double> joints(std::size_t patch) const {
+    constexpr double near_end = 0.01;
+    const std::vector<double> first = joints_of(set_, set_.patches[patch].v0);
+    for (const PatchSet &state : states_) {
+      const std::vector<double> here = joints_of(state, state.patches[patch].v0);
+      if (here.size() != first.size() || joints_of(state, state.patches[patch].v1).size() != 0) return {};
+      if (!here.empty() && (here.front() < near_end || here.back() > 1 - near_end)) return {};
+    }
+    return first;
+  }
+
+  // Adds lines until base, edge and O are near enough to linear between them, at every opening. Then takes as few parts for O
+  // as are enough.
+  void plan_arcs(std::size_t patch) {
+    PatchPlan &plan = plan_.patches[patch];
+    plan.joints = joints(patch);
+    plan.u = {0};
+    plan.u.insert(plan.u.end(), plan.joints.begin(), plan.joints.end());
+    plan.u.push_back(1);
+    for (int round = 0;; ++round) {
+      const std::vector<int> wanted = parts_wanted(patch, plan);
+      std::vector<bool> is_too_large;
+      for (const int n : wanted) is_too_large.push_back(n > most_parts);
+      if (std::find(is_too_large.begin(), is_too_large.end(), true) == is_too_large.end()) {
+        plan.n_parts = wanted;
+        break;
+      }
+      if (round == max_rounds) fail_for(set_.patches[patch], max_error_);
+      plan.u = halved(plan.u, is_too_large);
+      check_count(static_cast<double>(plan.u.size()), max_error_);
+    }
+    double offset = 0;
+    for (const PatchSet &state : states_) {
+      PlannedArcs arcs(state, state.patches[patch], plan, max_error_);
+      offset = std::max(offset, arcs.arc_lines({}, {}).largest_offset());
+    }
+    plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
+  }
+
+  // Returns for each two lines the least number of parts that is enough at every opening; more than most_parts if none is.
+  std::vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
+    const Patch &first = set_.patches[patch];
+    const double of_curves = (arc_curve_share + merge_share) * max_error_ * std::min(tightness(first.v0), tightness(first.v1));
+    const double of_offset = offset_share * max_error_;
+    plan.n_parts.assign(plan.u.size() - 1, most_parts);
+    std::vector<int> wanted(plan.u.size() - 1, 1);
+    for (const PatchSet &state : states_) {
+      const std::vector<ColumnErrors> errors = PlannedArcs(state, state.patches[patch], plan, max_error_).errors();
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        const bool are_chords_near = std::max(errors[i].base, errors[i].edge) <= of_curves;
+        while (wanted[i] <= most_parts && !(are_chords_near && errors[i].offset(wanted[i]) <= of_offset)) wanted[i] *= 2;
+      }
+    }
+    return wanted;
+  }
+
+  void count(std::size_t patch) {
+    const PatchPlan &plan = plan_.patches[patch];
+    const std::size_t n_u = plan.has_arcs ? plan.u.size() : plan.lines.u.size();
+    const std::size_t n_v = plan.has_arcs ? plan_.n_rows : plan.lines.v.size();
+    const auto n_images = static_cast<double>(set_.patches[patch].images.size());
+    check_count(n_triangles_ += 2 * static_cast<double>(n_u) * static_cast<double>(n_v) * n_images, max_error_);
+  }
+
+  const std::vector<PatchSet> &states_;
+  const PatchSet &set_;
+  double max_error_;
+  const std::vector<double> &tightness_;
+  GridPlan plan_;
+  double n_triangles_ = 0;
+};
+
+// Makes the grids of one opening on the plan's lines.
+class PlannedGrids {
+ public:
+  PlannedGrids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads, const PatchSet *before)
+      : set_(set), plan_(plan), max_error_(max_error), n_threads_(n_threads), before_(before) {}
+
+  std::vector<QuadGrid> make() {
+    polylines_.resize(set_.curves.size());
+    reversed_.resize(set_.curves.size());
+    parallel_for(view(plan_.shares).size(), n_threads_, [&](std::int64_t i, int) {
+      const std::vector<double> &shares = view(plan_.shares)[i];
+      if (shares.empty()) return;
+      view(polylines_)[i] = polyline_at(view(set_.curves)[i], shares, curve_share * max_error_);
+      view(reversed_)[i] = reversed(view(polylines_)[i]);
+    });
+    std::vector<QuadGrid> grids(set_.patches.size());
+    parallel_for(view(grids).size(), n_threads_, [&](std::int64_t i, int) {
+      const auto patch = static_cast<std::size_t>(i);
+      grids[patch] = plan_.patches[patch].has_arcs ? arcs(patch) : coons(patch);
+    });
+    return grids;
+  }
+
+ private:
+  const Polyline *polyline(const Side &side) const {
+    return side.reversed ? &reversed_[side.curve] : &polylines_[side.curve];
+  }
+
+  QuadGrid coons(std::size_t i) const {
+    const Patch &patch = set_.patches[i];
+    const PatchSides sides{polyline(patch.v0), polyline(patch.v1), polyline(patch.u0), polyline(patch.u1)};
+    const GridLines &lines = plan_.patches[i].lines;
+    QuadGrid made = make_quad_grid(sides, lines);
+    if (before_) made.displacements = displacements({set_, *before_, i, sides, nullptr}, lines);
+    return made;
+  }
+
+  QuadGrid arcs(std::size_t i) const {
+    const PatchPlan &plan = plan_.patches[i];
+    PlannedArcs planned(set_, set_.patches[i], plan, max_error_);
+    const std::vector<ColumnErrors> errors = planned.errors();
+    const Polyline base = planned.base_polyline(errors), edge = planned.edge_polyline(errors);
+    const PatchSides sides{&base, &edge, nullptr, nullptr};
+    const ArcLines lines = planned.arc_lines(errors, plan.n_parts);
+    QuadGrid made = make_arc_grid(sides, lines, plan_.n_rows);
+    if (before_)
+      made.displacements =
+          displacements({set_, *before_, i, sides, &lines.offsets}, lines_of_arc_grid(lines, made));
+    return made;
+  }
+
+  const PatchSet &set_;
+  const GridPlan &plan_;
+  double max_error_;
+  int n_threads_;
+  const PatchSet *before_;
+  std::vector<Polyline> polylines_, reversed_;
+};
+
+}  // namespace
+
+GridPlan plan_grids(const std::vector<PatchSet> &states, double max_error, const std::vector<double> &tightness) {
+  return Planner(states, max_error, tightness).plan();
+}
+
+std::vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
+                                 const PatchSet *before) {
+  return PlannedGrids(set, plan, max_error, n_threads, before).make();
+}
+
+}  // namespace riis

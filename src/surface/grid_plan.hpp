@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grids whose lines stay the same while a valve opens (docs/theory.md, "Fixed triangulation").
+// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all of them; grids
+// on these lines at any opening, with the error that they have there.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geometry/coons.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+struct PatchPlan {
+  bool has_arcs = false;  // at any of the openings
+
+  GridLines lines;  // of a Coons patch
+
+  // Of a patch of arcs: the lines in u and the joints of the base that they move with, both at one of the openings. Between two
+  // joints a line keeps its share of the way. Without joints the lines stay.
+  std::vector<double> u, joints;
+  std::vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error
+};
+
+struct GridPlan {
+  std::vector<std::vector<double>> shares;  // of each curve's length, at its vertices; empty if only arcs end there
+  std::vector<PatchPlan> patches;
+  std::size_t n_rows = 1;  // of patches of arcs
+};
+
+// Makes the plan for patches of the same build (check_same_build) at each of the openings. Keeps each curve within its share of
+// max_error times its tightness. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
+// RIIS_INVALID_PARAMETER if no lines are enough.
+GridPlan plan_grids(const std::vector<PatchSet> &states, double max_error, const std::vector<double> &tightness);
+
+// Makes one grid for each patch on the plan's lines, as the other make_grids does on its own lines. Bounds errors no
+// closer than max_error needs.
+std::vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
+                                 const PatchSet *before);
+
+}  // namespace riis

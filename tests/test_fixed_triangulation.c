@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Triangulations that stay the same while a valve opens: ids, neighbours and places on the patches, the bound at every
+ * opening, refusals that leave the surface as it was. test_tolerance compares them with the smooth mitral valve. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+#include "shapes.h"
+
+static random_source rng;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+
+static riis_surface_options fixed_options(void) {
+  riis_surface_options options = surface_options();
+  options.triangulation = RIIS_TRIANGULATION_FIXED;
+  return options;
+}
+
+static void set_opening(riis_valve *valve, double opening) {
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+}
+
+static riis_valve *opening_aortic(void) {
+  riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
+  CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 30));
+  CHECK_OK(riis_valve_set_scalar(open, "leaflet_radius_in", 1));
+  CHECK_OK(riis_valve_set_scalar(open, "bending_radius_in", 1));
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  free_one_owned(open);
+  return valve;
+}
+
+/* A patch whose side at u = 1 grows from a point. */
+static riis_valve *fan(void) {
+  shape made[2] = {{0}, {0}};
+  for (int k = 0; k < 2; ++k) {
+    const double bend[3][3] = {{0, 1, 0}, {0.5, 1, 0.25}, {1, k, 0.25 * k}};
+    add_line(&made[k], 0, 0, 0, 1, 0, 0);
+    add_curve(&made[k], 2, bend);
+    add_line(&made[k], 0, 0, 0, 0, 1, 0);
+    add_line(&made[k], 1, 0, 0, 1, k, 0.25 * k);
+    add_patch(&made[k], 0, 1, 2, 3);
+  }
+  riis_valve *valve = valve_from(&made[0]), *open = valve_from(&made[1]);
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  free_one_owned(open);
+  return valve;
+}
+
+/* A copy of what stays: it outlives the next update. */
+typedef struct topology {
+  int64_t n_vertices, n_triangles;
+  int64_t vertex_id[3 * 20000], triangle_id[20000];
+  int32_t leaflet_id[20000], patch_id[20000];
+} topology;
+static topology first, now;
+
+static void read_topology(const riis_surface *surface, topology *into) {
+  const int64_t *vertex_id, *triangle_id;
+  const int32_t *leaflet_id, *patch_id;
+  CHECK_OK(riis_surface_vertices(surface, &into->n_vertices, NULL));
+  CHECK_OK(riis_surface_triangles(surface, &into->n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
+  if (into->n_triangles > 20000) fail_msg("%lld triangles", (long long)into->n_triangles);
+  const size_t n = (size_t)into->n_triangles;
+  memcpy(into->vertex_id, vertex_id, 3 * n * sizeof *vertex_id);
+  memcpy(into->triangle_id, triangle_id, n * sizeof *triangle_id);
+  memcpy(into->leaflet_id, leaflet_id, n * sizeof *leaflet_id);
+  memcpy(into->patch_id, patch_id, n * sizeof *patch_id);
+}
+
+static void check_same_topology(const topology *a, const topology *b) {
+  assert_int_equal(a->n_vertices, b->n_vertices);
+  assert_int_equal(a->n_triangles, b->n_triangles);
+  const size_t n = (size_t)a->n_triangles;
+  assert_memory_equal(a->vertex_id, b->vertex_id, 3 * n * sizeof *a->vertex_id);
+  assert_memory_equal(a->triangle_id, b->triangle_id, n * sizeof *a->triangle_id);
+  assert_memory_equal(a->leaflet_id, b->leaflet_id, n * sizeof *a->leaflet_id);
+  assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
+}
+
+/* 101 openings that the lines were chosen at or not: the same triangles, within the bound, at most half as many again as the largest
+ * number of the adapted ones. */
+static void check_triangles_stay(riis_valve *valve, const char *name) {
+  const riis_surface_options options = fixed_options();
+  set_opening(valve, 0.5);
+  riis_surface *fixed = new_surface(valve, &options), *adapted = new_surface(valve, NULL);
+  int64_t most = 0;
+  double largest = 0;
+  read_topology(fixed, &first);
+  for (int i = 0; i <= 100; ++i) {
+    set_opening(valve, i / 100.0);
+    CHECK_OK(riis_surface_update(fixed, valve, NULL));
+    CHECK_OK(riis_surface_update(adapted, valve, NULL));
+    read_topology(fixed, &now);
+    check_same_topology(&first, &now);
+    largest = fmax(largest, info_of(fixed).error_bound);
+    if (info_of(adapted).n_triangles > most) most = info_of(adapted).n_triangles;
+  }
+  printf("%s: %lld fixed triangles, %lld adapted ones at most\n", name, (long long)first.n_triangles, (long long)most);
+  CHECK_AT_MOST(largest, 0.005);
+  assert_true(largest > 0.001); /* the bound is used */
+  assert_true(2 * first.n_triangles <= 3 * most);
+}
+
+static void triangles_stay_at_every_opening(void **state) {
+  (void)state;
+  check_triangles_stay(new_valve("mitral"), "mitral");
+  check_triangles_stay(opening_aortic(), "aortic");
+}
+
+/* Distances to both triangulations differ by no more than the sum of their bounds. */
+static void check_distances(riis_valve *valve) {
+  riis_surface_options options = fixed_options();
+  riis_surface *fixed = new_surface(valve, &options);
+  options = surface_options();
+  options.tolerance = 0.002;
+  riis_surface *fine = new_surface(valve, &options);
+  for (int i = 0; i < 20; ++i) {
+    set_opening(valve, i < 2 ? i : between(0, 1));
+    CHECK_OK(riis_surface_update(fixed, valve, NULL));
+    CHECK_OK(riis_surface_update(fine, valve, NULL));
+    for (int k = 0; k < 400; ++k) {
+      const double x = between(-2, 2), y = between(-2, 2), z = between(-1.5, 2);
+      const double off = closest_to(fixed, x, y, z).distance - closest_to(fine, x, y, z).distance;
+      CHECK_AT_MOST(fabs(off), 0.005 + 0.0002);
+    }
+  }
+}
+
+static void distances_are_within_the_bound(void **state) {
+  (void)state;
+  rng = random_start("test_fixed_triangulation");
+  check_distances(new_valve("mitral"));
+  check_distances(opening_aortic());
+  check_distances(fan());
+}
+
+/* The triangles depend on the valve and on its opening now, not on where the surface began: a restart has the same bits. */
+static void a_restart_has_the_same_bits(void **state) {
+  (void)state;
+  riis_valve *valves[3] = {new_valve("mitral"), opening_aortic(), fan()};
+  const riis_surface_options options = fixed_options();
+  for (int k = 0; k < 3; ++k) {
+    set_opening(valves[k], 0.9);
+    riis_surface *moved = new_surface(valves[k], &options);
+    set_opening(valves[k], 0.37);
+    CHECK_OK(riis_surface_update(moved, valves[k], NULL));
+    check_same_surfaces(moved, new_surface(valves[k], &options));
+  }
+}
+
+/* The lines of a valve without joints stay. So the velocity is the difference of places, but for the chords of lines that end
+ * between two vertices of a side. */
+static void velocity_is_that_of_the_vertices(void **state) {
+  (void)state;
+  rng = random_start("test_fixed_triangulation");
+  riis_valve *valves[2] = {opening_aortic(), fan()};
+  const riis_surface_options options = fixed_options();
+  for (int k = 0; k < 2; ++k) {
+    const double before = between(0.1, 0.8), seconds = 0.01;
+    riis_valve *valve_before = NULL;
+    set_opening(valves[k], before);
+    CHECK_OK(riis_valve_copy(valves[k], &valve_before));
+    own(valve_before);
+    riis_surface *surface = new_surface(valves[k], &options), *moved = new_surface(valves[k], &options);
+    set_opening(valves[k], before + 0.05);
+    CHECK_OK(riis_surface_update_moving(moved, valves[k], valve_before, seconds, NULL, NULL));
+    const surface_content was = surface_content_of(surface), is = surface_content_of(moved);
+    const double *velocity;
+    CHECK_OK(riis_surface_vertex_velocities(moved, NULL, &velocity));
+    assert_non_null(velocity);
+    double largest = 0;
+    for (int64_t i = 0; i < 3 * is.n_vertices; ++i) {
+      CHECK_NEAR(velocity[i], (is.xyz[i] - was.xyz[i]) / seconds, 0.02);
+      largest = fmax(largest, fabs(velocity[i]));
+    }
+    assert_true(largest > 0.5);
+    CHECK_OK(riis_surface_update(surface, valves[k], NULL));
+    check_same_surfaces(surface, moved);
+  }
+}
+
+/* The fan's last triangle has no area at opening 0. */
+static void a_triangle_without_area_keeps_its_id(void **state) {
+  (void)state;
+  riis_valve *valve = fan();
+  const riis_surface_options options = fixed_options();
+  set_opening(valve, 0.5);
+  riis_surface *surface = new_surface(valve, &options);
+  read_topology(surface, &first);
+  set_opening(valve, 0);
+  CHECK_OK(riis_surface_update(surface, valve, NULL));
+  read_topology(surface, &now);
+  const int64_t n_lost = first.n_triangles - now.n_triangles;
+  assert_true(n_lost > 0);
+  assert_int_equal(info_of(surface).n_zero_area, n_lost);
+  int64_t k = 0;
+  for (int64_t i = 0; i < now.n_triangles; ++i, ++k) {
+    while (k < first.n_triangles && first.triangle_id[k] != now.triangle_id[i]) ++k;
+    assert_true(k < first.n_triangles);
+    assert_memory_equal(first.vertex_id + 3 * k, now.vertex_id + 3 * i, 3 * sizeof *now.vertex_id);
+  }
+  for (int i = 0; i < 200; ++i) { /* queries report these ids */
+    const riis_closest closest = closest_to(surface, 0.005 * i, 0.4, 0.3);
+    int64_t at = 0;
+    while (at < now.n_triangles && now.triangle_id[at] != closest.triangle_id) ++at;
+    assert_true(at < now.n_triangles);
+  }
+  set_opening(valve, 0.5);
+  CHECK_OK(riis_surface_update(surface, valve, NULL));
+  read_topology(surface, &now);
+  check_same_topology(&first, &now);
+}
+
+static void a_valve_with_one_state_is_fixed_too(void **state) {
+  (void)state;
+  const riis_surface_options options = fixed_options();
+  riis_valve *valve = new_valve("aortic");
+  riis_surface *surface = new_surface(valve, &options);
+  riis_surface_options moved = options;
+  moved.translation[0] = 3;
+  CHECK_OK(riis_surface_update(surface, valve, &moved));
+  CHECK_NEAR(closest_to(surface, 3, 0, 0).distance, closest_to(new_surface(valve, &options), 0, 0, 0).distance, 1e-12);
+}
+
+static void other_changes_are_refused(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("mitral"), *aortic = opening_aortic(), *other = NULL;
+  riis_surface_options options = fixed_options();
+  set_opening(valve, 0.25);
+  riis_surface *surface = new_surface(valve, &options), *same = new_surface(valve, &options);
+  CHECK_OK(riis_valve_copy(valve, &other));
+  own(other);
+  CHECK_OK(riis_valve_set_scalar(other, "AP_diameter", 3.25));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "AP_diameter is 3.25|fixed for 3|only opening and placement",
+                riis_surface_update(surface, other, NULL));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "AP_diameter is 3.25",
+                riis_surface_update_moving(surface, other, valve, 0.1, NULL, NULL));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "kind aortic|one of the kind mitral", riis_surface_update(surface, aortic, NULL));
+  CHECK_OK(riis_valve_set_scalar(other, "AP_diameter", 3));
+  CHECK_OK(riis_valve_set_open_state(other, valve));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has an open state|fixed for none", riis_surface_update(surface, other, NULL));
+  options.tolerance = 0.01;
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "patch |of the fixed triangulation may be off by |at most 0.001",
+                riis_surface_update(surface, valve, &options));
+  check_same_surfaces(surface, same); /* and frees both */
+  surface = new_surface(valve, NULL);
+  options = fixed_options();
+  CHECK_OK(riis_surface_update(surface, valve, &options));
+  options.tolerance = 0.01;
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "fixed triangulation", riis_surface_update(surface, valve, &options));
+  /* Without the option the surface forgets, and may be fixed anew. */
+  options.triangulation = RIIS_TRIANGULATION_ADAPTED;
+  CHECK_OK(riis_surface_update(surface, valve, &options));
+  options.triangulation = RIIS_TRIANGULATION_FIXED;
+  CHECK_OK(riis_surface_update(surface, valve, &options));
+  CHECK_AT_MOST(info_of(surface).error_bound, 0.001);
+}
+
+static void other_open_states_and_curves_are_refused(void **state) {
+  (void)state;
+  riis_valve *valve = opening_aortic(), *other = opening_aortic(), *open = new_valve("aortic");
+  const riis_surface_options options = fixed_options();
+  riis_surface *surface = new_surface(valve, &options);
+  CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 31));
+  CHECK_OK(riis_valve_set_open_state(other, open));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state is |fixed for ", riis_surface_update(surface, other, NULL));
+  shape square = unit_square();
+  riis_valve *flat = valve_from(&square);
+  square.control[0][0][2] = square.control[2][0][2] = 0.5;
+  surface = new_surface(flat, &options);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "curve 0|fixed for",
+                riis_surface_update(surface, valve_from(&square), NULL));
+}
+
+static void bad_options_are_refused(void **state) {
+  (void)state;
+  riis_surface_options options = fixed_options();
+  riis_valve *valve = new_valve("aortic");
+  riis_surface *surface = NULL;
+  options.triangulation = 2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.triangulation is 2", riis_surface_create(valve, &options, &surface));
+  options = fixed_options();
+  const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t ids[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.triangulation is 1|surface from arrays",
+                riis_surface_create_from_arrays(&arrays, &options, &surface));
+  assert_null(surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_teardown(triangles_stay_at_every_opening, free_owned),
+      cmocka_unit_test_teardown(distances_are_within_the_bound, free_owned),
+      cmocka_unit_test_teardown(a_restart_has_the_same_bits, free_owned),
+      cmocka_unit_test_teardown(velocity_is_that_of_the_vertices, free_owned),
+      cmocka_unit_test_teardown(a_triangle_without_area_keeps_its_id, free_owned),
+      cmocka_unit_test_teardown(a_valve_with_one_state_is_fixed_too, free_owned),
+      cmocka_unit_test_teardown(other_changes_are_refused, free_owned),
+      cmocka_unit_test_teardown(other_open_states_and_curves_are_refused, free_owned),
+      cmocka_unit_test_teardown(bad_options_are_refused, free_owned),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
