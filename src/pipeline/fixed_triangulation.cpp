@@ -11,9 +11,9 @@ namespace {
 
 // The lines are chosen at so many openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// They are tried at the openings half-way between these. Lines that fail there are chosen again with the openings at which they
-// failed, at most so often.
-constexpr int n_trials = 4;
+// They are tried at so many openings between each two of these. Lines that fail there are chosen again with the openings at which
+// they failed, at most so often.
+constexpr int n_between = 3, n_trials = 4;
 
 PatchSet patches_at(Valve &valve, double opening) {
   valve.set("opening", 1, &opening);
@@ -27,8 +27,9 @@ PatchSet patches_at(Valve &valve, double opening) {
 TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
   if (!valve.can_open()) return plan_triangulation({valve.make_patches()}, max_error, n_threads);
   std::vector<PatchSet> states, between;
-  for (int i = 0; i < n_openings; ++i) states.push_back(patches_at(valve, static_cast<double>(i) / (n_openings - 1)));
-  for (int i = 0; i + 1 < n_openings; ++i) between.push_back(patches_at(valve, (i + 0.5) / (n_openings - 1)));
+  constexpr int n_steps = (n_between + 1) * (n_openings - 1);
+  for (int i = 0; i <= n_steps; ++i)
+    (i % (n_between + 1) == 0 ? states : between).push_back(patches_at(valve, static_cast<double>(i) / n_steps));
   TriangulationPlan plan = plan_triangulation(states, max_error, n_threads);
   for (int trial = 0; trial < n_trials; ++trial) {
     const auto failed = std::stable_partition(between.begin(), between.end(), [&](const PatchSet &state) {

@@ -2,7 +2,9 @@
 #include "surface/triangulate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -26,7 +28,7 @@ double split_error_at(const Quad &quad, int level, double enough) {
   // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
-  if (level >= few || at_equal_uv <= enough) return at_equal_uv;
+  if (level >= few || (at_equal_uv <= enough && enough < std::numeric_limits<double>::infinity())) return at_equal_uv;
   const int n = 1 << level;
   double largest = 0;
   for (int row = 0; row < n; ++row)
@@ -57,9 +59,31 @@ Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, doub
   }
 }
 
+// Returns the quad with the ends of its shortest edge in their middle. No point moves by more than half that edge.
+Quad without_shortest_edge(const Quad &quad, double &shortest) {
+  std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};
+  std::size_t at = 0;
+  const auto edge = [&](std::size_t i) { return distance(corner[i], corner[(i + 1) % 4]); };
+  for (std::size_t i = 1; i < 4; ++i) at = edge(i) < edge(at) ? i : at;
+  shortest = edge(at);
+  corner[at] = corner[(at + 1) % 4] = mix(corner[at], corner[(at + 1) % 4], 0.5);
+  return {corner[0], corner[1], corner[2], corner[3]};
+}
+
+// The level is given. At a collapsed side rounding may make a quad fold, at one opening and not at the next; a bound without that
+// edge does not see it.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
+  const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
-  return {level, grid.error(i, j) + split_error_at(quad_of(grid, i, j), level, left)};
+  double error = split_error_at(quad, level, left);
+  if (!(error <= left)) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double shortest = 0;
+    const Quad merged = without_shortest_edge(quad, shortest);
+    // Quad and triangles are each within half the edge of the merged ones.
+    error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
+  }
+  return {level, grid.error(i, j) + error};
 }
 
 template <class Visit>
@@ -464,7 +488,7 @@ std::vector<std::size_t> vanished_anywhere(const std::vector<PatchSet> &states, 
 
 TriangulationPlan plan_triangulation(const std::vector<PatchSet> &states, double max_error, int n_threads) {
   // The rest is for openings between these.
-  constexpr double share = 0.98;
+  constexpr double share = 0.95;
   const PatchSet &middle = states[states.size() / 2];
   for (const PatchSet &state : states) check_same_build(middle, state);
   const Placement in_place{1, no_rotation, {0, 0, 0}};
