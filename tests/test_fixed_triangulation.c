@@ -25,9 +25,8 @@ static void set_opening(riis_valve *valve, double opening) {
 
 static riis_valve *opening_aortic(void) {
   riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
-  CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 30));
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_radius_in", 1));
-  CHECK_OK(riis_valve_set_scalar(open, "bending_radius_in", 1));
+  CHECK_OK(riis_valve_set_scalar(open, "bending_radius_in", 1.1));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   free_one_owned(open);
   return valve;

@@ -48,14 +48,16 @@ struct Level {
   double error;
 };
 
-// Halves a quad until its parts are close enough to their triangles. There is an end, because the twist falls by 4 at each
-// level. No quad that the library accepts needs more than 12 halvings.
+// No quad that the library accepts needs so many halvings.
+constexpr int most_halvings = 13;
+
+// Halves a quad until its parts are close enough to their triangles. There is an end, because the twist falls by 4 at each level.
 Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
   for (int level = 0;; ++level) {
     const double error = split_error_at(quad, level, left);
-    if (error <= left || level == 13) return {level, grid.error(i, j) + error};
+    if (error <= left || level == most_halvings) return {level, grid.error(i, j) + error};
   }
 }
 
@@ -466,11 +468,15 @@ namespace {
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const std::vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
   plan.levels.resize(grids.size());
-  for (std::size_t i = 0; i < grids.size(); ++i) {
-    std::vector<int> needed = with_levels(grids[i], max_error, nullptr).levels;
-    plan.levels[i].resize(needed.size(), 0);
-    std::transform(needed.begin(), needed.end(), plan.levels[i].begin(), plan.levels[i].begin(),
-                   [](int a, int b) { return std::max(a, b); });
+  for (std::size_t patch = 0; patch < grids.size(); ++patch) {
+    const QuadGrid &grid = grids[patch];
+    std::vector<int> &levels = plan.levels[patch];
+    levels.resize(grid.errors.size(), 0);
+    std::size_t at = 0;
+    for_each_quad(grid, [&](std::size_t i, std::size_t j) {
+      int &level = levels[at++];
+      while (level < most_halvings && !(planned_level(grid, i, j, max_error, level).error <= max_error)) ++level;
+    });
   }
 }
 
