@@ -172,6 +172,91 @@ static void update_replaces_the_content(void **state) {
 
 /* A closed body with sharp edges. The inside is also recognised where the closest point is on an edge or a corner. There the
  * plain normal of one face would be wrong. */
+/* Vertices alone move the faces of the last arrays. The surface is that of faces and vertices together. */
+static void vertices_alone_keep_the_faces(void **state) {
+  (void)state;
+  enum { n = 30 };
+  random_source rng = random_start("test_user_surface");
+  double *soup, moved[9 * n], velocity[9 * n];
+  int32_t *soup_ids, leaflet_id[n];
+  random_soup(&rng, n, 0.5, &soup, &soup_ids);
+  for (int i = 0; i < n; ++i) leaflet_id[i] = i % 3;
+  riis_surface_arrays arrays = triangle_arrays(3 * n, soup, n, soup_ids);
+  arrays.leaflet_id = leaflet_id;
+  riis_surface_options options = surface_options();
+  options.flip_normals = 1;
+  riis_surface *surface = surface_from(&arrays, &options);
+  for (int step = 0; step < 5; ++step) {
+    for (int i = 0; i < 9 * n; ++i) {
+      moved[i] = soup[i] + 0.1 * random_between(&rng, -1, 1);
+      velocity[i] = random_between(&rng, -1, 1);
+    }
+    riis_surface_arrays vertices = triangle_arrays(3 * n, moved, 0, NULL);
+    vertices.vx = velocity, vertices.vy = velocity + 1, vertices.vz = velocity + 2;
+    vertices.velocity_stride = 3;
+    CHECK_OK(riis_surface_update_from_arrays(surface, &vertices, NULL));
+    vertices.n_faces = n, vertices.vertex_ids = soup_ids, vertices.leaflet_id = leaflet_id;
+    riis_surface *whole = surface_from(&vertices, &options);
+    const surface_content a = surface_content_of(surface), b = surface_content_of(whole);
+    assert_int_equal(a.n_triangles, b.n_triangles);
+    assert_memory_equal(a.xyz, b.xyz, 9 * n * sizeof *a.xyz);
+    assert_memory_equal(a.vertex_id, b.vertex_id, 3 * n * sizeof *a.vertex_id);
+    assert_memory_equal(a.leaflet_id, b.leaflet_id, n * sizeof *a.leaflet_id);
+    assert_memory_equal(velocity_of(surface), velocity_of(whole), 9 * n * sizeof *velocity);
+    for (int i = 0; i < 50; ++i) {
+      const double p[3] = {random_between(&rng, -2, 2), random_between(&rng, -2, 2), random_between(&rng, -2, 2)};
+      CHECK_SAME(closest_to(surface, p[0], p[1], p[2]).distance, closest_to(whole, p[0], p[1], p[2]).distance);
+    }
+    free_one_owned(whole);
+  }
+}
+
+/* A triangle that had no area for a while comes back. */
+static void a_skipped_triangle_comes_back(void **state) {
+  (void)state;
+  const double open[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, shut[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0};
+  const int32_t faces[6] = {0, 1, 2, 1, 3, 2};
+  const riis_surface_arrays arrays = triangle_arrays(4, open, 2, faces);
+  riis_surface_options options = surface_options();
+  options.zero_area = RIIS_ZERO_AREA_SKIP;
+  riis_surface *surface = surface_from(&arrays, &options);
+  riis_surface_arrays vertices = triangle_arrays(4, shut, 0, NULL);
+  CHECK_OK(riis_surface_update_from_arrays(surface, &vertices, NULL));
+  assert_int_equal(info_of(surface).n_triangles, 1);
+  assert_int_equal(info_of(surface).n_zero_area, 1);
+  vertices.x = open, vertices.y = open + 1, vertices.z = open + 2;
+  CHECK_OK(riis_surface_update_from_arrays(surface, &vertices, NULL));
+  assert_int_equal(info_of(surface).n_triangles, 2);
+  assert_int_equal(closest_to(surface, 0.9, 0.9, 1).triangle_id, 1);
+}
+
+static void vertices_alone_are_refused_without_their_faces(void **state) {
+  (void)state;
+  const double square[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const int32_t faces[3] = {0, 1, 2}, leaflet_id[1] = {0};
+  const riis_surface_arrays arrays = triangle_arrays(3, square, 1, faces);
+  riis_surface_arrays vertices = triangle_arrays(4, square, 0, NULL);
+  riis_surface *surface = surface_from(&arrays, NULL), *none = NULL;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.n_vertices is 4|faces are of 3",
+                riis_surface_update_from_arrays(surface, &vertices, NULL));
+  vertices.n_vertices = 3;
+  vertices.leaflet_id = leaflet_id;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id|without faces",
+                riis_surface_update_from_arrays(surface, &vertices, NULL));
+  vertices.leaflet_id = NULL;
+  vertices.n_faces = 1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.vertex_ids is NULL",
+                riis_surface_update_from_arrays(surface, &vertices, NULL));
+  vertices.n_faces = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.vertex_ids is NULL",
+                riis_surface_create_from_arrays(&vertices, NULL, &none));
+  CHECK_OK(riis_surface_update_from_arrays(surface, &vertices, NULL));
+  riis_valve *valve = new_valve("mitral");
+  CHECK_OK(riis_surface_update(surface, valve, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.vertex_ids is NULL|no faces to keep",
+                riis_surface_update_from_arrays(surface, &vertices, NULL));
+}
+
 static void side_at_edges_and_corners_of_a_wedge(void **state) {
   (void)state;
   /* A thin tetrahedron: dihedral angles far below and above 90 degrees. */
@@ -211,6 +296,9 @@ int main(void) {
       cmocka_unit_test(winding_is_the_callers_unless_flipped),
       cmocka_unit_test(side_of_folded_faces_is_the_triangles_own),
       cmocka_unit_test(update_replaces_the_content),
+      cmocka_unit_test_teardown(vertices_alone_keep_the_faces, free_owned),
+      cmocka_unit_test_teardown(a_skipped_triangle_comes_back, free_owned),
+      cmocka_unit_test_teardown(vertices_alone_are_refused_without_their_faces, free_owned),
       cmocka_unit_test(side_at_edges_and_corners_of_a_wedge),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

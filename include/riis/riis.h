@@ -325,8 +325,10 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_valve *valve_before, double seconds,
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
-/* Replaces the surface's content from arrays; options as in riis_surface_update.
- * Errors: as riis_surface_create_from_arrays. */
+/* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0 and vertex_ids
+ * and leaflet_id NULL the vertices alone move: the surface keeps the faces of its last arrays, checked then.
+ * Errors: as riis_surface_create_from_arrays; RIIS_INVALID_ARGUMENT for other than the faces' n_vertices, or
+ * without such faces. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
 /* Interpolation between keys in time. */

@@ -183,12 +183,17 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
   });
+  surface.faces.leaflet_id.clear();
   if (!is_fixed) surface.fixed.reset();
   if (newly_fixed) surface.fixed = std::move(newly_fixed);
 }
 
-void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, const riis_surface_options &options) {
-  const riis_surface_arrays whole = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
+riis_surface_arrays completed(const riis_surface_arrays *arrays) {
+  return riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
+}
+
+void fill_from_faces(riis_surface &surface, const riis::UserFaces &faces, const riis_surface_arrays &arrays,
+                     const riis_surface_options &options) {
   check_options(options);
   if (options.distance != RIIS_DISTANCE_TRIANGLES)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance,
@@ -199,8 +204,24 @@ void fill_from_arrays(riis_surface &surface, const riis_surface_arrays *arrays, 
                ", which is for valves, but a surface from arrays has the caller's triangles: it must be "
                "RIIS_TRIANGULATION_ADAPTED, 0");
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
-    return riis::make_surface(whole, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
+    return riis::make_surface(faces, arrays, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
   });
+}
+
+void fill_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {
+  riis::UserFaces faces = riis::faces_from_arrays(arrays, std::move(surface.faces_memory));
+  fill_from_faces(surface, faces, arrays, options);
+  surface.faces_memory = std::exchange(surface.faces, std::move(faces));
+}
+
+void update_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {
+  if (arrays.vertex_ids || arrays.n_faces != 0) return fill_from_arrays(surface, arrays, options);
+  if (surface.faces.leaflet_id.empty())
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "arrays.vertex_ids is NULL, but the surface was not made from arrays last: it has no faces to keep");
+  if (arrays.leaflet_id)
+    riis::fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
+  fill_from_faces(surface, surface.faces, arrays, options);
 }
 
 // The arrays of one time, in the surface's memory.
@@ -208,12 +229,14 @@ void fill_from_keyframes(riis_surface &surface, const riis_keyframes *keyframes,
                          const riis_surface_options &options) {
   const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
   frames.at(time, since, surface.frame_xyz, surface.frame_velocity);
-  riis_surface_arrays arrays = frames.faces();
+  riis_surface_arrays arrays = default_arrays;
   const double *xyz = surface.frame_xyz.data(), *velocity = surface.frame_velocity.data();
+  arrays.n_vertices = frames.faces().n_vertices;
   arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
   arrays.vx = velocity, arrays.vy = velocity + 1, arrays.vz = velocity + 2;
   arrays.stride = arrays.velocity_stride = 3;
-  fill_from_arrays(surface, &arrays, options);
+  fill_from_faces(surface, frames.faces(), arrays, options);
+  surface.faces.leaflet_id.clear();
 }
 
 template <class Fill>
@@ -247,7 +270,7 @@ riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, c
                                             riis_surface **surface) {
   return guarded([&] {
     create(options, surface,
-           [&](riis_surface &made, const riis_surface_options &whole) { fill_from_arrays(made, arrays, whole); });
+           [&](riis_surface &made, const riis_surface_options &whole) { fill_from_arrays(made, completed(arrays), whole); });
   });
 }
 
@@ -275,8 +298,8 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
                                             const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    fill_from_arrays(*surface, arrays,
-                     riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+    update_from_arrays(*surface, completed(arrays),
+                       riis::completed<options_size>(options, "options", options ? default_options : surface->options));
   });
 }
 

@@ -10,6 +10,7 @@
 #include "distance/surface.hpp"
 #include "geometry/placement.hpp"
 #include "pipeline/fixed_triangulation.hpp"
+#include "surface/user_arrays.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
@@ -46,7 +47,7 @@ struct SurfaceSeconds {
 // between two valves of different builds. Without a motion the vertices have no velocity.
 SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, Surface &surface);
-SurfaceSeconds make_surface(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request,
-                            Surface &surface);
+SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
+                            const SurfaceRequest &request, Surface &surface);
 
 }  // namespace riis

@@ -18,7 +18,7 @@ constexpr std::array<const char *, 3> axes{"x", "y", "z"};
 }  // namespace
 
 Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_arrays &frames)
-    : keys_("frames", frames.n_keys, frames.time, frames.period, frames.interpolation), faces_(faces) {
+    : keys_("frames", frames.n_keys, frames.time, frames.period, frames.interpolation) {
   check_reserved("frames.reserved", frames.reserved);
   require(frames.xyz, "frames.xyz");
   if (frames.n_vertices != faces.n_vertices)
@@ -42,27 +42,16 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
              axes[static_cast<std::size_t>(i % 3)], " ", frames.xyz[(frames.n_keys - 1) * n + i],
              "; it must be that of the first, ", frames.xyz[i]);
   // The faces are checked once, as a surface from the first frame.
-  faces_.x = frames.xyz;
-  faces_.y = frames.xyz + 1;
-  faces_.z = frames.xyz + 2;
-  faces_.stride = 3;
-  faces_.vx = faces_.vy = faces_.vz = nullptr;
-  triangles_from_arrays(faces_, {1, no_rotation, {0, 0, 0}}, true, false);
+  faces_ = faces_from_arrays(faces);
+  riis_surface_arrays first = faces;
+  first.x = frames.xyz, first.y = frames.xyz + 1, first.z = frames.xyz + 2;
+  first.stride = 3;
+  first.vx = first.vy = first.vz = nullptr;
+  triangles_from_arrays(faces_, first, {1, no_rotation, {0, 0, 0}}, true, false);
 
   time_.assign(frames.time, frames.time + frames.n_keys);
   keys_ = {"frames", frames.n_keys, time_.data(), frames.period, frames.interpolation};
   xyz_.assign(frames.xyz, frames.xyz + frames.n_keys * n);
-  const std::int64_t n_ids = faces.n_faces * faces.corners_per_face;
-  const IntegerArray ids{faces.vertex_ids, faces.vertex_id_bits == 64};
-  vertex_ids_.reserve(static_cast<std::size_t>(n_ids));
-  for (std::int64_t i = 0; i < n_ids; ++i) vertex_ids_.push_back(ids[i]);
-  faces_.vertex_ids = vertex_ids_.data();
-  faces_.vertex_id_bits = 64;
-  if (faces.leaflet_id) {
-    leaflet_id_.assign(faces.leaflet_id, faces.leaflet_id + faces.n_faces);
-    faces_.leaflet_id = leaflet_id_.data();
-  }
-  faces_.x = faces_.y = faces_.z = nullptr;
 }
 
 void Keyframes::at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "laws/key_times.hpp"
+#include "surface/user_arrays.hpp"
 
 namespace riis {
 
@@ -17,22 +18,18 @@ class Keyframes {
   // Copies all arrays. Fails as triangles_from_arrays does for the faces in the first frame, except that faces without area are
   // left to the surfaces. A bad coordinate is named with its frame.
   Keyframes(const riis_surface_arrays &faces, const riis_keyframe_arrays &frames);
-  // The arrays that the faces point to move along; a copy would point to those of the original.
-  Keyframes(Keyframes &&) = default;
+  Keyframes(Keyframes &&) = default;  // the times stay in place
 
   // Writes places and velocities (3, n_vertices). With since == time the velocity is the interpolant's derivative,
   // right-hand at a linear key; else it is the mean from `since` to `time`.
   void at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
-  // The faces, with the caller's other fields; places and velocities are to be filled in.
-  const riis_surface_arrays &faces() const { return faces_; }
+  const UserFaces &faces() const { return faces_; }
 
  private:
   std::vector<double> time_, xyz_;
   KeyTimes keys_;  // checked once; it borrows the times, which stay in place when the vector moves
-  std::vector<std::int64_t> vertex_ids_;
-  std::vector<std::int32_t> leaflet_id_;
-  riis_surface_arrays faces_;
+  UserFaces faces_;
 };
 
 }  // namespace riis
