@@ -20,10 +20,10 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
   fail_file(path, "a surface must be a .vtp, .vtu or .stl file");
 }
 
-void point_at(const Faces &faces, riis_surface_arrays *arrays) {
-  require(arrays, "arrays");
+void point_at(const Faces &faces, const char *name, riis_surface_arrays *arrays) {
+  require(arrays, name);
   // Callers of the first release lack the velocities, which the init function sets to NULL for the others.
-  check_struct_size(arrays->struct_size, offsetof(riis_surface_arrays, vx), sizeof *arrays, "arrays");
+  check_struct_size(arrays->struct_size, offsetof(riis_surface_arrays, vx), sizeof *arrays, name);
   arrays->n_vertices = static_cast<int64_t>(faces.xyz.size() / 3);
   arrays->x = faces.xyz.data();
   arrays->y = arrays->x + 1;

@@ -60,7 +60,7 @@ RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) {
 RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays) {
   return guarded([&](const CaughtOutput &) {
     require(surface, "surface");
-    point_at(surface->faces, arrays);
+    point_at(surface->faces, "arrays", arrays);
   });
 }
 
