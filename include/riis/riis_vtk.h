@@ -140,24 +140,26 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   same order. Polygons and quads are cut as in the first file.
  * - Leaflets are those of the first file. `leaflets` names their cell array, as in
  *   riis_vtk_surface_read_with_leaflets; NULL is riis_leaflet, which need not be there.
- * - An .stl file has no vertices. Corners at exactly one place in the first file are one vertex, and are at
- *   one place in every other file. Triangles have the same order in all files. A surface whose vertices part
- *   on the way, or meet in the first file, needs files with points.
+ * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly one place
+ *   in the first file are one vertex, and must be at one place in every other file. A surface whose leaflets
+ *   touch at corners in the first file, and part later, needs files with points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and what differs, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
 
-/* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, relative to the folder of
- * the .pvd file or absolute. Other attributes do not count, so a time in several parts is refused.
+/* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, absolute or relative to
+ * the folder of the .pvd file. Other attributes do not count, so a time in several parts is refused.
  * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also without any DataSet. */
-RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets, riis_vtk_motion **motion);
+RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
+                                              riis_vtk_motion **motion);
 /* Reads a motion from a list of files.
  *   n_files  1 to 1,000,000
  *   paths    (n_files)
  *   times    (n_files)
  * Errors: RIIS_INVALID_ARGUMENT naming the entry of paths or times. */
-RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths, const double *times,
-                                                const char *leaflets, riis_vtk_motion **motion);
+RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
+                                                const double *times, const char *leaflets,
+                                                riis_vtk_motion **motion);
 /* Reads a motion from one .vtp or .vtu file with displacements. A frame is the points plus a point array of 3
  * components. The points alone are no frame.
  *   prefix   the arrays' names are the prefix, "_" or nothing, and a whole number, such as displacement_0,

@@ -153,8 +153,9 @@ static riis_vtk_motion *list(const char *const endings[n_keys], const char *leaf
 
 static void test_lists(void **state) {
   (void)state;
-  const char *const polydata[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"}, *const mixed[n_keys] = {".vtu", ".vtp", ".vtu", ".vtp"},
-                    *const stl[n_keys] = {".stl", ".STL", ".stl", ".STL"};
+  const char *const polydata[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
+  const char *const mixed[n_keys] = {".vtu", ".vtp", ".vtu", ".vtp"};
+  const char *const stl[n_keys] = {".stl", ".STL", ".stl", ".STL"};
   expect_motion(list(polydata, NULL), -1);
   expect_motion(list(polydata, "riis_leaflet"), -1);
   expect_motion(list(mixed, NULL), -1);
@@ -209,7 +210,8 @@ static void test_same_as_arrays(void **state) {
   riis_keyframes_destroy(&files);
 }
 
-#define FIELD(name, values) "<DataArray type=\"Float64\" Name=\"" name "\" NumberOfTuples=\"4\" format=\"ascii\">" values "</DataArray>"
+#define FIELD(name, values) \
+  "<DataArray type=\"Float64\" Name=\"" name "\" NumberOfTuples=\"4\" format=\"ascii\">" values "</DataArray>"
 
 static void write_displaced(const char *name, const char *const arrays[n_keys], const char *field) {
   static char text[65536];
@@ -237,8 +239,8 @@ static void test_displacements(void **state) {
     expect_motion(motion, -1);
   }
   write_displaced("displaced.vtp", plain, NULL);
-  expect_fine(riis_vtk_motion_read_displacements(scratch_path("displaced.vtp"), "displacement_", n_keys, key_times, "riis_leaflet",
-                                                 &motion));
+  expect_fine(riis_vtk_motion_read_displacements(scratch_path("displaced.vtp"), "displacement_", n_keys, key_times,
+                                                 "riis_leaflet", &motion));
   expect_motion(motion, -1);
 }
 
@@ -290,8 +292,8 @@ static void test_corners_of_stl(void **state) {
   scratch_write_text("apart.stl", apart);
   const char *const part[2] = {scratch_path("together.stl"), scratch_path("apart.stl")}, *const meet[2] = {part[1], part[0]};
   expect_refused(riis_vtk_motion_read_files(2, part, key_times, NULL, &motion), RIIS_FILE_ERROR,
-                 "apart.stl: corner 1 of triangle 0 is at 1 0 0, corner 0 of triangle 1 at 1.5 0 0; in the first file they are at "
-                 "one place: are the triangles in another order?");
+                 "apart.stl: corner 1 of triangle 0 is at 1 0 0, corner 0 of triangle 1 at 1.5 0 0; in the first file "
+                 "they are at one place: are the triangles in another order?");
   assert_null(motion);
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;

@@ -199,7 +199,8 @@ static void expect_displacements(const char *arrays, const char *field, int64_t 
   const double given[2] = {0, 1};
   riis_vtk_motion *motion = NULL;
   sheet_write("moved.vtp", 0, &extras);
-  expect_refused(riis_vtk_motion_read_displacements(scratch_path("moved.vtp"), "d", n_times, n_times ? given : NULL, NULL, &motion),
+  expect_refused(riis_vtk_motion_read_displacements(scratch_path("moved.vtp"), "d", n_times, n_times ? given : NULL,
+                                                    NULL, &motion),
                  status, part_of_text);
   if (status == RIIS_FILE_ERROR) expect_refused(status, RIIS_FILE_ERROR, "moved.vtp: ");
   assert_null(motion);
