@@ -170,6 +170,10 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
+/* Gives the files that were read, one for each frame, or the one with displacements.
+ *   paths  (n_files), as given or with the folder of the .pvd file; valid until the motion's destruction */
+RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files,
+                                           const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
 RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
 /* Destroys the motion. Arrays that point into it end; keyframes made from it stay. */

@@ -15,6 +15,8 @@
 
 struct riis_vtk_motion {
   riis::vtk::Frames frames;
+  std::vector<std::string> files;
+  std::vector<const char *> paths;  // of the files
 };
 
 namespace riis::vtk {
@@ -41,9 +43,11 @@ std::vector<double> checked_times(const char *count, std::int64_t n, const doubl
   return {times, times + n};
 }
 
-riis_vtk_motion *motion_of(Frames frames) {
+riis_vtk_motion *motion_of(Frames frames, std::vector<std::string> files) {
   auto made = std::make_unique<riis_vtk_motion>();
   made->frames = std::move(frames);
+  made->files = std::move(files);
+  for (const std::string &file : made->files) made->paths.push_back(file.c_str());
   return made.release();
 }
 
@@ -59,8 +63,9 @@ RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaf
     require(path, "path");
     require(motion, "motion");
     Collection collection = read_collection(path, caught);
-    *motion = motion_of(
-        frames_of_files(collection.paths, std::move(collection.times), leaflet_array_of(leaflets), caught));
+    Frames frames =
+        frames_of_files(collection.paths, std::move(collection.times), leaflet_array_of(leaflets), caught);
+    *motion = motion_of(std::move(frames), std::move(collection.paths));
   });
 }
 
@@ -73,7 +78,8 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
     std::vector<std::string> files;
     for (std::int64_t i = 0; i < n_files; ++i)
       files.push_back(require(paths[i], ("paths[" + std::to_string(i) + "]").c_str()));
-    *motion = motion_of(frames_of_files(files, std::move(checked), leaflet_array_of(leaflets), caught));
+    Frames frames = frames_of_files(files, std::move(checked), leaflet_array_of(leaflets), caught);
+    *motion = motion_of(std::move(frames), std::move(files));
   });
 }
 
@@ -87,7 +93,16 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
     const bool in_file = n_times == 0 && !times;
     const std::vector<double> given = in_file ? std::vector<double>{} : checked_times("n_times", n_times, times);
     *motion = motion_of(
-        frames_of_displacements(path, prefix, in_file ? nullptr : &given, leaflet_array_of(leaflets), caught));
+        frames_of_displacements(path, prefix, in_file ? nullptr : &given, leaflet_array_of(leaflets), caught), {path});
+  });
+}
+
+RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files,
+                                           const char *const **paths) {
+  return guarded([&](const CaughtOutput &) {
+    require(motion, "motion");
+    if (n_files) *n_files = riis::view(motion->paths).size();
+    if (paths) *paths = motion->paths.data();
   });
 }
 

@@ -480,6 +480,7 @@ static void test_signatures(void **state) {
             (int64_t, const char *const *, const double *, const char *, riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_read_displacements, int32_t,
             (const char *, const char *, int64_t, const double *, const char *, riis_vtk_motion **));
+  SIGNATURE(riis_vtk_motion_files, int32_t, (const riis_vtk_motion *, int64_t *, const char *const **));
   SIGNATURE(riis_vtk_motion_number_pieces, int32_t, (riis_vtk_motion *));
   SIGNATURE(riis_vtk_motion_destroy, void, (riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, riis_keyframe_arrays *));

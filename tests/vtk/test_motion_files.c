@@ -104,6 +104,16 @@ static riis_vtk_motion *collection(const char *name) {
   return motion;
 }
 
+/* Checks that the motion was read from one file for each frame, each of which is there. */
+static void expect_files(const riis_vtk_motion *motion, int64_t n_expected, const char *last) {
+  int64_t n = 0;
+  const char *const *paths = NULL;
+  expect_fine(riis_vtk_motion_files(motion, &n, &paths));
+  assert_int_equal(n, n_expected);
+  for (int64_t i = 0; i < n; ++i) assert_int_equal(access(paths[i], R_OK), 0);
+  assert_string_equal(paths[n - 1], scratch_path(last));
+}
+
 static void test_collections(void **state) {
   (void)state;
   char absolute[2048], *here = getcwd(NULL, 0);
@@ -114,7 +124,9 @@ static void test_collections(void **state) {
   assert_int_equal(mkdir(scratch_path("other folder"), 0700), 0);
   write_frames("frames/", ".vtu");
   write_collection("below.PVD", "frames/", ".vtu");
-  expect_motion(collection("below.PVD"), -1);
+  riis_vtk_motion *below = collection("below.PVD");
+  expect_files(below, n_keys, "frames/frame_3.vtu");
+  expect_motion(below, -1);
   write_collection("other folder/beside.pvd", "../frames/", ".vtu");
   expect_motion(collection("other folder/beside.pvd"), -1);
   snprintf(absolute, sizeof absolute, "%s/%s", here, scratch_path("frames/"));
@@ -161,6 +173,7 @@ static void test_lists(void **state) {
   expect_motion(list(mixed, NULL), -1);
   expect_motion(list(stl, NULL), 0);
   riis_vtk_motion *motion = list(polydata, NULL);
+  expect_files(motion, n_keys, "listed_3.vtp");
   expect_fine(riis_vtk_motion_number_pieces(motion));
   expect_motion(motion, 0);
 }
@@ -233,6 +246,7 @@ static void test_displacements(void **state) {
     const char *name = is_grid ? "displaced.vtu" : "displaced.vtp";
     write_displaced(name, plain, NULL);
     expect_fine(riis_vtk_motion_read_displacements(scratch_path(name), "displacement", n_keys, key_times, NULL, &motion));
+    expect_files(motion, 1, name);
     expect_motion(motion, -1);
     write_displaced(name, steps, FIELD("TimeValue", "0 0.25 0.5 1"));
     expect_fine(riis_vtk_motion_read_displacements(scratch_path(name), "displacement", 0, NULL, NULL, &motion));
