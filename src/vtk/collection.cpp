@@ -2,6 +2,7 @@
 #include "vtk/collection.hpp"
 
 #include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -62,7 +63,7 @@ class CollectionParser : public vtkXMLParser {
     }
   }
 
-  int depth_ = 0, n_right_ = 0;  // of the open elements, the outermost that are on the way
+  std::int64_t depth_ = 0, n_right_ = 0;  // of the open elements, the outermost that are on the way
 };
 vtkStandardNewMacro(CollectionParser);
 

@@ -22,6 +22,8 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
+constexpr std::int64_t first_frames_size = 56;  // of riis_keyframe_arrays, in the first release that had it
+
 template <class... Parts>
 [[noreturn]] void refuse_argument(const Parts &...parts) {
   fail(RIIS_INVALID_ARGUMENT, Message(parts...).text());
@@ -124,7 +126,7 @@ RIIS_API riis_status riis_vtk_motion_arrays(const riis_vtk_motion *motion, riis_
   return guarded([&](const CaughtOutput &) {
     require(motion, "motion");
     require(frames, "frames");
-    check_struct_size(frames->struct_size, sizeof *frames, sizeof *frames, "frames");
+    check_struct_size(frames->struct_size, first_frames_size, sizeof *frames, "frames");
     point_at(motion->frames.faces, "faces", faces);
     frames->n_keys = riis::view(motion->frames.times).size();
     frames->n_vertices = faces->n_vertices;
