@@ -120,8 +120,71 @@ RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays);
 
 /* Writes exactly the triangles that are queried, after placement, to a .vtp file: points Float64; cell arrays
- * riis_leaflet, riis_patch (Int32), riis_triangle (Int64); point array riis_uv (2 x Float64) for valves. */
+ * riis_leaflet, riis_patch (Int32), riis_triangle (Int64); point arrays riis_uv (2 x Float64) for valves and
+ * riis_velocity (3 x Float64) if the surface's last update gave velocities. */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
+
+/* -------------------------------------------------------------------------------------------------------- *
+ * Motion
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* The frames of a surface that moves, such as a patient's valve, read from files: the same faces at several
+ * times. It becomes keyframes, which take the frames' period and interpolation:
+ *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
+ *   riis_surface_arrays_init(&faces, sizeof faces); riis_keyframe_arrays_init(&frames, sizeof frames);
+ *   riis_vtk_motion_arrays(motion, &faces, &frames);
+ *   frames.period = 0.8;
+ *   riis_keyframes_create(&faces, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
+ * All reading functions share these rules:
+ * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the
+ *   same order. Polygons and quads are cut as in the first file.
+ * - Leaflets are those of the first file. `leaflets` names their cell array, as in
+ *   riis_vtk_surface_read_with_leaflets; NULL is riis_leaflet, which need not be there.
+ * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly one place
+ *   in the first file are one vertex, and must be at one place in every other file. A surface whose leaflets
+ *   touch at corners in the first file, and part later, needs files with points.
+ * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
+ * Errors: RIIS_FILE_ERROR naming the file and what differs, with its value. */
+typedef struct riis_vtk_motion riis_vtk_motion;
+
+/* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, absolute or relative to
+ * the folder of the .pvd file. Other attributes do not count, so a time in several parts is refused.
+ * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also without any DataSet. */
+RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
+                                              riis_vtk_motion **motion);
+/* Reads a motion from a list of files.
+ *   n_files  1 to 1,000,000
+ *   paths    (n_files)
+ *   times    (n_files)
+ * Errors: RIIS_INVALID_ARGUMENT naming the entry of paths or times. */
+RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
+                                                const double *times, const char *leaflets,
+                                                riis_vtk_motion **motion);
+/* Reads a motion from one .vtp or .vtu file with displacements. A frame is the points plus a point array of 3
+ * components. The points alone are no frame.
+ *   prefix   the arrays' names are the prefix, "_" or nothing, and a whole number, such as displacement_0,
+ *            displacement_10. Frames are in the order of the numbers, which may have gaps
+ *   n_times  the number of these arrays, or 0
+ *   times    (n_times); NULL, with n_times 0, takes the numbers of the field array TimeValue
+ * Errors: RIIS_INVALID_ARGUMENT naming the entry of times, and for another n_times than arrays. */
+RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
+                                                        const double *times, const char *leaflets,
+                                                        riis_vtk_motion **motion);
+/* Gives the files that were read, one for each frame, or the one with displacements.
+ *   paths  (n_files), as given or with the folder of the .pvd file; valid until the motion's destruction */
+RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files,
+                                           const char *const **paths);
+/* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
+RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
+/* Destroys the motion. Arrays that point into it end; keyframes made from it stay. */
+RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion);
+/* Points the structs at the motion's arrays, for riis_keyframes_create. Their other fields, such as
+ * frames->period, stay.
+ *   faces   filled by its init function before; its vertices are those of the first frame
+ *   frames  filled by its init function before
+ * The arrays are valid until the motion's destruction or riis_vtk_motion_number_pieces. */
+RIIS_API riis_status riis_vtk_motion_arrays(const riis_vtk_motion *motion, riis_surface_arrays *faces,
+                                            riis_keyframe_arrays *frames);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Pictures

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/nearest_name.hpp"
+#include "cli/motion.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
@@ -29,6 +30,7 @@ constexpr const char *footer = R"(Examples:
   riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
+  riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
 
 Marked mesh
   The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
@@ -71,6 +73,11 @@ Valve from patches
   way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
   beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
 
+Motion
+  --surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
+  points move. --time T takes them there, linearly between two files. --surface-output then has the velocities of the points,
+  riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep their order.
+
 Searches
   exhaustive  queries the distance of every node near the valve
   neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
@@ -109,7 +116,7 @@ const std::vector<std::string> distance_names = {"triangles", "sampling", "minim
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
-  std::string distance_tolerance, unit, surface_unit, steps;
+  std::string distance_tolerance, unit, surface_unit, steps, time, period;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
   std::vector<std::string> pictures, views;
@@ -121,10 +128,24 @@ int32_t position_of(const std::string &name, const std::vector<std::string> &nam
   return static_cast<int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+void declare_motion(CLI::App &app, Texts &texts, CLI::Option *surface) {
+  const char *group = "Surface";
+  CLI::Option *time = app.add_option("--time", texts.time, "Time at which to take a motion, --surface FILE.pvd")
+                          ->type_name("T")
+                          ->group(group)
+                          ->needs(surface);
+  app.add_option("--period", texts.period,
+                 "Period of that motion; without one it rests before its first and behind its last time")
+      ->type_name("P")
+      ->group(group)
+      ->needs(time);
+}
+
 void declare_surface(CLI::App &app, Options &options, Texts &texts) {
   const char *group = "Surface";
   CLI::Option *surface =
-      app.add_option("--surface", options.surface, "Surface from a file (.vtp, .vtu, .stl) in place of a valve")
+      app.add_option("--surface", options.surface,
+                     "Surface from a file (.vtp, .vtu, .stl) in place of a valve, or its motion from a .pvd file")
           ->type_name("FILE")
           ->group(group);
   app.add_option(
@@ -173,6 +194,7 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->group(group)
       ->needs(surface);
   app.add_flag("--flip-normals", texts.flip_normals, "Turn every triangle over")->group(group);
+  declare_motion(app, texts, surface);
 }
 
 void declare_placement(CLI::App &app, Texts &texts) {
@@ -518,6 +540,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
   options.opening = parse_opening(texts, options.settings);
   parse_surface_options(texts, options.surface_options);
+  parse_motion(texts.time, texts.period, options);
   parse_units(texts, options);
   check_prefix(options.prefix);
   parse_mark_options(texts, options.mark_options);

@@ -22,6 +22,8 @@ struct Options {
   std::string mesh;                   // "": none
   std::string valve;                  // kind, or a file that ends in .json; used without surface
   std::string surface;                // file; "": the valve
+  std::optional<double> time;         // of a surface that moves
+  double period = 0;                  // of its motion; 0: none
   std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in order
   std::optional<double> opening;      // from 0 to 1

@@ -150,6 +150,15 @@ void check_outputs(const Options &options) {
   if (!options.pictures.empty()) check_display();
 }
 
+void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options) {
+  for (const NamedFile &output : outputs_of(options)) {
+    for (const std::string &file : files) {
+      if (is_same_file(output.path, file))
+        throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is " + what};
+    }
+  }
+}
+
 void write_text(const std::string &path, const std::string &text) {
   if (path == "-") {
     if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};

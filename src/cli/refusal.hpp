@@ -29,7 +29,10 @@ inline std::string with_option_named(const std::string &text) {
       {"options.distance_tolerance ", "--distance-tolerance "},
       {"options.search ", "--search "},
       {"options.n_threads ", "--threads "},
-      {"far_distance ", "--far-distance "}};
+      {"far_distance ", "--far-distance "},
+      {"time ", "--time "},
+      {"frames.period ", "--period "},
+      {"frames.time ", "--period: the time "}};
   for (const auto &[field, option] : options) {
     if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
   }

@@ -98,6 +98,7 @@ std::string surface_title(const Report &report) {
   std::ostringstream out = table_stream();
   out << report.surface_name;
   if (report.opening) out << (is_valve_file(report.surface_name) ? "" : " valve") << ", opening " << *report.opening;
+  if (report.time) out << ", time " << *report.time;
   return out.str();
 }
 
@@ -107,6 +108,7 @@ std::string json_of(const Report &report) {
   nlohmann::ordered_json json = {{"version", riis_version_string()}};
   json[report.opening ? "valve" : "surface"] = report.surface_name;
   if (report.opening) json["opening"] = *report.opening;
+  if (report.time) json["time"] = *report.time;
   if (report.n_leaflets > 0) json["n_leaflets"] = report.n_leaflets;
   json.update({{"n_nodes", marks.n_nodes},
                {"n_cells", report.n_cells},

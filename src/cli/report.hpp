@@ -33,6 +33,7 @@ struct LeakReport {
 struct Report {
   std::string surface_name;       // the valve's kind, or a file
   std::optional<double> opening;  // a surface from a file has none
+  std::optional<double> time;     // of a surface that moves
   std::string mesh_name;          // "": no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;

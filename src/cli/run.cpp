@@ -11,6 +11,7 @@
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
 #include "cli/leaks.hpp"
+#include "cli/motion.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
 #include "cli/progress.hpp"
@@ -107,6 +108,11 @@ int64_t count_leaflets(const riis_surface *surface) {
 }
 
 Surface surface_of_file(const Options &options, Seconds &seconds) {
+  if (options.time) {
+    MovedSurface moved = surface_of_motion(options);
+    seconds.read += moved.seconds;
+    return std::move(moved.surface);
+  }
   const Stage stage("reading " + options.surface, options.quiet);
   const SurfaceFile file = read_surface(options);
   seconds.read += stage.seconds();
@@ -335,6 +341,7 @@ ExitCode run(const Options &options) {
   check(riis_surface_get_info(surface.get(), &report.surface, sizeof report.surface));
   report.surface_name = valve ? options.valve : options.surface;
   if (valve) report.opening = opening_of(valve.get());
+  report.time = options.time;
   if (!options.leaflets.empty()) report.n_leaflets = count_leaflets(surface.get());
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;

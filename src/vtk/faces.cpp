@@ -17,6 +17,7 @@
 #include <vtkPoints.h>
 #include <vtkPolygon.h>
 
+#include "vtk/array_names.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
@@ -24,13 +25,6 @@ namespace {
 
 [[noreturn]] void fail_cell(const std::string &path, vtkIdType cell_id, const std::string &reason) {
   fail_file(path, "cell " + std::to_string(cell_id) + " " + reason);
-}
-
-std::vector<double> coordinates_of(vtkPointSet *data) {
-  const vtkIdType n = data->GetNumberOfPoints();
-  std::vector<double> xyz(static_cast<std::size_t>(3 * n));
-  for (vtkIdType i = 0; i < n; ++i) data->GetPoint(i, xyz.data() + 3 * i);
-  return xyz;
 }
 
 void add_triangle(std::vector<std::int64_t> &triangles, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
@@ -116,22 +110,12 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// Returns "; there are: a, b", for messages about an array that is missing.
-std::string list_of_cell_arrays(vtkPointSet *data) {
-  std::string list;
-  for (int i = 0; i < data->GetCellData()->GetNumberOfArrays(); ++i) {
-    const char *name = data->GetCellData()->GetAbstractArray(i)->GetName();
-    list += (list.empty() ? "; there are: " : ", ") + std::string(name ? name : "one without a name");
-  }
-  return list.empty() ? "; there is none" : list;
-}
-
 // Returns one leaflet id per cell, or none if there is no such array. Fails if that array is required.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data,
                                             const std::string &leaflets_name, bool is_required) {
   const std::string name = "cell array " + leaflets_name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(leaflets_name.c_str());
-  if (!abstract && is_required) fail_file(path, "has no " + name + list_of_cell_arrays(data));
+  if (!abstract && is_required) fail_file(path, "has no " + name + list_of_arrays(data->GetCellData()));
   if (!abstract) return {};
   vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
   if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name + " must hold one number a cell");
@@ -152,6 +136,13 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
 }
 
 }  // namespace
+
+std::vector<double> coordinates_of(vtkPointSet *data) {
+  const vtkIdType n = data->GetNumberOfPoints();
+  std::vector<double> xyz(static_cast<std::size_t>(3 * n));
+  for (vtkIdType i = 0; i < n; ++i) data->GetPoint(i, xyz.data() + 3 * i);
+  return xyz;
+}
 
 Faces faces_of(const std::string &path, vtkPointSet *data, const std::string &leaflets_name, bool is_required) {
   if (data->GetNumberOfCells() == 0) fail_file(path, "holds no faces");

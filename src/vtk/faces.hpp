@@ -18,6 +18,9 @@ struct Faces {
   std::int32_t corners_per_face = 3;
 };
 
+// Returns the places of all points, (3, n).
+std::vector<double> coordinates_of(vtkPointSet *data);
+
 // The path is only for the message. Leaflet ids come from the cell array of the given name, which must exist if it is required.
 Faces faces_of(const std::string &path, vtkPointSet *data, const std::string &leaflets, bool is_required);
 

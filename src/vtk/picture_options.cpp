@@ -49,11 +49,7 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
 }  // namespace
 
 void check_picture_options_size(std::int64_t size) {
-  if (size >= first_size && size <= size_here && size % 8 == 0) return;
-  fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of options is " + std::to_string(size) + "; riis " +
-                                     riis_version_string() + " knows " + std::to_string(first_size) + " to " +
-                                     std::to_string(size_here) +
-                                     ": use its init function, and a header no newer than the library");
+  check_struct_size(size, first_size, size_here, "options");
 }
 
 const riis_vtk_picture_options &default_picture_options() {

@@ -19,18 +19,6 @@ std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   return bits;
 }
 
-// Returns the number of each vertex's place, which is below the number of vertices.
-std::vector<std::size_t> places_of(const Faces &faces) {
-  const std::size_t n = faces.xyz.size() / 3;
-  std::vector<std::size_t> order(n), places(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return place_of(faces, a) < place_of(faces, b); });
-  for (std::size_t i = 1; i < n; ++i)
-    places[order[i]] = places[order[i - 1]] + (place_of(faces, order[i]) == place_of(faces, order[i - 1]) ? 0 : 1);
-  return places;
-}
-
 // Disjoint sets that can be joined. Each set has one member that stands for it.
 class Sets {
  public:
@@ -51,6 +39,17 @@ class Sets {
 };
 
 }  // namespace
+
+std::vector<std::size_t> places_of(const Faces &faces) {
+  const std::size_t n = faces.xyz.size() / 3;
+  std::vector<std::size_t> order(n), places(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return place_of(faces, a) < place_of(faces, b); });
+  for (std::size_t i = 1; i < n; ++i)
+    places[order[i]] = places[order[i - 1]] + (place_of(faces, order[i]) == place_of(faces, order[i - 1]) ? 0 : 1);
+  return places;
+}
 
 std::vector<std::int32_t> pieces_of(const Faces &faces) {
   const std::vector<std::size_t> places = places_of(faces);

@@ -31,13 +31,15 @@ vtkSmartPointer<Array> array_of(const char *name, const Value *values, int n_com
 void add_vertices(const riis_surface *surface, vtkPolyData *data) {
   int64_t n = 0;
   const double *xyz = nullptr;
-  const double *uv = nullptr;
+  const double *uv = nullptr, *velocity = nullptr;
   check_core(riis_surface_vertices(surface, &n, &xyz));
   check_core(riis_surface_vertex_parameters(surface, &n, &uv));
+  check_core(riis_surface_vertex_velocities(surface, &n, &velocity));
   vtkNew<vtkPoints> points;
   points->SetData(array_of<vtkDoubleArray>("Points", xyz, 3, n));
   data->SetPoints(points);
   if (uv) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(uv_array, uv, 2, n));
+  if (velocity) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(velocity_array, velocity, 3, n));
 }
 
 void add_triangles(const riis_surface *surface, vtkPolyData *data) {

@@ -56,6 +56,14 @@ void check_core(riis_status status) {
   if (status != RIIS_OK) fail(status, riis_last_error());
 }
 
+void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name) {
+  if (size >= first_size && size <= size_here && size % 8 == 0) return;
+  fail(RIIS_INVALID_STRUCT_SIZE, std::string("the struct size of ") + name + " is " + std::to_string(size) + "; riis " +
+                                     riis_version_string() + " knows " + std::to_string(first_size) + " to " +
+                                     std::to_string(size_here) +
+                                     ": use its init function, and a header no newer than the library");
+}
+
 class CaughtOutput::Window : public vtkOutputWindow {
  public:
   static Window *New();

@@ -5,6 +5,7 @@
 
 #include <riis/riis.h>
 
+#include <cstdint>
 #include <string>
 
 #include <vtkSmartPointer.h>
@@ -26,6 +27,9 @@ struct Failure {
 [[noreturn]] void fail_file(const std::string &path, const std::string &reason);
 // Passes on an error of the core, with the core's message.
 void check_core(riis_status status);
+// Fails unless a struct has the size of some release: first_size is that of the first release that had it, size_here that of this
+// one.
+void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
 T *require(T *pointer, const char *argument) {

@@ -475,6 +475,15 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_arrays, int32_t, (const riis_vtk_surface *, riis_surface_arrays *));
   SIGNATURE(riis_vtk_surface_write, int32_t, (const riis_surface *, const char *));
+  SIGNATURE(riis_vtk_motion_read_pvd, int32_t, (const char *, const char *, riis_vtk_motion **));
+  SIGNATURE(riis_vtk_motion_read_files, int32_t,
+            (int64_t, const char *const *, const double *, const char *, riis_vtk_motion **));
+  SIGNATURE(riis_vtk_motion_read_displacements, int32_t,
+            (const char *, const char *, int64_t, const double *, const char *, riis_vtk_motion **));
+  SIGNATURE(riis_vtk_motion_files, int32_t, (const riis_vtk_motion *, int64_t *, const char *const **));
+  SIGNATURE(riis_vtk_motion_number_pieces, int32_t, (riis_vtk_motion *));
+  SIGNATURE(riis_vtk_motion_destroy, void, (riis_vtk_motion **));
+  SIGNATURE(riis_vtk_motion_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, riis_keyframe_arrays *));
   SIGNATURE(riis_vtk_picture_options_init, int32_t, (riis_vtk_picture_options *, int64_t));
   SIGNATURE(riis_vtk_draw, int32_t,
             (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, const char *));

@@ -13,8 +13,8 @@ seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
 # Each harness has a share of the time.
-declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [json]=3 [stl]=2 [command_line]=2)
-harnesses=(api vtk vtu vtp json stl command_line)
+declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [json]=3 [stl]=2 [command_line]=2)
+harnesses=(api vtk vtu vtp pvd json stl command_line)
 
 # options HARNESS SECONDS: prints the options of every run of a harness. No input of its size should reach the limits: seconds for
 # a single input, and memory, most of which the address sanitizer holds back.
@@ -29,11 +29,11 @@ options() {
       max_len=1024
       echo -close_fd_mask=1 # it prints its help
       ;;
-    vtu | vtp) dictionary=xml ;;
+    vtu | vtp | pvd) dictionary=xml ;;
   esac
   # VTK's readers leak on inputs that they refuse. Looking for leaks after each such input would take all the time, so it is done
   # only at the end.
-  [[ $1 != vt? && $1 != stl ]] || echo -detect_leaks=0
+  [[ $1 != vt? && $1 != pvd && $1 != stl ]] || echo -detect_leaks=0
   printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=300 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
   [[ ! -f $here/$dictionary.dict ]] || echo -dict="$here/$dictionary.dict"
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of meshes and surfaces in the format RIIS_FUZZ_ENDING. They are read whole, or refused with the file's name and a reason.
-// The content must be usable: nodes make a mesh or are refused for their coordinates, cells make an adjacency, faces make a
-// surface.
+// Files of meshes, surfaces and motions in the format RIIS_FUZZ_ENDING. They are read whole, or refused with the file's name and a
+// reason. The content must be usable: nodes make a mesh or are refused for their coordinates, cells make an adjacency, faces make
+// a surface, frames make keyframes.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -84,12 +84,65 @@ void read_surface() {
   riis_vtk_surface_destroy(&read);
 }
 
+// A motion becomes keyframes. A file that a collection names may be any.
+void use_motion(riis_status status, riis_vtk_motion *read, const char *named) {
+  if (status != RIIS_OK) {
+    const char *text = riis_last_error();
+    EXPECT(status == RIIS_FILE_ERROR || status == RIIS_OUT_OF_MEMORY, "status %d: %s", status, text);
+    EXPECT(read == nullptr, "a refused motion was written");
+    if (status == RIIS_FILE_ERROR) EXPECT(std::strstr(text, named), "no file in '%s'", text);
+    return;
+  }
+  riis_surface_arrays faces;
+  riis_keyframe_arrays frames;
+  EXPECT(riis_surface_arrays_init(&faces, sizeof faces) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_keyframe_arrays_init(&frames, sizeof frames) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_motion_arrays(read, &faces, &frames) == RIIS_OK, "%s", riis_last_error());
+  riis_keyframes *keyframes = nullptr;
+  is_fine(riis_keyframes_create(&faces, &frames, &keyframes), RIIS_INVALID_SURFACE);
+  riis_keyframes_destroy(&keyframes);
+  riis_vtk_motion_destroy(&read);
+}
+
+// The file is both frames of a motion, and may have displacements.
+void read_motion() {
+  static const double times[2] = {0, 1};
+  const char *const paths[2] = {file().path().c_str(), file().path().c_str()};
+  const std::string ending = RIIS_FUZZ_ENDING;
+  riis_vtk_motion *read = nullptr;
+  riis_status status = riis_vtk_motion_read_files(2, paths, times, nullptr, &read);
+  use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
+  if (ending == "stl") return;
+  read = nullptr;
+  status = riis_vtk_motion_read_displacements(paths[0], "d", 0, nullptr, nullptr, &read);
+  use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
+}
+
+// Makes the file frame.stl, which the collection may name.
+void make_frame() {
+  static const fuzz::ScratchFile frame(file(), "frame.stl");
+  static const char facet[] =
+      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+      "endsolid x\n";
+  frame.hold(reinterpret_cast<const std::uint8_t *>(facet), sizeof facet - 1);
+}
+
+void read_collection() {
+  make_frame();
+  riis_vtk_motion *read = nullptr;
+  const riis_status status = riis_vtk_motion_read_pvd(file().path().c_str(), nullptr, &read);
+  use_motion(status, read, ": ");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
   file().hold(bytes, size);
   const std::string ending = RIIS_FUZZ_ENDING;
   if (ending == "vtk" || ending == "vtu") read_mesh();
-  if (ending != "vtk") read_surface();
+  if (ending == "pvd") read_collection();
+  if (ending == "vtk" || ending == "pvd") return 0;
+  read_surface();
+  read_motion();
   return 0;
 }

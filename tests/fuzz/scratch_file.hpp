@@ -20,14 +20,14 @@ class ScratchFile {
     std::string pattern = std::string(folder && *folder ? folder : "/tmp") + "/riis-fuzz-XXXXXX";
     EXPECT(mkdtemp(pattern.data()) != nullptr, "%s cannot be made", pattern.c_str());
     folder_ = pattern;
-    path_ = pattern + "/" + name;
-    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    EXPECT(file_ >= 0, "%s cannot be made", path_.c_str());
+    open_file(pattern + "/" + name);
   }
+  // Makes a file in the folder of another, which must live longer.
+  ScratchFile(const ScratchFile &other, const std::string &name) { open_file(other.folder_ + "/" + name); }
   ~ScratchFile() {
     close(file_);
     std::remove(path_.c_str());
-    rmdir(folder_.c_str());
+    if (!folder_.empty()) rmdir(folder_.c_str());
   }
   ScratchFile(const ScratchFile &) = delete;
   ScratchFile &operator=(const ScratchFile &) = delete;
@@ -40,7 +40,14 @@ class ScratchFile {
   const std::string &path() const { return path_; }
 
  private:
-  std::string folder_, path_;
+  void open_file(const std::string &path) {
+    path_ = path;
+    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    EXPECT(file_ >= 0, "%s cannot be made", path_.c_str());
+  }
+
+  std::string folder_;  // which this file made
+  std::string path_;
   int file_ = -1;
 };
 

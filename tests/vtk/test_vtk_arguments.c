@@ -79,7 +79,8 @@ static void test_struct_sizes(void **state) {
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
   expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), &file));
   expect_refused(riis_vtk_surface_arrays(file, NULL), RIIS_INVALID_ARGUMENT, "arrays is NULL");
-  expect_refused(riis_vtk_surface_arrays(file, &arrays), RIIS_INVALID_STRUCT_SIZE, "struct_size 0");
+  expect_refused(riis_vtk_surface_arrays(file, &arrays), RIIS_INVALID_STRUCT_SIZE,
+                 "the struct size of arrays is 0; ");
   riis_vtk_surface_destroy(&file);
   const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 72, INT64_MAX};
   for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i) {
@@ -107,6 +108,26 @@ static void test_first_picture_options(void **state) {
   expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.jpg")), RIIS_FILE_ERROR, "must be .png");
   options->width = 1;
   expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
+}
+
+/* As above, for the arrays of a surface. */
+static void test_first_surface_arrays(void **state) {
+  (void)state;
+  enum { first_size = 88 };
+  unsigned char bytes[sizeof(riis_surface_arrays)];
+  memset(bytes, 0xA5, sizeof bytes);
+  riis_surface_arrays *arrays = (riis_surface_arrays *)(void *)bytes;
+  riis_vtk_surface *file = NULL;
+  riis_surface *made = NULL;
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
+  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), &file));
+  expect_fine(riis_surface_arrays_init(arrays, first_size));
+  expect_fine(riis_vtk_surface_arrays(file, arrays));
+  assert_int_equal(arrays->struct_size, first_size);
+  for (size_t i = first_size; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0xA5);
+  expect_fine(riis_surface_create_from_arrays(arrays, NULL, &made));
+  riis_surface_destroy(&made);
+  riis_vtk_surface_destroy(&file);
 }
 
 static void expect_bad_edges(const char *part_of_text, const riis_vtk_mesh *drawn, int64_t n, const int64_t *edges) {
@@ -214,6 +235,7 @@ int main(void) {
       cmocka_unit_test(test_null),
       cmocka_unit_test(test_struct_sizes),
       cmocka_unit_test(test_first_picture_options),
+      cmocka_unit_test(test_first_surface_arrays),
       cmocka_unit_test(test_leaking_edges),
       cmocka_unit_test(test_many_views),
       cmocka_unit_test(test_picture_options),

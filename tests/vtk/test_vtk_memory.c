@@ -9,6 +9,7 @@
 
 #include "expect.h"
 #include "failing_memory.h"
+#include "moving_sheet.h"
 #include "scratch.h"
 #include "vtk_shim.h"
 
@@ -16,6 +17,7 @@
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;
+static riis_vtk_motion *motion;
 /* The surface exists for all scenarios. */
 static riis_surface *surface;
 static riis_mark_result *result;
@@ -35,6 +37,17 @@ static riis_status write_mesh(void) { return riis_vtk_mesh_write(mesh, scratch_p
 static riis_status write_surface(void) { return riis_vtk_surface_write(surface, scratch_path("written.vtp")); }
 static riis_status read_vtp(void) { return riis_vtk_surface_read(scratch_path("surface.vtp"), &read_surface); }
 static riis_status read_stl(void) { return riis_vtk_surface_read(scratch_path("surface.stl"), &read_surface); }
+static riis_status read_pvd(void) { return riis_vtk_motion_read_pvd(scratch_path("motion.pvd"), NULL, &motion); }
+static riis_status read_stls(void) {
+  static const double times[2] = {0, 1};
+  const char *const paths[2] = {scratch_path("surface.stl"), scratch_path("surface.stl")};
+  return riis_vtk_motion_read_files(2, paths, times, NULL, &motion);
+}
+static riis_status read_displacements(void) {
+  return riis_vtk_motion_read_displacements(scratch_path("displaced.vtp"), "d", 0, NULL, NULL, &motion);
+}
+static void motion_read(void) { expect_fine(read_pvd()); }
+static riis_status number_pieces(void) { return riis_vtk_motion_number_pieces(motion); }
 
 static const struct {
   const char *name;
@@ -44,12 +57,15 @@ static const struct {
     {"read .vtu", nothing, read_vtu}, {"read .vtk", nothing, read_vtk},      {"adjacency", mesh_read, make_adjacency},
     {"marks", mesh_read, set_marks},  {"write .vtu", marks_set, write_mesh}, {"write .vtp", nothing, write_surface},
     {"read .vtp", nothing, read_vtp}, {"read .stl", nothing, read_stl},
+    {"read .pvd", nothing, read_pvd}, {"read .stl files", nothing, read_stls},
+    {"displacements", nothing, read_displacements}, {"pieces", motion_read, number_pieces},
 };
 
 static void destroy(void) {
   riis_adjacency_destroy(&adjacency);
   riis_vtk_mesh_destroy(&mesh);
   riis_vtk_surface_destroy(&read_surface);
+  riis_vtk_motion_destroy(&motion);
   remove(scratch_path("written.vtu"));
   remove(scratch_path("written.vtp"));
 }
@@ -72,6 +88,7 @@ static void the_components_memory_runs_out(void **state) {
         const riis_adjacency *const no_adjacency = adjacency;
         const riis_vtk_surface *const no_surface = read_surface;
         const riis_vtk_mesh *const mesh_before = mesh;
+        const riis_vtk_motion *const motion_before = motion;
         memory_fail(MEMORY_OF_LIBRARY, n, and_all_after);
         const riis_status status = scenarios[i].call();
         n_failed = memory_stop_failing();
@@ -79,7 +96,8 @@ static void the_components_memory_runs_out(void **state) {
         if (n_failed > 0) {
           if (status != RIIS_OUT_OF_MEMORY || strcmp(riis_last_error(), "out of memory") != 0)
             fail_msg("%s, allocation %d: %s (%s)", name, (int)n, riis_status_name(status), riis_last_error());
-          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before)
+          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before ||
+              motion != motion_before)
             fail_msg("%s, allocation %d: a handle was written", name, (int)n);
           if (scratch_n_files() != n_files) fail_msg("%s, allocation %d: leaves a file", name, (int)n);
           expect_fine(scenarios[i].call());
@@ -117,6 +135,15 @@ static int set_up(void **state) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 6, lower, upper, 1), 1);
   assert_int_equal(shim_write_box(scratch_path("box.vtk"), SHIM_LEGACY_BINARY, 6, lower, upper, 0), 1);
   scratch_write_text("surface.stl", triangle);
+  static char displacements[16384];
+  sheet_displacement(sheet_displacement(displacements, "d_0", 0), "d_1", 1);
+  const sheet_extras extras = {
+      displacements,
+      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"2\" format=\"ascii\">0 1</DataArray>"};
+  sheet_write("displaced.vtp", 0, &extras);
+  scratch_write_text("motion.pvd",
+                     "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"displaced.vtp\"/>"
+                     "<DataSet timestep=\"1\" file=\"displaced.vtp\"/></Collection></VTKFile>\n");
   expect_fine(riis_vtk_surface_write(surface, scratch_path("surface.vtp")));
   mesh_read();
   expect_fine(riis_vtk_mesh_nodes(mesh, &n_nodes, NULL, &xyz));

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the path of a file with a surface. Out: its data set, with all cells checked, for faces_of; and the arrays for the core
+// from its faces.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <string>
+
+#include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
+
+#include "vtk/faces.hpp"
+#include "vtk/vtk_errors.hpp"
+
+namespace riis::vtk {
+
+// Reads a .vtp, .vtu or .stl file.
+vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
+
+// Points the caller's struct, which any release of riis.h may have compiled, at the faces. Fails if no init function filled it,
+// and calls it by its name among the arguments.
+void point_at(const Faces &faces, const char *name, riis_surface_arrays *arrays);
+
+}  // namespace riis::vtk

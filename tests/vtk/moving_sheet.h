@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * A sheet of triangles whose vertices move in straight lines, and its files. Its coordinates at the times 0, 1/4, 1/2 and 1 are
+ * whole multiples of 1/64, so every file holds them exactly. */
+#ifndef RIIS_TESTS_MOVING_SHEET_H
+#define RIIS_TESTS_MOVING_SHEET_H
+
+#include <stdint.h>
+
+enum { sheet_n_vertices = 20, sheet_n_triangles = 24 };
+
+/* The vertex at a time, and its velocity. */
+void sheet_vertex(int64_t vertex, double time, double xyz[3], double velocity[3]);
+/* The corners of a triangle, and the leaflet that the files give it, 3 or 7. */
+void sheet_triangle(int64_t triangle, int64_t corners[3], int32_t *leaflet);
+
+/* Writes the sheet at a time into the scratch folder. Text goes between the elements of a .vtp or .vtu file.
+ *   name  ends in .vtp, .vtu or .stl (binary), or .STL (ASCII) */
+typedef struct sheet_extras {
+  const char *point_data, *field_data; /* XML, or NULL */
+} sheet_extras;
+void sheet_write(const char *name, double time, const sheet_extras *extras);
+
+/* Appends a point array with the displacements from the sheet at time 0 to that at a time. Returns the end of the text. */
+char *sheet_displacement(char *text, const char *name, double time);
+
+#endif
