@@ -100,15 +100,10 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
-    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
-    integer :: stat
+    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
     code = RIIS_OK
-    if (present(node_mask)) then
-      allocate (bytes(size(node_mask, kind=int64)), stat=stat)
-      code = out_of_memory(stat)
-      if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask)
-    end if
+    call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_logical
@@ -147,12 +142,10 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
-    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
-    integer :: stat
+    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
-    allocate (bytes(size(node_mask, kind=int64)), stat=stat)
-    code = out_of_memory(stat)
-    if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask /= 0)
+    code = RIIS_OK
+    call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_int32

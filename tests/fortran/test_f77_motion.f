@@ -1,0 +1,299 @@
+C     SPDX-License-Identifier: Apache-2.0
+C     Laws of opening, frames in time and surfaces from arrays, as a
+C     Fortran 77 code calls them, against closed forms.
+      PROGRAM TF77M
+      CALL TABLE
+      CALL TIMES
+      CALL SWITCH
+      CALL ANGLE
+      CALL FRAMES
+      CALL ARRAYS
+      PRINT *, 'motion by external subroutines'
+      END
+
+C     Two numbers that have to be equal.
+      SUBROUTINE NEAR(A, B, TEXT)
+      DOUBLE PRECISION A, B
+      CHARACTER*(*) TEXT
+      IF (ABS(A - B) .GT. 1D-12) CALL FAILED(TEXT)
+      END
+
+      SUBROUTINE TABLE
+      INCLUDE 'riisf.h'
+      DOUBLE PRECISION T(3), O(3), OPEN, RATE
+      INTEGER STAT
+      DATA T /0D0, 0.25D0, 1D0/, O /0.2D0, 1D0, 0.2D0/
+      CALL RIISF_OPENING_FROM_TABLE(3, T, O, 1D0,
+     &  RIIS_INTERPOLATION_LINEAR, 2.125D0, OPEN, RATE, STAT)
+      CALL OK(STAT)
+      CALL NEAR(OPEN, 0.6D0, 'an opening by keys')
+      CALL NEAR(RATE, 3.2D0, 'its rate')
+      CALL RIISF_OPENING_FROM_TABLE(3, T, O, 0D0,
+     &  RIIS_INTERPOLATION_CUBIC, 9D0, OPEN, RATE, STAT)
+      CALL OK(STAT)
+      CALL NEAR(OPEN, 0.2D0, 'behind the last key')
+      CALL RIISF_OPENING_FROM_TABLE(3, T, O, 0.5D0, 0, 0D0, OPEN, RATE,
+     &  STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'key 2 is 1, beyond the')
+      CALL RIISF_OPENING_FROM_TABLE(3, O, T, 0D0, 0, 0D0, OPEN, RATE,
+     &  STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'table.time of key 2')
+      CALL RIISF_OPENING_FROM_TABLE(0, T, O, 0D0, 0, 0D0, OPEN, RATE,
+     &  STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'table.n_keys is 0')
+      END
+
+      SUBROUTINE TIMES
+      INCLUDE 'riisf.h'
+      DOUBLE PRECISION OPEN, RATE
+      INTEGER STAT
+      CALL RIISF_OPENING_FROM_TIMES(0.45D0, 0.05D0, 0.9D0, 0.1D0,
+     &  0.1D0, 0.9D0, 1D0, 3.475D0, OPEN, RATE, STAT)
+      CALL OK(STAT)
+      CALL NEAR(OPEN, 0.5D0, 'half open')
+      IF (ABS(RATE - 0.8D0 * 1.875D0 / 0.05D0) .GT. 1D-9)
+     &  CALL FAILED('the rate of a ramp')
+      CALL RIISF_OPENING_FROM_TIMES(0.45D0, 0.05D0, 0.47D0, 0.1D0,
+     &  0D0, 1D0, 0D0, 0D0, OPEN, RATE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'closing_start is 0.47')
+      CALL NEAR(OPEN, 0.5D0, 'a refused call writes nothing')
+      END
+
+C     To the end at once, and from a state that went through a file.
+      SUBROUTINE SWITCH
+      INCLUDE 'riisf.h'
+      DOUBLE PRECISION S(7), ALL(7), T
+      INTEGER STAT, PHASE, ALLPHA, I
+      CALL RIISF_OPENING_SWITCH_INIT(S, PHASE, STAT)
+      CALL OK(STAT)
+      IF (PHASE .NE. RIIS_PHASE_CLOSING .OR. ABS(S(2)) .GT. 0D0)
+     &  CALL FAILED('closed at first')
+      CALL RIISF_OPENING_SWITCH_INIT(ALL, ALLPHA, STAT)
+      DO 10 I = 1, 200
+        T = 0.002D0 * I
+        CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
+     &    0.003D0, 0.02D0, T, SIN(2D1 * T), COS(21D0 * T), ALL, ALLPHA,
+     &    STAT)
+        CALL OK(STAT)
+   10 CONTINUE
+      DO 20 I = 1, 200
+        T = 0.002D0 * I
+        CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
+     &    0.003D0, 0.02D0, T, SIN(2D1 * T), COS(21D0 * T), S, PHASE,
+     &    STAT)
+        CALL OK(STAT)
+        IF (I .EQ. 15) THEN
+          IF (PHASE .NE. RIIS_PHASE_OPENING .OR. S(2) .LT. 0.1D0 .OR.
+     &      S(2) .GT. 0.9D0) CALL FAILED('opening')
+          OPEN (UNIT=11, STATUS='SCRATCH', FORM='UNFORMATTED')
+          WRITE (11) S, PHASE
+          CALL RIISF_OPENING_SWITCH_INIT(S, PHASE, STAT)
+          REWIND (11)
+          READ (11) S, PHASE
+          CLOSE (11)
+        END IF
+   20 CONTINUE
+      DO 30 I = 1, 7
+        IF (ABS(S(I) - ALL(I)) .GT. 0D0) CALL FAILED('a restart')
+   30 CONTINUE
+      IF (PHASE .NE. ALLPHA) CALL FAILED('the phase after a restart')
+      CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
+     &  -1D0, 0D0, 1D0, 0D0, 0D0, S, PHASE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'filter_seconds is -1')
+      CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
+     &  0D0, 0D0, 1D0, 0D0, 0D0, S, 5, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'before.phase is 5')
+      CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
+     &  0D0, 0D0, 0.1D0, 0D0, 0D0, S, PHASE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'time is 0.1')
+      CALL NEAR(S(1), 0.4D0, 'refused calls write nothing')
+      END
+
+C     Without a drive, friction stops the leaflet.
+      SUBROUTINE ANGLE
+      INCLUDE 'riisf.h'
+      DOUBLE PRECISION S(7), WAY
+      INTEGER STAT, I
+      CALL RIISF_OPENING_ANGLE_INIT(S, STAT)
+      CALL OK(STAT)
+      S(4) = 10D0
+      S(5) = 400D0
+      DO 10 I = 1, 100
+        CALL RIISF_OPENING_ANGLE_ADVANCE(5500D0, 2D0, 50D0, 7D0, 5D0,
+     &    70D0, 0.001D0 * I, 0D0, 0D0, S, STAT)
+        CALL OK(STAT)
+   10 CONTINUE
+      WAY = 8D0 * (1D0 - EXP(-5D0))
+      IF (ABS(S(4) - 10D0 - WAY) .GT. 1D-5 .OR.
+     &  ABS(S(5) - 400D0 * EXP(-5D0)) .GT. 1D-5) CALL FAILED('an angle')
+      CALL NEAR(S(2), (S(4) - 5D0) / 65D0, 'its opening')
+      CALL NEAR(S(3), S(5) / 65D0, 'its rate')
+      CALL RIISF_OPENING_ANGLE_ADVANCE(5500D0, 2D0, 50D0, 7D0, 5D0,
+     &  4D0, 1D0, 0D0, 0D0, S, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'law.angle_max is 4')
+      CALL RIISF_OPENING_ANGLE_ADVANCE(5500D0, 2D0, 50D0, 7D0, 5D0,
+     &  70D0, 1D6, 1D0, 0D0, S, STAT)
+      CALL WANT(STAT, RIIS_LIMIT_EXCEEDED, 'time is 999999.9')
+      CALL NEAR(S(1), 0.1D0, 'refused calls write nothing')
+      END
+
+C     A square between z = 0 and z = 0.3. It marks nodes above it, which
+C     tells where it is, and how fast it moves.
+      SUBROUTINE FRAMES
+      INCLUDE 'riisf.h'
+      INTEGER*8 KEYS, KEYS2, SURF, BIG, IDSL(3,2)
+      DOUBLE PRECISION XYZ(3,4,3), T(3), AXIS(3), ZERO(3)
+      INTEGER STAT, IDS(3,2), I, J
+      DATA KEYS, KEYS2, SURF /3*0/, AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
+      DATA T /0D0, 0.25D0, 1D0/, IDS /1, 2, 3, 1, 3, 4/
+      CALL CORNER(XYZ, 0D0)
+      CALL CORNER(XYZ(1,1,2), 0.3D0)
+      CALL CORNER(XYZ(1,1,3), 0D0)
+      CALL RIISF_KEYFRAMES_CREATE(4, 3, T, XYZ, 1D0,
+     &  RIIS_INTERPOLATION_LINEAR, 3, 2, IDS, 1, KEYS, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_FROM_KEYFRAMES(KEYS, 0.125D0, 0.125D0, 0.5D0,
+     &  0.05D0, 2D0, AXIS, 0D0, ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL ABOVE(SURF, 0.3D0, 2.4D0)
+      CALL RIISF_SURFACE_UPDATE_KEYFRAMES(SURF, KEYS, 0.25D0, 0D0, STAT)
+      CALL OK(STAT)
+      CALL ABOVE(SURF, 0.6D0, 2.4D0)
+      CALL RIISF_SURFACE_UPDATE_KEYFRAMES(SURF, KEYS, 7.625D0, 7.25D0,
+     &  STAT)
+      CALL OK(STAT)
+      CALL ABOVE(SURF, 0.3D0, -0.8D0)
+      DO 20 J = 1, 2
+        DO 10 I = 1, 3
+          IDSL(I,J) = IDS(I,J) - 1
+   10   CONTINUE
+   20 CONTINUE
+      BIG = 4
+      CALL RIISF_KEYFRAMES_CREATE_64(BIG, 3, T, XYZ, 0D0,
+     &  RIIS_INTERPOLATION_LINEAR, 3, BIG / 2, IDSL, 0, KEYS2, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_UPDATE_KEYFRAMES(SURF, KEYS2, 0.125D0, 0.125D0,
+     &  STAT)
+      CALL OK(STAT)
+      CALL ABOVE(SURF, 0.3D0, 2.4D0)
+      CALL RIISF_KEYFRAMES_DESTROY(KEYS2)
+      CALL RIISF_KEYFRAMES_DESTROY(KEYS2)
+      IF (KEYS2 .NE. 0) CALL FAILED('destroyed keyframes')
+      CALL RIISF_KEYFRAMES_CREATE(4, 3, T, XYZ, 0.5D0, 0, 3, 2, IDS, 1,
+     &  KEYS2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'frames.time of key 2')
+      CALL RIISF_KEYFRAMES_CREATE(3, 3, T, XYZ, 0D0, 0, 3, 2, IDS, 1,
+     &  KEYS2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_SURFACE, 'corner 2 of face 1 is 4')
+      IF (KEYS2 .NE. 0) CALL FAILED('refused keyframes')
+      CALL RIISF_SURFACE_UPDATE_KEYFRAMES(SURF, KEYS2, 0D0, 0D0, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'keyframes is NULL')
+      CALL RIISF_SURFACE_FROM_KEYFRAMES(KEYS, 1D31, 0D0, 0.5D0,
+     &  0.05D0, 2D0, AXIS, 0D0, ZERO, KEYS2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'time is 1e+31')
+      CALL RIISF_KEYFRAMES_DESTROY(KEYS)
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+      SUBROUTINE ARRAYS
+      INCLUDE 'riisf.h'
+      INTEGER*8 SURF, SURF2, BIG, QUADL(4,1)
+      DOUBLE PRECISION XYZ(3,4), X(4), Y(4), Z(4), V(3,4), ZERO(4)
+      DOUBLE PRECISION AXIS(3)
+      INTEGER STAT, QUAD(4,1), FLAT(3,1), I
+      DATA SURF, SURF2 /2*0/, AXIS /0D0, 0D0, 1D0/, ZERO /4*0D0/
+      DATA QUAD /0, 1, 2, 3/, FLAT /1, 2, 2/
+      CALL CORNER(XYZ, 0.1D0)
+      BIG = 4
+      DO 10 I = 1, 4
+        X(I) = XYZ(1,I)
+        Y(I) = XYZ(2,I)
+        Z(I) = 0.2D0
+        V(1,I) = 0D0
+        V(2,I) = 0D0
+        V(3,I) = 1.5D0
+        QUADL(I,1) = I
+   10 CONTINUE
+      CALL RIISF_SURFACE_FROM_ARRAYS(4, X, Y, Z, 1, 4, 1, QUAD, 0,
+     &  0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_UPDATE_ARRAYS(SURF, 4, X, Y, Z, 1, ZERO, ZERO,
+     &  ZERO, 1, 4, 1, QUAD, 0, STAT)
+      CALL OK(STAT)
+      CALL ABOVE(SURF, 0.4D0, 0D0)
+      CALL RIISF_SURFACE_UPDATE_ARRAYS_64(SURF, BIG, XYZ(1,1), XYZ(2,1),
+     &  XYZ(3,1), BIG - 1, V(1,1), V(2,1), V(3,1), BIG - 1, 4, BIG / 4,
+     &  QUADL, 1, STAT)
+      CALL OK(STAT)
+      CALL ABOVE(SURF, 0.2D0, 3D0)
+      CALL RIISF_SURFACE_FROM_ARRAYS_64(BIG, XYZ(1,1), XYZ(2,1),
+     &  XYZ(3,1), BIG - 1, 4, BIG / 4, QUADL, 1, 0.5D0, 0.05D0, 2D0,
+     &  AXIS, 0D0, ZERO, SURF2, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_UPDATE_ARRAYS(SURF2, 4, XYZ(1,1), XYZ(2,1),
+     &  XYZ(3,1), 3, ZERO, ZERO, V, 1, 4, 1, QUAD, 2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'index_base is 2')
+      CALL RIISF_SURFACE_DESTROY(SURF2)
+      CALL RIISF_SURFACE_FROM_ARRAYS(4, X, Y, Z, 1, 3, 1, FLAT, 1,
+     &  0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, SURF2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_SURFACE, 'zero area')
+      CALL RIISF_SURFACE_FROM_ARRAYS(4, X, Y, Z, 1, 4, 1, QUAD, 1,
+     &  0.5D0, 0.05D0, 2D0, AXIS, 0D0, ZERO, SURF2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_SURFACE, 'corner 0 of face 0 is 0')
+      CALL RIISF_SURFACE_FROM_ARRAYS(4, X, Y, Z, 1, 4, 1, QUAD, 0,
+     &  0.5D0, 0.05D0, -2D0, AXIS, 0D0, ZERO, SURF2, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'options.scale is -2')
+      CALL RIISF_SURFACE_UPDATE_ARRAYS(SURF, 4, X, Y, Z, 1, ZERO, ZERO,
+     &  ZERO, 0, 4, 1, QUAD, 0, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'velocity_stride is 0')
+      IF (SURF2 .NE. 0) CALL FAILED('a refused surface')
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+C     The corners of a square from -1 to 1, at a height.
+      SUBROUTINE CORNER(XYZ, HEIGHT)
+      DOUBLE PRECISION XYZ(3,4), HEIGHT, SQUARE(2,4)
+      INTEGER I
+      DATA SQUARE /-1D0, -1D0, 1D0, -1D0, 1D0, 1D0, -1D0, 1D0/
+      DO 10 I = 1, 4
+        XYZ(1,I) = SQUARE(1,I)
+        XYZ(2,I) = SQUARE(2,I)
+        XYZ(3,I) = HEIGHT
+   10 CONTINUE
+      END
+
+C     The surface has to be this high over the z axis, and to rise with
+C     this speed: so say a node at z = 0.1 and one at z = 0.7.
+      SUBROUTINE ABOVE(SURF, HEIGHT, SPEED)
+      INCLUDE 'riisf.h'
+      INTEGER*8 SURF, MESH, RES
+      DOUBLE PRECISION HEIGHT, SPEED, XYZ(3,2), DIST(2), V(3,2)
+      INTEGER STAT, N, NODE(2), I
+      SAVE XYZ
+      MESH = 0
+      RES = 0
+      DO 10 I = 1, 2
+        XYZ(1,I) = 0.3D0
+        XYZ(2,I) = 0.2D0
+        XYZ(3,I) = 0.6D0 * I - 0.5D0
+   10 CONTINUE
+      CALL RIISF_MESH_CREATE(2, XYZ(1,1), XYZ(2,1), XYZ(3,1), 3, MESH,
+     &  STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_WITH_FIELDS(SURF, MESH, 1D0, RIIS_SEARCH_AUTO, 1,
+     &  RIIS_FIELD_VELOCITY, RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_WITHIN_LIMIT(RES, 2, N, NODE, DIST, STAT)
+      CALL OK(STAT)
+      CALL RIISF_WITHIN_LIMIT_REALS(RES, RIIS_FIELD_VELOCITY, 2, N, V,
+     &  STAT)
+      CALL OK(STAT)
+      IF (N .NE. 2) CALL FAILED('both nodes')
+      DO 20 I = 1, 2
+        CALL NEAR(DIST(I), ABS(XYZ(3,I) - HEIGHT), 'the height')
+        CALL NEAR(V(1,I), 0D0, 'no speed to a side')
+        CALL NEAR(V(3,I), SPEED, 'the speed')
+   20 CONTINUE
+      CALL RIISF_MARK_RESULT_DESTROY(RES)
+      CALL RIISF_MESH_DESTROY(MESH)
+      END
