@@ -65,8 +65,7 @@ int main(void) {
     }
 
     const double time = times.opening_start + step * dt;
-    double
-        opening; /* by other laws the flow opens the valve: riis_opening_switch_advance, riis_opening_angle_advance */
+    double opening; /* in other laws the flow opens the valve: riis_opening_switch_advance and _angle_advance */
     check(riis_opening_from_times(&times, time, &opening, NULL));
     check(riis_valve_set_scalar(valve, "opening", opening));
     check(riis_surface_update_moving(surface, valve, valve_before, dt, NULL, NULL)); /* NULL: it keeps its options */
@@ -81,10 +80,9 @@ int main(void) {
       if (coefficient[i] > maximum) maximum = coefficient[i];
       sum_z += momentum[3 * i + 2];
     }
-    printf(
-        "%4.2f s, opening %5.3f, marked: %5lld, K: sum %.5E, maximum %.5E kg/(m^3 s), z of K u_surface: sum %+.5E "
-        "N/m^3\n",
-        time, opening, (long long)n_marked, sum, maximum, sum_z);
+    printf("%4.2f s, opening %5.3f, marked: %5lld, K: sum %.5E, maximum %.5E kg/(m^3 s), ", time, opening,
+           (long long)n_marked, sum, maximum);
+    printf("z of K u_surface: sum %+.5E N/m^3\n", sum_z);
   }
 
   riis_mark_result_destroy(&result);

@@ -42,7 +42,7 @@ program opening_valve
     momentum(:, node_num) = 0
 
     time = times%opening_start + step * dt
-    call riis_opening_from_times(times, time, opening) ! by other laws the flow opens the valve: riis_opening_advance
+    call riis_opening_from_times(times, time, opening) ! in other laws the flow opens it: riis_opening_advance
     call valve%set('opening', opening)
     call surface%update_moving(valve, valve_before, dt) ! the surface keeps its options
     call valve_before%set('opening', opening)
