@@ -66,32 +66,36 @@ end subroutine riisf_valve_copy
 !> Sets a parameter, which has 1 or 3 values. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER
 !! naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_c_string, riis_valve_set
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_valve_set
+  use riis_support, only: c_handle_of, end_for_c
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
   character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_valve_set(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  call end_for_c(name, c_name)
+  status = riis_valve_set(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_set
 
 !> Gets a parameter's values.
 subroutine riisf_valve_get(valve, name, n_values, values, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_c_string, riis_valve_get
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_valve_get
+  use riis_support, only: c_handle_of, end_for_c
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_set, with its cusp.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(inout) :: values(*)              !< Left alone on an error.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_valve_get(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  call end_for_c(name, c_name)
+  status = riis_valve_get(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_get
 
 !> Gives the valve a second state to open to, at 'opening' 1. Its own state is the closed one. Errors: RIIS_INVALID_PARAMETER

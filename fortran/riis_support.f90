@@ -2,7 +2,7 @@
 !> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. It is
 !! not for users: `use riis` does not give these names.
 module riis_support
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE, RIIS_LIMIT_EXCEEDED, &
     RIIS_OUT_OF_MEMORY, riis_surface_arrays, riis_surface_options, riis_c_string, riis_c_text, riis_last_error, &
@@ -12,7 +12,7 @@ module riis_support
   public :: strided_points, points_of, address_of, text_of
   public :: c_handle_of, handle_of, location_of, get_placement
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
-  public :: get_faces, get_mask
+  public :: get_faces, get_mask, end_for_c
 
   !> The place of points as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
   type :: strided_points
@@ -137,6 +137,14 @@ contains
     if (n /= expected) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; there are ' // &
       text_of(expected) // ' ' // of)
   end function check_size
+
+  !> Does what riis_c_string does, into memory of the caller's: gfortran allocates a function's text in every call.
+  subroutine end_for_c(text, c_text)
+    character(len=*), intent(in) :: text                    !< Any.
+    character(len=*, kind=c_char), intent(out) :: c_text    !< Of the length len_trim(text) + 1.
+    c_text = text
+    c_text(len(c_text):) = c_null_char
+  end subroutine end_for_c
 
   !> Fills the faces of a surface, except vertex_ids. It does nothing after an error.
   subroutine get_faces(n_vertices, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)

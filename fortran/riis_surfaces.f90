@@ -845,10 +845,10 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. are not written, but still
                                                             !! finite; copied. Default: all points.
-    integer(int64), intent(in), contiguous, optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of
-                                                            !! %marked: only these points are read, and only their entries
-                                                            !! written, in their places. Default: all points. Not with
-                                                            !! point_mask.
+    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of %marked: only
+                                                            !! these points are read, and only their entries written, in
+                                                            !! their places. Only a section that is not contiguous is copied.
+                                                            !! Default: all points. Not with point_mask.
     integer(int8), allocatable :: bytes(:)
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -912,10 +912,10 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. are not written, but still
                                                             !! finite; copied. Default: all points.
-    integer(int64), intent(in), contiguous, optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of
-                                                            !! %marked: only these points are read, and only their entries
-                                                            !! written, in their places. Default: all points. Not with
-                                                            !! point_mask.
+    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of %marked: only
+                                                            !! these points are read, and only their entries written, in
+                                                            !! their places. Only a section that is not contiguous is copied.
+                                                            !! Default: all points. Not with point_mask.
     integer(int8), allocatable :: bytes(:)
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -969,11 +969,12 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:), side(:)
     integer(riis_status), intent(inout) :: code
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
-    integer(int64), intent(in), contiguous, optional, target :: point_id(:)
+    integer(int64), intent(in), optional, target :: point_id(:) ! gfortran would copy a pointer's target for CONTIGUOUS
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
     real(c_double) :: nothing(1)
     integer(int64), target :: no_id(1)
+    integer(int64), allocatable, target :: ids(:)
 
     if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_closest_options_init(options, c_sizeof(options))
@@ -985,11 +986,7 @@ contains
       code = check_size(size(mask, kind=int64), points%n, 'point_mask', 'points')
       if (size(mask, kind=int64) > 0) options%point_mask = c_loc(mask)
     end if
-    if (code == RIIS_OK .and. present(point_id)) then
-      options%n_point_ids = size(point_id, kind=int64)
-      options%point_ids = c_loc(no_id) ! a list of no points is a list
-      if (size(point_id, kind=int64) > 0) options%point_ids = c_loc(point_id)
-    end if
+    if (present(point_id)) call get_list()
     call get_vectors(point, 'point', arrays%point)
     call get_vectors(barycentric, 'barycentric', arrays%barycentric)
     call get_vectors(normal, 'normal', arrays%normal)
@@ -1015,6 +1012,22 @@ contains
     if (code == RIIS_OK) call ask(points%n)
 
   contains
+
+    subroutine get_list()
+      integer :: stat
+      options%n_point_ids = size(point_id, kind=int64)
+      if (options%n_point_ids == 0) then
+        options%point_ids = c_loc(no_id) ! a list of no points is a list
+      else if (is_contiguous(point_id)) then
+        options%point_ids = c_loc(point_id(1))
+      else if (code == RIIS_OK) then
+        allocate (ids(options%n_point_ids), stat=stat)
+        code = out_of_memory(stat)
+        if (code /= RIIS_OK) return
+        ids = point_id
+        options%point_ids = c_loc(ids)
+      end if
+    end subroutine get_list
 
     subroutine get_vectors(vectors, name, location)
       real(c_double), intent(in), contiguous, optional, target :: vectors(:, :)
