@@ -8,6 +8,7 @@ C     Fortran 77 code calls them, against closed forms.
       CALL ANGLE
       CALL FRAMES
       CALL ARRAYS
+      CALL CLOSE
       PRINT *, 'motion by external subroutines'
       END
 
@@ -248,6 +249,172 @@ C     tells where it is, and how fast it moves.
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'velocity_stride is 0')
       IF (SURF2 .NE. 0) CALL FAILED('a refused surface')
       CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+C     What a surface consists of, and points beside a square at z = 0.1
+C     that rises with the speed 1.5.
+      SUBROUTINE CLOSE
+      INCLUDE 'riisf.h'
+      INTEGER NP
+      PARAMETER (NP = 5)
+      INTEGER*8 SURF, VALVE, BIG, NL, TRI(NP), NUML(2)
+      DOUBLE PRECISION XYZ(3,4), V(3,4), GOT(3,4), P(3,NP), D(NP)
+      DOUBLE PRECISION Q(3,NP), NORMAL(3,NP), AXIS(3), ZERO(3)
+      INTEGER STAT, QUAD(4,1), N, I, LEAF(NP), SIDE(NP), NUM(2)
+      DATA SURF, VALVE /2*0/, AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
+      DATA QUAD /1, 2, 3, 4/, NUM /2, 4/, V /2*0D0, 1.5D0, 2*0D0, 1.5D0,
+     &  2*0D0, 1.5D0, 2*0D0, 1.5D0/
+      CALL CORNER(XYZ, 0.1D0)
+      DO 10 I = 1, NP
+        P(1,I) = 0.25D0
+        P(2,I) = -0.125D0
+        P(3,I) = 0.5D0 * I - 1.5D0
+   10 CONTINUE
+      BIG = 4
+      CALL RIISF_SURFACE_FROM_ARRAYS(4, XYZ(1,1), XYZ(2,1), XYZ(3,1), 3,
+     &  4, 1, QUAD, 1, 0.5D0, 0.05D0, 1D0, AXIS, 0D0, ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_VERTICES(SURF, 4, N, GOT, STAT)
+      CALL OK(STAT)
+      CALL SAME12(N, GOT, XYZ)
+      N = 0
+      CALL RIISF_SURFACE_VERTICES(SURF, 3, N, GOT, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 3; vertices: 4')
+      IF (N .NE. 4) CALL FAILED('how long the array has to be')
+      CALL RIISF_SURFACE_VERTEX_VELOCITIES(SURF, 4, N, GOT, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'has no velocities')
+      CALL RIISF_SURFACE_UPDATE_ARRAYS(SURF, 4, XYZ(1,1), XYZ(2,1),
+     &  XYZ(3,1), 3, V(1,1), V(2,1), V(3,1), 3, 4, 1, QUAD, 1, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_VERTEX_VELOCITIES(SURF, 4, N, GOT, STAT)
+      CALL OK(STAT)
+      CALL SAME12(N, GOT, V)
+      CALL RIISF_SURFACE_VERTEX_VELOCITIES_64(SURF, BIG, NL, GOT, STAT)
+      CALL OK(STAT)
+      CALL SAME12(INT(NL), GOT, V)
+      CALL RIISF_SURFACE_VERTICES_64(SURF, BIG, NL, GOT, STAT)
+      CALL OK(STAT)
+      CALL SAME12(INT(NL), GOT, XYZ)
+      CALL RIISF_SURFACE_VERTICES_64(VALVE, BIG, NL, GOT, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'surface is NULL')
+
+      BIG = NP
+      NUML(1) = 3
+      NUML(2) = 5
+      CALL NOTHING(NP, D, Q, NORMAL, TRI, LEAF, SIDE)
+      CALL RIISF_CLOSEST_POINTS(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL OK(STAT)
+      CALL BESIDE(NP, P, D, Q, NORMAL, TRI, LEAF, SIDE, 1, NP, 1)
+      CALL NOTHING(NP, D, Q, NORMAL, TRI, LEAF, SIDE)
+      CALL RIISF_CLOSEST_POINTS_64(SURF, BIG, P(1,1), P(2,1), P(3,1),
+     &  3_8, RIIS_AUTO, 2, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL OK(STAT)
+      CALL BESIDE(NP, P, D, Q, NORMAL, TRI, LEAF, SIDE, 1, NP, 1)
+      CALL NOTHING(NP, D, Q, NORMAL, TRI, LEAF, SIDE)
+      CALL RIISF_CLOSEST_POINTS_OF(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  2, NUM, RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL OK(STAT)
+      CALL BESIDE(NP, P, D, Q, NORMAL, TRI, LEAF, SIDE, 2, 4, 2)
+      CALL NOTHING(NP, D, Q, NORMAL, TRI, LEAF, SIDE)
+      CALL RIISF_CLOSEST_POINTS_OF_64(SURF, BIG, P(1,1), P(2,1), P(3,1),
+     &  3_8, 2_8, NUML, RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE,
+     &  STAT)
+      CALL OK(STAT)
+      CALL BESIDE(NP, P, D, Q, NORMAL, TRI, LEAF, SIDE, 3, 5, 2)
+      CALL NOTHING(NP, D, Q, NORMAL, TRI, LEAF, SIDE)
+      CALL RIISF_CLOSEST_POINTS_OF(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  0, NUM, RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL OK(STAT)
+      NUM(2) = 2
+      CALL RIISF_CLOSEST_POINTS_OF(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  2, NUM, RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'entry 1 is 1')
+      NUM(1) = 0
+      CALL RIISF_CLOSEST_POINTS_OF(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  2, NUM, RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'entry 0 is -1')
+      CALL RIISF_CLOSEST_POINTS_OF(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  -1, NUM, RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_point_ids is -1')
+      CALL RIISF_CLOSEST_POINTS(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  -2D0, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'distance_limit is -2')
+      DO 20 I = 1, NP
+        IF (ABS(D(I) + 7D0) .GT. 0D0 .OR. SIDE(I) .NE. -7)
+     &    CALL FAILED('a refused call or an empty list writes nothing')
+   20 CONTINUE
+      CALL RIISF_CLOSEST_POINTS(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  0.5D0, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL OK(STAT)
+      IF (D(1) .LT. RIIS_FAR_DISTANCE .OR. TRI(1) .NE. -1 .OR. D(3) .GT.
+     &  0.2D0) CALL FAILED('a limit')
+
+C     By sampling there are no sides.
+      CALL RIISF_VALVE_CREATE('aortic', VALVE, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
+     &  0D0, ZERO, RIIS_DISTANCE_SAMPLING, 0.1D0, STAT)
+      CALL OK(STAT)
+      CALL RIISF_CLOSEST_POINTS(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
+     &  RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'arrays.side is given')
+      CALL RIISF_VALVE_DESTROY(VALVE)
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+      SUBROUTINE SAME12(N, A, B)
+      INTEGER N, I
+      DOUBLE PRECISION A(12), B(12)
+      IF (N .NE. 4) CALL FAILED('four vertices')
+      DO 10 I = 1, 12
+        CALL NEAR(A(I), B(I), 'what the surface consists of')
+   10 CONTINUE
+      END
+
+C     Marks what is not written.
+      SUBROUTINE NOTHING(N, D, Q, NORMAL, TRI, LEAF, SIDE)
+      INTEGER N, LEAF(N), SIDE(N), I, C
+      INTEGER*8 TRI(N)
+      DOUBLE PRECISION D(N), Q(3,N), NORMAL(3,N)
+      DO 20 I = 1, N
+        D(I) = -7D0
+        TRI(I) = -7
+        LEAF(I) = -7
+        SIDE(I) = -7
+        DO 10 C = 1, 3
+          Q(C,I) = -7D0
+          NORMAL(C,I) = -7D0
+   10   CONTINUE
+   20 CONTINUE
+      END
+
+C     The points first, first + by, ... last have answers, others none.
+      SUBROUTINE BESIDE(N, P, D, Q, NORMAL, TRI, LEAF, SIDE, FIRST,
+     &  LAST, BY)
+      INTEGER N, LEAF(N), SIDE(N), FIRST, LAST, BY, I
+      INTEGER*8 TRI(N)
+      DOUBLE PRECISION P(3,N), D(N), Q(3,N), NORMAL(3,N)
+      DO 10 I = 1, N
+        IF (I .GE. FIRST .AND. I .LE. LAST .AND.
+     &    MOD(I - FIRST, BY) .EQ. 0) THEN
+          CALL NEAR(D(I), ABS(P(3,I) - 0.1D0), 'a distance')
+          CALL NEAR(Q(1,I), P(1,I), 'x of a closest point')
+          CALL NEAR(Q(2,I), P(2,I), 'y of a closest point')
+          CALL NEAR(Q(3,I), 0.1D0, 'z of a closest point')
+          CALL NEAR(NORMAL(3,I), 1D0, 'a normal')
+          IF (TRI(I) .NE. 0 .OR. LEAF(I) .NE. 0)
+     &      CALL FAILED('a triangle')
+          IF (SIDE(I) .NE. NINT(SIGN(1D0, P(3,I) - 0.1D0)))
+     &      CALL FAILED('a side')
+        ELSE
+          IF (TRI(I) .NE. -7 .OR. LEAF(I) .NE. -7 .OR. SIDE(I) .NE. -7)
+     &      CALL FAILED('ids of another point')
+          CALL NEAR(D(I), -7D0, 'another point')
+          CALL NEAR(Q(3,I), -7D0, 'another point')
+          CALL NEAR(NORMAL(1,I), -7D0, 'another point')
+        END IF
+   10 CONTINUE
       END
 
 C     The corners of a square from -1 to 1, at a height.
