@@ -39,8 +39,8 @@
 !!   degrees.
 !! - Arrays are whole or sections. Coordinates are read in place, with any positive stride. The coordinates of a mesh and
 !!   the rows of an adjacency are borrowed beyond the call: riis_mesh says how, and what not to pass there. Other arrays are
-!!   used during the call only. They are copied for it if the argument is CONTIGUOUS and a section is not, or if the
-!!   procedure says so. For a CONTIGUOUS argument gfortran also copies an array pointer, unless that is declared CONTIGUOUS.
+!!   used during the call only. Sections of them that are not contiguous are copied for it, and arrays of which the
+!!   procedure says so. If the argument is CONTIGUOUS, gfortran also copies the target of a pointer that is not declared so.
 !! - Threads. Any number of threads may read an object (intent(in)) at once. One thread may write it while no other reads it.
 !!   Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region, declare
 !!   a thread's own objects in a procedure that it calls or in a BLOCK: gfortran leaves copies by PRIVATE undefined.

@@ -20,14 +20,15 @@ program test_allocations
   type(riis_mark_result) :: result
   type(riis_opening_switch_state) :: state
   type(riis_opening_angle_state) :: angle
-  real(c_double), allocatable :: coefficient(:), momentum(:, :), weight(:), distance(:)
+  real(c_double), pointer :: coefficient(:), momentum(:, :), weight(:), distance(:) ! as many solvers have them
+  real(c_double), allocatable :: near(:) ! for an argument that is CONTIGUOUS
   integer(int8), allocatable :: mask(:)
   integer :: step
 
   call make_box()
   call valve%copy(before)
   call mesh%create(xyz)
-  allocate (coefficient(n_nodes), momentum(3, n_nodes), weight(n_nodes), distance(n_nodes), mask(n_nodes))
+  allocate (coefficient(n_nodes), momentum(3, n_nodes), weight(n_nodes), distance(n_nodes), near(n_nodes), mask(n_nodes))
   coefficient = 0
   momentum = 0
   weight = 1
@@ -36,6 +37,7 @@ program test_allocations
     call one_step()
   end do
   call test_counting()
+  deallocate (coefficient, momentum, weight, distance)
   call result%destroy()
   call mesh%destroy()
   call before%destroy()
@@ -70,11 +72,15 @@ contains
       fields=RIIS_FIELD_VELOCITY + RIIS_FIELD_SIDE + RIIS_FIELD_RIM)
     call result%marked(node_id, marked_distance)
     call result%marked_fields(fields)
+    call result%add_resistance(1d0, coefficient)
+    call result%add_resistance(1d0, momentum=momentum)
     call result%add_resistance(1d0, coefficient, momentum)
     call result%add_reaction(1d0, momentum, weight, force)
     call result%band_sums(0.1d0, 0.2d0, weight, weight, sums)
+    call result%dense(mask, distance)
+    mask = 1
     call result%get_stats(stats)
-    call surface%closest_points(xyz, distance=distance, point_id=node_id, n_threads=1)
+    call surface%closest_points(xyz, distance=near, point_id=node_id, n_threads=1)
     call check(allocations_end() == 0, 'a step allocates nothing in Fortran')
     call check(size(node_id) > 100 .and. size(velocity, 2) == size(at, 2) .and. lbound(node_id, 1) == 1 .and. &
       lbound(fields%velocity, 2) == 1 .and. size(fields%velocity, 2) == size(node_id), 'pointers count from 1')
