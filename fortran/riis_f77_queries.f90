@@ -210,7 +210,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
 end subroutine riisf_closest_points_64
 
 !> The same for some of the points: only they are read, and only their entries are written, in their places.
-subroutine riisf_closest_points_of(surface, n_points, x, y, z, stride, &
+subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
     n_listed, point_num, distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
     side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
@@ -261,10 +261,10 @@ subroutine riisf_closest_points_of(surface, n_points, x, y, z, stride, &
   arrays%leaflet_id = location_of(leaflet_id)
   arrays%side = location_of(side)
   status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
-end subroutine riisf_closest_points_of
+end subroutine riisf_closest_points_listed
 
 !> Does the same.
-subroutine riisf_closest_points_of_64(surface, n_points, x, y, z, stride, &
+subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
     n_listed, point_num, distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
     side, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
@@ -315,4 +315,4 @@ subroutine riisf_closest_points_of_64(surface, n_points, x, y, z, stride, &
   arrays%leaflet_id = location_of(leaflet_id)
   arrays%side = location_of(side)
   status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
-end subroutine riisf_closest_points_of_64
+end subroutine riisf_closest_points_listed_64

@@ -28,7 +28,7 @@ module riis_laws
   !> An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps are
   !! of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
-    real(c_double) :: opening_start = no_value   !< When the valve begins to open. It has no default, as the next three.
+    real(c_double) :: opening_start = no_value   !< When the valve begins to open. No default, as for the next three.
     real(c_double) :: opening_seconds = no_value !< How long that takes, > 0.
     real(c_double) :: closing_start = no_value   !< When it begins to close, at least opening_start + opening_seconds.
     real(c_double) :: closing_seconds = no_value !< How long that takes, > 0.
@@ -41,7 +41,7 @@ module riis_laws
   !! valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the flow reverses),
   !! filter_seconds 0.002, dwell_seconds 0.02.
   type :: riis_opening_switch
-    real(c_double) :: opening_seconds = no_value !< From closed to open, > 0. It has no default, as the next.
+    real(c_double) :: opening_seconds = no_value !< From closed to open, > 0. No default, as for the next.
     real(c_double) :: closing_seconds = no_value !< From open to closed, > 0.
     real(c_double) :: open_above = 0             !< Pressure difference.
     real(c_double) :: close_below = 0            !< Flow.
@@ -70,7 +70,7 @@ module riis_laws
   !! The opening is the angle's share of its range. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2,
   !! friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
   type :: riis_opening_angle
-    real(c_double) :: pressure_gain = no_value   !< K_p, >= 0. It has no default, as the next three.
+    real(c_double) :: pressure_gain = no_value   !< K_p, >= 0. No default, as for the next three.
     real(c_double) :: flow_gain = no_value       !< K_q, >= 0.
     real(c_double) :: friction = no_value        !< K_f, >= 0.
     real(c_double) :: vortex_gain = no_value     !< K_v, >= 0.
