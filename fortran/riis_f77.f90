@@ -218,6 +218,35 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 
+!> Does the same with the other way of cutting a valve into triangles, which riisf_surface_update and
+!! riisf_surface_update_moving keep. With RIIS_TRIANGULATION_FIXED triangles keep their ids, vertices and neighbours at every
+!! opening, and only the opening may move. Errors then: RIIS_INVALID_PARAMETER naming another parameter that moved,
+!! RIIS_LIMIT_EXCEEDED for an opening where the tolerance does not hold.
+subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+    translation, triangulation, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
+  use riis_support, only: c_handle_of, get_placement
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  if (status /= RIIS_OK) return
+  options%triangulation = triangulation
+  status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
+end subroutine riisf_surface_triangulate
+
 !> As riisf_surface_update, with the same triangles, and gives every vertex a velocity: from the point with the same patch, u
 !! and v of the state before to the vertex, over the time between. Errors: as of riisf_surface_create;
 !! RIIS_INVALID_ARGUMENT for seconds out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.

@@ -68,9 +68,9 @@ contains
 
   !> Makes the surface of a valve: curves, Coons patches, triangles, Embree scene. Normals point downstream. Errors:
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
-  !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles.
+  !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles, or does not hold on fixed triangles.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, distance_tolerance, n_threads)
+      flip_normals, status, distance, distance_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
@@ -89,23 +89,27 @@ contains
                                                             !! 1. Default RIIS_AUTO: tolerance.
     integer(int32), intent(in), optional :: n_threads       !< Threads that make the surface, from then on: 1 to 1024. Default 0:
                                                             !! as many as pay.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*, from then on. With RIIS_TRIANGULATION_FIXED
+                                                            !! triangles keep their ids, vertices and neighbours at every
+                                                            !! opening, and only opening and placement may move. Default
+                                                            !! RIIS_TRIANGULATION_ADAPTED.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = RIIS_OK
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads)
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
   end subroutine surface_create
 
   !> Replaces the surface by that of a valve that moved. Options that are left out stay as they were. A half_thickness of
-  !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create;
-  !! the surface is then as it was.
+  !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create,
+  !! and RIIS_INVALID_PARAMETER naming a parameter that moved on fixed triangles; the surface is then as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, distance_tolerance, n_threads)
+      flip_normals, status, distance, distance_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -119,13 +123,14 @@ contains
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
     real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
     code = RIIS_OK
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads)
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -137,7 +142,7 @@ contains
   !! range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
   subroutine surface_update_moving(this, valve, valve_before, seconds, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, distance, distance_tolerance, n_threads, scale_before, &
-      rotation_axis_before, rotation_angle_before, translation_before, status)
+      rotation_axis_before, rotation_angle_before, translation_before, status, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     class(riis_valve), intent(in) :: valve_before           !< The state before: of the same kind; a valve from patches has the
@@ -154,6 +159,7 @@ contains
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
     real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: scale_before    !< At the state before. Default: as now; so the next three.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
@@ -166,7 +172,7 @@ contains
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads)
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) then
       before = options
       if (present(scale_before)) before%scale = scale_before
@@ -663,13 +669,13 @@ contains
 
   ! Sets the options that are present; does nothing after an error.
   subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads, skip_zero_area)
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation, skip_zero_area)
     type(riis_surface_options), intent(inout) :: options
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
     logical, intent(in), optional :: flip_normals, skip_zero_area
     integer(riis_status), intent(inout) :: code
-    integer(int32), intent(in), optional :: distance, n_threads
+    integer(int32), intent(in), optional :: distance, n_threads, triangulation
     real(c_double), intent(in), optional :: distance_tolerance
     if (code /= RIIS_OK) return
     if (present(half_thickness)) options%half_thickness = half_thickness
@@ -680,6 +686,7 @@ contains
     if (present(distance)) options%distance = distance
     if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
     if (present(n_threads)) options%n_threads = n_threads
+    if (present(triangulation)) options%triangulation = triangulation
     if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
     call set_vector(rotation_axis, 'rotation_axis', options%rotation_axis, code)
     call set_vector(translation, 'translation', options%translation, code)

@@ -9,6 +9,7 @@ C     Fortran 77 code calls them, against closed forms.
       CALL FRAMES
       CALL ARRAYS
       CALL CLOSE
+      CALL FIXED
       PRINT *, 'motion by external subroutines'
       END
 
@@ -361,6 +362,46 @@ C     By sampling there are no sides.
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'arrays.side is given')
       CALL RIISF_VALVE_DESTROY(VALVE)
       CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+C     As many vertices at any opening, or not.
+      SUBROUTINE FIXED
+      INCLUDE 'riisf.h'
+      INTEGER*8 SURF, VALVE
+      DOUBLE PRECISION AXIS(3), ZERO(3), XYZ(3,20000), A
+      INTEGER STAT, N(2), K, J
+      SAVE XYZ
+      DATA SURF, VALVE /2*0/, AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
+      CALL RIISF_VALVE_CREATE('mitral', VALVE, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_CREATE(VALVE, RIIS_AUTO, 0.05D0, 1D0, AXIS,
+     &  0D0, ZERO, SURF, STAT)
+      CALL OK(STAT)
+      DO 20 K = RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED
+        DO 10 J = 1, 2
+          A = 0.3D0 * J
+          CALL RIISF_VALVE_SET(VALVE, 'opening', 1, A, STAT)
+          CALL OK(STAT)
+          IF (J .EQ. 1) CALL RIISF_SURFACE_TRIANGULATE(SURF, VALVE,
+     &      RIIS_AUTO, 0.05D0, 1D0, AXIS, 0D0, ZERO, K, STAT)
+          IF (J .EQ. 2) CALL RIISF_SURFACE_UPDATE(SURF, VALVE, STAT)
+          CALL OK(STAT)
+          CALL RIISF_SURFACE_VERTICES(SURF, 20000, N(J), XYZ, STAT)
+          CALL OK(STAT)
+   10   CONTINUE
+        IF (K .EQ. RIIS_TRIANGULATION_FIXED .NEQV. N(1) .EQ. N(2))
+     &    CALL FAILED('fixed triangles')
+   20 CONTINUE
+      A = 3D0
+      CALL RIISF_VALVE_SET(VALVE, 'surface_angle', 1, A, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_UPDATE(SURF, VALVE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'surface_angle')
+      CALL RIISF_SURFACE_TRIANGULATE(SURF, VALVE, RIIS_AUTO, 0.05D0,
+     &  1D0, AXIS, 0D0, ZERO, 7, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'triangulation is 7')
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      CALL RIISF_VALVE_DESTROY(VALVE)
       END
 
       SUBROUTINE SAME12(N, A, B)
