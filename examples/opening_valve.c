@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mitral valve that opens step by step, and the resistance of every node to the flow relative to the moving leaflets. The
- * mesh is in metres, the valve's tables are in centimetres, so the scale is 0.01. */
+ * A mitral valve that opens step by step by a law of opening, and the resistance of every node to the flow relative to the
+ * moving leaflets. The mesh is in metres, the valve's tables are in centimetres, so the scale is 0.01. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ static double coefficient[n_nodes];  /* [kg/(m^3 s)] K of the term K (u - u_surf
 static double momentum[3 * n_nodes]; /* [N/m^3] K u_surface: it goes to the right-hand side */
 static const double R = 1e4;         /* [kg/(m s)] of the model, from its literature or by calibration */
 static const double eps = 1e-3;      /* [m] the half thickness */
-static const double dt = 0.01;       /* [s] the time step: the valve opens in 50 ms */
+static const double dt = 0.01;       /* [s] the time step */
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
@@ -44,6 +44,13 @@ int main(void) {
   riis_mark_options mark_options;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.fields = RIIS_FIELD_VELOCITY; /* the result keeps the surface's velocity at the nodes */
+  riis_opening_times times; /* the valve opens at 0.45 s in 50 ms, and closes at 0.95 s, every second */
+  check(riis_opening_times_init(&times, sizeof times));
+  times.opening_start = 0.45;
+  times.opening_seconds = 0.05;
+  times.closing_start = 0.95;
+  times.closing_seconds = 0.05;
+  times.period = 1;
   riis_resistance resistance;
   check(riis_resistance_init(&resistance, sizeof resistance));
   resistance.resistance = R;
@@ -57,7 +64,9 @@ int main(void) {
       for (int c = 0; c < 3; ++c) momentum[3 * node_id[i] + c] = 0;
     }
 
-    const double opening = (double)step / n_steps; /* a solver has a function of time */
+    const double time = times.opening_start + step * dt;
+    double opening; /* in other laws the flow opens the valve: riis_opening_switch_advance and _angle_advance */
+    check(riis_opening_from_times(&times, time, &opening, NULL));
     check(riis_valve_set_scalar(valve, "opening", opening));
     check(riis_surface_update_moving(surface, valve, valve_before, dt, NULL, NULL)); /* NULL: it keeps its options */
     check(riis_valve_set_scalar(valve_before, "opening", opening));
@@ -71,8 +80,9 @@ int main(void) {
       if (coefficient[i] > maximum) maximum = coefficient[i];
       sum_z += momentum[3 * i + 2];
     }
-    printf("opening %3.1f, marked: %5lld, K: sum %.5E, maximum %.5E kg/(m^3 s), z of K u_surface: sum %+.5E N/m^3\n",
-           opening, (long long)n_marked, sum, maximum, sum_z);
+    printf("%4.2f s, opening %5.3f, marked: %5lld, K: sum %.5E, maximum %.5E kg/(m^3 s), ", time, opening,
+           (long long)n_marked, sum, maximum);
+    printf("z of K u_surface: sum %+.5E N/m^3\n", sum_z);
   }
 
   riis_mark_result_destroy(&result);

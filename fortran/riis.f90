@@ -39,8 +39,8 @@
 !!   degrees.
 !! - Arrays are whole or sections. Coordinates are read in place, with any positive stride. The coordinates of a mesh and
 !!   the rows of an adjacency are borrowed beyond the call: riis_mesh says how, and what not to pass there. Other arrays are
-!!   used during the call only. They are copied for it if the argument is CONTIGUOUS and a section is not, or if the
-!!   procedure says so.
+!!   used during the call only. Sections of them that are not contiguous are copied for it, and arrays of which the
+!!   procedure says so. If the argument is CONTIGUOUS, gfortran also copies the target of a pointer that is not declared so.
 !! - Threads. Any number of threads may read an object (intent(in)) at once. One thread may write it while no other reads it.
 !!   Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region, declare
 !!   a thread's own objects in a procedure that it calls or in a BLOCK: gfortran leaves copies by PRIVATE undefined.
@@ -63,18 +63,26 @@ module riis
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE, &
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
     RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
+    RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
+    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, &
     c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_version, &
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
+  use riis_frames, only: riis_keyframes
   use riis_surfaces, only: riis_surface
   use riis_adjacencies, only: riis_adjacency
   use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_mark_result, riis_mark_fields, riis_mark_nodes
   use riis_leaking, only: riis_find_leaks
+  use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
+    riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
-    riis_mark_result, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks
+    riis_mark_result, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, &
+    riis_keyframes
+  public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
+    riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
   public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
     RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
@@ -86,7 +94,9 @@ module riis
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE
   public :: RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
-    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT
+    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
+    RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
+    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED
 
   integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids, for codes in
                                                             !! Fortran 2003, which has no int64.

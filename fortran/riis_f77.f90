@@ -66,32 +66,36 @@ end subroutine riisf_valve_copy
 !> Sets a parameter, which has 1 or 3 values. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER
 !! naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_c_string, riis_valve_set
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_valve_set
+  use riis_support, only: c_handle_of, end_for_c
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
   character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_valve_set(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  call end_for_c(name, c_name)
+  status = riis_valve_set(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_set
 
 !> Gets a parameter's values.
 subroutine riisf_valve_get(valve, name, n_values, values, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_c_string, riis_valve_get
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_valve_get
+  use riis_support, only: c_handle_of, end_for_c
   implicit none
   integer(int64), intent(in) :: valve                     !< Created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_set, with its cusp.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(inout) :: values(*)              !< Left alone on an error.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_valve_get(c_handle_of(valve), riis_c_string(name), int(n_values, int64), values)
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  call end_for_c(name, c_name)
+  status = riis_valve_get(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_get
 
 !> Gives the valve a second state to open to, at 'opening' 1. Its own state is the closed one. Errors: RIIS_INVALID_PARAMETER
@@ -213,6 +217,35 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   options%distance_tolerance = distance_tolerance
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
+
+!> Does the same with the other way of cutting a valve into triangles, which riisf_surface_update and
+!! riisf_surface_update_moving keep. With RIIS_TRIANGULATION_FIXED triangles keep their ids, vertices and neighbours at every
+!! opening, and only the opening may move. Errors then: RIIS_INVALID_PARAMETER naming another parameter that moved,
+!! RIIS_LIMIT_EXCEEDED for an opening where the tolerance does not hold.
+subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
+    translation, triangulation, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
+  use riis_support, only: c_handle_of, get_placement
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  if (status /= RIIS_OK) return
+  options%triangulation = triangulation
+  status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
+end subroutine riisf_surface_triangulate
 
 !> As riisf_surface_update, with the same triangles, and gives every vertex a velocity: from the point with the same patch, u
 !! and v of the state before to the vertex, over the time between. Errors: as of riisf_surface_create;

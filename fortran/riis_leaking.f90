@@ -35,15 +35,10 @@ contains
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
                                                             !! thread may use.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
+    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
-    integer :: stat
     code = RIIS_OK
-    if (present(node_mask)) then
-      allocate (bytes(size(node_mask, kind=int64)), stat=stat)
-      code = out_of_memory(stat)
-      if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask)
-    end if
+    call get_mask(node_mask, bytes, code)
     call find(surface, mesh, result, leaks, bytes, n_threads, code)
     call finish(code, status)
   end subroutine find_leaks_logical
@@ -76,10 +71,8 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
-    integer :: stat
-    allocate (bytes(size(node_mask, kind=int64)), stat=stat)
-    code = out_of_memory(stat)
-    if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask /= 0)
+    code = RIIS_OK
+    call get_mask(node_mask, bytes, code)
     call find(surface, mesh, result, leaks, bytes, n_threads, code)
     call finish(code, status)
   end subroutine find_leaks_int32

@@ -100,15 +100,10 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
-    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
-    integer :: stat
+    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
     code = RIIS_OK
-    if (present(node_mask)) then
-      allocate (bytes(size(node_mask, kind=int64)), stat=stat)
-      code = out_of_memory(stat)
-      if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask)
-    end if
+    call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_logical
@@ -147,12 +142,10 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
-    integer(int8), allocatable :: bytes(:) ! not present where it is not allocated
-    integer :: stat
+    integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
-    allocate (bytes(size(node_mask, kind=int64)), stat=stat)
-    code = out_of_memory(stat)
-    if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, node_mask /= 0)
+    code = RIIS_OK
+    call get_mask(node_mask, bytes, code)
     call mark(surface, mesh, result, distance_limit, bytes, search, n_threads, fields, code)
     call finish(code, status)
   end subroutine mark_nodes_int32
@@ -449,12 +442,12 @@ contains
   !! far_distance that looks near; nothing is then written.
   subroutine result_dense_int8(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
-    integer(int8), intent(inout), contiguous, optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others; not copied.
-    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
+    integer(int8), intent(inout), optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others; not copied.
+    real(c_double), intent(inout), optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
-    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
+    integer(int64), intent(inout), optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
                                                             !! 0, else -1.
-    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
+    integer(int32), intent(inout), optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! -1.
     real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
                                                             !! RIIS_FAR_DISTANCE.
@@ -493,11 +486,11 @@ contains
   subroutine result_dense_int32(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), intent(inout) :: mark(:)                !< (n_nodes): 1 for marked nodes, 0 for others.
-    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
+    real(c_double), intent(inout), optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
-    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
+    integer(int64), intent(inout), optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
                                                             !! 0, else -1.
-    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
+    integer(int32), intent(inout), optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! -1.
     real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
                                                             !! RIIS_FAR_DISTANCE.
@@ -516,11 +509,11 @@ contains
   subroutine result_dense_logical(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     logical, intent(inout) :: mark(:)                       !< (n_nodes): .true. for marked nodes.
-    real(c_double), intent(inout), contiguous, optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
+    real(c_double), intent(inout), optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
-    integer(int64), intent(inout), contiguous, optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
+    integer(int64), intent(inout), optional :: triangle_id(:) !< (n_nodes): for nodes within the distance limit, from
                                                             !! 0, else -1.
-    integer(int32), intent(inout), contiguous, optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
+    integer(int32), intent(inout), optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! -1.
     real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
                                                             !! RIIS_FAR_DISTANCE.
@@ -626,8 +619,8 @@ contains
   subroutine result_add_resistance(this, resistance, coefficient, momentum, half_thickness, rim, status)
     class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
-    real(c_double), intent(inout), contiguous, optional :: coefficient(:) !< (n_nodes): K is added.
-    real(c_double), intent(inout), contiguous, optional :: momentum(:, :) !< (3, n_nodes): K u_surface is added; needs
+    real(c_double), intent(inout), optional :: coefficient(:) !< (n_nodes): K is added.
+    real(c_double), intent(inout), optional :: momentum(:, :) !< (3, n_nodes): K u_surface is added; needs
                                                             !! RIIS_FIELD_VELOCITY.
     real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
                                                             !! RIIS_AUTO: the half thickness of the marking.
@@ -655,8 +648,8 @@ contains
   subroutine result_add_reaction(this, resistance, velocity, weight, force, half_thickness, rim, status)
     class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
     real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
-    real(c_double), intent(in), contiguous :: velocity(:, :) !< (3, n_nodes), of the flow.
-    real(c_double), intent(in), contiguous :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
+    real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), of the flow.
+    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
                                                             !! other ranks.
     real(c_double), intent(inout) :: force(:)               !< (3): added to.
     real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
@@ -689,8 +682,8 @@ contains
     class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
     real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
     real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
-    real(c_double), intent(in), contiguous :: value(:)      !< (n_nodes).
-    real(c_double), intent(in), contiguous :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
+    real(c_double), intent(in) :: value(:)      !< (n_nodes).
+    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
                                                             !! other ranks.
     type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Left alone on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.

@@ -2,15 +2,17 @@
 !> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. It is
 !! not for users: `use riis` does not give these names.
 module riis_support
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
-  use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, &
-    riis_surface_options, riis_c_string, riis_c_text, riis_last_error, riis_status_name, riis_surface_options_init
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE, RIIS_LIMIT_EXCEEDED, &
+    RIIS_OUT_OF_MEMORY, riis_surface_arrays, riis_surface_options, riis_c_string, riis_c_text, riis_last_error, &
+    riis_status_name, riis_surface_arrays_init, riis_surface_options_init
   implicit none
   private
   public :: strided_points, points_of, address_of, text_of
   public :: c_handle_of, handle_of, location_of, get_placement
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
+  public :: get_faces, get_mask, end_for_c
 
   !> The place of points as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
   type :: strided_points
@@ -32,6 +34,13 @@ module riis_support
     module procedure get_int32
     module procedure get_int64
   end interface get_integer
+
+  !> Makes bytes of a mask: 1 for .true. and for what is not 0. Bytes that are not allocated are not present where they are
+  !! passed on as optional.
+  interface get_mask
+    module procedure get_mask_logical
+    module procedure get_mask_int32
+  end interface get_mask
 
   !> Returns an integer of either kind as text without blanks.
   interface text_of
@@ -129,6 +138,65 @@ contains
       text_of(expected) // ' ' // of)
   end function check_size
 
+  !> Does what riis_c_string does, into memory of the caller's: gfortran allocates a function's text in every call.
+  subroutine end_for_c(text, c_text)
+    character(len=*), intent(in) :: text                    !< Any.
+    character(len=*, kind=c_char), intent(out) :: c_text    !< Of the length len_trim(text) + 1.
+    c_text = text
+    c_text(len(c_text):) = c_null_char
+  end subroutine end_for_c
+
+  !> Fills the faces of a surface, except vertex_ids. It does nothing after an error.
+  subroutine get_faces(n_vertices, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
+    integer(int64), intent(in) :: n_vertices                !< How many there are.
+    integer, intent(in) :: n_corners                        !< The first extent of vertex_ids.
+    integer(int64), intent(in) :: n_faces                   !< Its second extent.
+    integer, intent(in) :: vertex_id_bits                   !< 32 or 64.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces).
+    class(*), intent(in), optional :: index_base            !< integer, 0 or 1. Default 1.
+    type(riis_surface_arrays), intent(inout) :: arrays      !< Its vertices stay NULL.
+    integer(riis_status), intent(inout) :: code             !< Left alone on success.
+    if (code == RIIS_OK) code = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+    if (code /= RIIS_OK) return
+    arrays%n_vertices = n_vertices
+    arrays%n_faces = n_faces
+    arrays%vertex_id_bits = vertex_id_bits
+    arrays%corners_per_face = n_corners
+    arrays%index_base = 1
+    if (n_corners /= 3 .and. n_corners /= 4) &
+      code = refuse('the first extent of vertex_ids is ' // text_of(n_corners) // '; it must be 3 or 4')
+    if (code == RIIS_OK .and. n_vertices == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no vertices')
+    if (code == RIIS_OK .and. n_faces == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no faces')
+    call get_integer(index_base, 'index_base', arrays%index_base, code)
+    if (code /= RIIS_OK .or. .not. present(leaflet_id)) return
+    code = check_size(size(leaflet_id, kind=int64), n_faces, 'leaflet_id', 'faces')
+    if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
+  end subroutine get_faces
+
+  !> Does get_mask.
+  subroutine get_mask_logical(mask, bytes, code)
+    logical, intent(in), optional :: mask(:)                !< Any.
+    integer(int8), allocatable, intent(out) :: bytes(:)     !< 1 or 0. Not allocated without a mask.
+    integer(riis_status), intent(inout) :: code             !< Left alone on success; nothing happens after an error.
+    integer :: stat
+    if (code /= RIIS_OK .or. .not. present(mask)) return
+    allocate (bytes(size(mask, kind=int64)), stat=stat)
+    code = out_of_memory(stat)
+    if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, mask)
+  end subroutine get_mask_logical
+
+  !> Does get_mask.
+  subroutine get_mask_int32(mask, bytes, code)
+    integer(int32), intent(in) :: mask(:)                   !< Any.
+    integer(int8), allocatable, intent(out) :: bytes(:)     !< 1 or 0.
+    integer(riis_status), intent(inout) :: code             !< Left alone on success; nothing happens after an error.
+    integer :: stat
+    if (code /= RIIS_OK) return
+    allocate (bytes(size(mask, kind=int64)), stat=stat)
+    code = out_of_memory(stat)
+    if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, mask /= 0)
+  end subroutine get_mask_int32
+
   !> Turns a handle of Fortran 77 into one of C.
   function c_handle_of(handle) result(c_handle)
     integer(int64), intent(in) :: handle                    !< 0 for none.
@@ -217,16 +285,16 @@ contains
   end subroutine points_of_matrix
 
   !> Takes x(n), y(n), z(n): whole arrays and sections with the same positive stride.
-  subroutine points_of_vectors(x, y, z, points, code)
+  subroutine points_of_vectors(x, y, z, points, code, prefix)
     real(c_double), intent(in), target :: x(:)              !< (n).
     real(c_double), intent(in), target :: y(:)              !< (n).
     real(c_double), intent(in), target :: z(:)              !< (n).
     type(strided_points), intent(out) :: points             !< Their place.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
+    character(len=*), intent(in), optional :: prefix        !< 'v' for arguments vx, vy, vz. Default: x, y, z.
     integer(int64) :: y_stride, z_stride
     if (size(y, kind=int64) /= size(x, kind=int64) .or. size(z, kind=int64) /= size(x, kind=int64)) then
-      code = refuse('the sizes of x, y and z are ' // text_of(size(x, kind=int64)) // ', ' // &
-        text_of(size(y, kind=int64)) // ' and ' // text_of(size(z, kind=int64)) // '; they must be equal')
+      code = refuse_unequal('sizes', size(x, kind=int64), size(y, kind=int64), size(z, kind=int64), prefix)
       return
     end if
     code = RIIS_OK
@@ -236,17 +304,36 @@ contains
     points%y = c_loc(y(1))
     points%z = c_loc(z(1))
     if (points%n == 1) return
-    call get_stride(address_of(c_loc(x(2))) - address_of(points%x), 'x', points%stride, code)
+    call get_stride(address_of(c_loc(x(2))) - address_of(points%x), prefixed('x', prefix), points%stride, code)
     y_stride = points%stride
     z_stride = points%stride
-    if (code == RIIS_OK) call get_stride(address_of(c_loc(y(2))) - address_of(points%y), 'y', y_stride, code)
-    if (code == RIIS_OK) call get_stride(address_of(c_loc(z(2))) - address_of(points%z), 'z', z_stride, code)
-    if (code /= RIIS_OK) return
-    if (y_stride /= points%stride .or. z_stride /= points%stride) then
-      code = refuse('the strides of x, y and z are ' // text_of(points%stride) // ', ' // text_of(y_stride) // ' and ' // &
-        text_of(z_stride) // '; they must be equal')
-    end if
+    if (code == RIIS_OK) &
+      call get_stride(address_of(c_loc(y(2))) - address_of(points%y), prefixed('y', prefix), y_stride, code)
+    if (code == RIIS_OK) &
+      call get_stride(address_of(c_loc(z(2))) - address_of(points%z), prefixed('z', prefix), z_stride, code)
+    if (code == RIIS_OK .and. (y_stride /= points%stride .or. z_stride /= points%stride)) &
+      code = refuse_unequal('strides', points%stride, y_stride, z_stride, prefix)
   end subroutine points_of_vectors
+
+  ! The name of one of three arguments.
+  function prefixed(name, prefix) result(whole)
+    character(len=1), intent(in) :: name
+    character(len=*), intent(in), optional :: prefix
+    character(len=:), allocatable :: whole
+    whole = name
+    if (present(prefix)) whole = prefix // name
+  end function prefixed
+
+  ! Refuses three arguments whose sizes or strides differ.
+  function refuse_unequal(what, x, y, z, prefix) result(code)
+    character(len=*), intent(in) :: what
+    integer(int64), intent(in) :: x, y, z
+    character(len=*), intent(in), optional :: prefix
+    integer(riis_status) :: code
+    code = refuse('the ' // what // ' of ' // prefixed('x', prefix) // ', ' // prefixed('y', prefix) // ' and ' // &
+      prefixed('z', prefix) // ' are ' // text_of(x) // ', ' // text_of(y) // ' and ' // text_of(z) // &
+      '; they must be equal')
+  end function refuse_unequal
 
   !> Does this for options that are int32_t in riis.h.
   subroutine get_int32(option, name, value, code)

@@ -3,9 +3,10 @@
 !> Surfaces and closest points: riis_surface_* and riis_closest_* of riis.h, as a part of module riis.
 module riis_surfaces
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
-  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c
   use riis_support
+  use riis_frames, only: riis_keyframes
   use riis_valves, only: riis_valve
   implicit none
   private
@@ -29,13 +30,16 @@ module riis_surfaces
     procedure, non_overridable :: update_moving => surface_update_moving !< The same, with the velocity of every vertex.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
                                                                !< Replaces it for triangles or quads that moved.
+    procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes it from frames, at a time.
+    procedure, non_overridable :: update_from_keyframes => surface_update_from_keyframes !< Replaces it for another time.
     procedure, non_overridable :: get_info => surface_get_info          !< Gives counts, bounds, area and times.
     procedure, non_overridable :: vertices => surface_vertices          !< Points to the vertices.
     procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Points to their places on patches.
     procedure, non_overridable :: vertex_velocities => surface_vertex_velocities !< How fast they move.
     procedure, non_overridable :: triangles => surface_triangles        !< Points to the triangles.
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
-    generic :: closest_points => closest_points_xyz, closest_points_x_y_z !< Finds those to many points, in parallel.
+    generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
+                                                               !< Finds those to many points, in parallel.
     procedure, non_overridable :: is_created => surface_is_created      !< Tells whether it was created.
     procedure, non_overridable :: c_handle => surface_c_handle          !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => surface_destroy            !< Frees its memory.
@@ -49,8 +53,10 @@ module riis_surfaces
     procedure, private, non_overridable :: update_xyz_int64 => surface_update_from_arrays_xyz_int64
     procedure, private, non_overridable :: update_x_y_z_int32 => surface_update_from_arrays_x_y_z_int32
     procedure, private, non_overridable :: update_x_y_z_int64 => surface_update_from_arrays_x_y_z_int64
-    procedure, private, non_overridable :: closest_points_xyz => surface_closest_points_xyz
-    procedure, private, non_overridable :: closest_points_x_y_z => surface_closest_points_x_y_z
+    procedure, private, non_overridable :: closest_xyz_logical => surface_closest_points_xyz_logical
+    procedure, private, non_overridable :: closest_xyz_int8 => surface_closest_points_xyz_int8
+    procedure, private, non_overridable :: closest_x_y_z_logical => surface_closest_points_x_y_z_logical
+    procedure, private, non_overridable :: closest_x_y_z_int8 => surface_closest_points_x_y_z_int8
   end type riis_surface
 
   ! The target of pointers to nothing, so that their size can be taken.
@@ -62,9 +68,9 @@ contains
 
   !> Makes the surface of a valve: curves, Coons patches, triangles, Embree scene. Normals point downstream. Errors:
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
-  !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles.
+  !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles, or does not hold on fixed triangles.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, distance_tolerance, n_threads)
+      flip_normals, status, distance, distance_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
@@ -83,26 +89,27 @@ contains
                                                             !! 1. Default RIIS_AUTO: tolerance.
     integer(int32), intent(in), optional :: n_threads       !< Threads that make the surface, from then on: 1 to 1024. Default 0:
                                                             !! as many as pay.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*, from then on. With RIIS_TRIANGULATION_FIXED
+                                                            !! triangles keep their ids, vertices and neighbours at every
+                                                            !! opening, and only opening and placement may move. Default
+                                                            !! RIIS_TRIANGULATION_ADAPTED.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
-    code = check_not_created(this%handle, 'the surface')
+    code = RIIS_OK
+    call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
-    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code)
-    if (present(distance)) options%distance = distance
-    if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
-    if (present(n_threads)) options%n_threads = n_threads
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
   end subroutine surface_create
 
   !> Replaces the surface by that of a valve that moved. Options that are left out stay as they were. A half_thickness of
-  !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create;
-  !! the surface is then as it was.
+  !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create,
+  !! and RIIS_INVALID_PARAMETER naming a parameter that moved on fixed triangles; the surface is then as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, distance_tolerance, n_threads)
+      flip_normals, status, distance, distance_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -116,20 +123,16 @@ contains
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
     real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
-    code = check_created(this%handle, 'the surface')
+    code = RIIS_OK
+    call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
-    if (code == RIIS_OK) then
-      options = this%options
-      call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-        flip_normals, code)
-      if (present(distance)) options%distance = distance
-      if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
-      if (present(n_threads)) options%n_threads = n_threads
-      if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
-      if (code == RIIS_OK) this%options = options
-    end if
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
+    if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
+    if (code == RIIS_OK) this%options = options
     call finish(code, status)
   end subroutine surface_update
 
@@ -139,7 +142,7 @@ contains
   !! range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
   subroutine surface_update_moving(this, valve, valve_before, seconds, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, distance, distance_tolerance, n_threads, scale_before, &
-      rotation_axis_before, rotation_angle_before, translation_before, status)
+      rotation_axis_before, rotation_angle_before, translation_before, status, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     class(riis_valve), intent(in) :: valve_before           !< The state before: of the same kind; a valve from patches has the
@@ -156,6 +159,7 @@ contains
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
     real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: scale_before    !< At the state before. Default: as now; so the next three.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
@@ -163,16 +167,13 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options, before
     integer(riis_status) :: code
-    code = check_created(this%handle, 'the surface')
+    code = RIIS_OK
+    call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) then
-      options = this%options
-      call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-        flip_normals, code)
-      if (present(distance)) options%distance = distance
-      if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
-      if (present(n_threads)) options%n_threads = n_threads
       before = options
       if (present(scale_before)) before%scale = scale_before
       if (present(rotation_angle_before)) before%rotation_angle = rotation_angle_before
@@ -191,7 +192,8 @@ contains
   !! RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range,
   !! RIIS_LIMIT_EXCEEDED for more than 16,777,216 triangles.
   subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      velocity, n_threads)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -207,21 +209,31 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
+                                                            !! The placement turns and scales it, and does not move it.
+                                                            !! Default: none.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(velocity)) then
+      call points_of(velocity, 'velocity', velocities, code)
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'velocity(1, :)', 'vertices')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int32
 
   !> Does the same for integer(int64).
   subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      velocity, n_threads)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -237,21 +249,31 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
+                                                            !! The placement turns and scales it, and does not move it.
+                                                            !! Default: none.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(velocity)) then
+      call points_of(velocity, 'velocity', velocities, code)
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'velocity(1, :)', 'vertices')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int64
 
   !> Does the same for separate coordinates.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      vx, vy, vz, n_threads)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -269,21 +291,34 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
+                                                            !! vertices. Default: none.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
+      call points_of(vx, vy, vz, velocities, code, 'v')
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'vx', 'vertices')
+    else if (code == RIIS_OK .and. (present(vx) .or. present(vy) .or. present(vz))) then
+      code = refuse('vx, vy and vz are not all given')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int32
 
   !> Does the same for both.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      vx, vy, vz, n_threads)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -301,21 +336,34 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
+                                                            !! vertices. Default: none.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
+      call points_of(vx, vy, vz, velocities, code, 'v')
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'vx', 'vertices')
+    else if (code == RIIS_OK .and. (present(vx) .or. present(vy) .or. present(vz))) then
+      code = refuse('vx, vy and vz are not all given')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int64
 
   !> Replaces the surface as %update does, from arrays as in %create_from_arrays.
   subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      velocity, n_threads)
     class(riis_surface), intent(inout) :: this              !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -331,21 +379,31 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
+                                                            !! The placement turns and scales it, and does not move it.
+                                                            !! Default: none.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(velocity)) then
+      call points_of(velocity, 'velocity', velocities, code)
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'velocity(1, :)', 'vertices')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int32
 
   !> Does the same for integer(int64).
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      velocity, n_threads)
     class(riis_surface), intent(inout) :: this              !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
@@ -361,21 +419,31 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
+                                                            !! The placement turns and scales it, and does not move it.
+                                                            !! Default: none.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(velocity)) then
+      call points_of(velocity, 'velocity', velocities, code)
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'velocity(1, :)', 'vertices')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int64
 
   !> Does the same for separate coordinates.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      vx, vy, vz, n_threads)
     class(riis_surface), intent(inout) :: this              !< Created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -393,21 +461,34 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
+                                                            !! vertices. Default: none.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
+      call points_of(vx, vy, vz, velocities, code, 'v')
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'vx', 'vertices')
+    else if (code == RIIS_OK .and. (present(vx) .or. present(vy) .or. present(vz))) then
+      code = refuse('vx, vy and vz are not all given')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int32
 
   !> Does the same for both.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
-      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status)
+      half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
+      vx, vy, vz, n_threads)
     class(riis_surface), intent(inout) :: this              !< Created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
@@ -425,32 +506,188 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
+                                                            !! vertices. Default: none.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
-    type(strided_points) :: points
+    type(strided_points) :: points, velocities
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
-    call get_arrays(points, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
+    if (code == RIIS_OK .and. present(vx) .and. present(vy) .and. present(vz)) then
+      call points_of(vx, vy, vz, velocities, code, 'v')
+      if (code == RIIS_OK) code = check_size(velocities%n, points%n, 'vx', 'vertices')
+    else if (code == RIIS_OK .and. (present(vx) .or. present(vy) .or. present(vz))) then
+      code = refuse('vx, vy and vz are not all given')
+    end if
+    call get_faces(points%n, size(vertex_ids, 1), size(vertex_ids, 2, int64), storage_size(vertex_ids), leaflet_id, index_base, &
       arrays, code)
+    call set_points(points, velocities, arrays)
     if (size(vertex_ids, kind=int64) > 0) arrays%vertex_ids = c_loc(vertex_ids)
     call update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-      translation, flip_normals, code)
+      translation, flip_normals, n_threads, code)
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int64
 
+  ! Sets the vertices of the caller's arrays, and their velocities if there are any.
+  subroutine set_points(points, velocities, arrays)
+    type(strided_points), intent(in) :: points, velocities
+    type(riis_surface_arrays), intent(inout) :: arrays
+    arrays%x = points%x
+    arrays%y = points%y
+    arrays%z = points%z
+    arrays%stride = points%stride
+    arrays%vx = velocities%x
+    arrays%vy = velocities%y
+    arrays%vz = velocities%z
+    arrays%velocity_stride = velocities%stride
+  end subroutine set_points
+
+  ! The common part of all specifics of create_from_arrays; does nothing after an error.
+  subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, flip_normals, n_threads, code)
+    class(riis_surface), intent(inout) :: this
+    type(riis_surface_arrays), intent(in) :: arrays
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
+    logical, intent(in), optional :: skip_zero_area, flip_normals
+    integer(int32), intent(in), optional :: n_threads
+    integer(riis_status), intent(inout) :: code
+    type(riis_surface_options) :: options
+    call create_options(this, options, code)
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+    if (code == RIIS_OK) code = riis_surface_create_from_arrays(arrays, options, this%handle)
+    if (code == RIIS_OK) this%options = options
+  end subroutine create_from_arrays
+
+  ! The common part of all specifics of update_from_arrays; does nothing after an error.
+  subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, flip_normals, n_threads, code)
+    class(riis_surface), intent(inout) :: this
+    type(riis_surface_arrays), intent(in) :: arrays
+    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
+      translation(:)
+    logical, intent(in), optional :: skip_zero_area, flip_normals
+    integer(int32), intent(in), optional :: n_threads
+    integer(riis_status), intent(inout) :: code
+    type(riis_surface_options) :: options
+    call update_options(this, options, code)
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+    if (code == RIIS_OK) code = riis_surface_update_from_arrays(this%handle, arrays, options)
+    if (code == RIIS_OK) this%options = options
+  end subroutine update_from_arrays
+
+  !> Makes a surface from the frames around a time, with the velocity of every vertex. The options are those of %create.
+  !! Errors: RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
+  subroutine surface_create_from_keyframes(this, keyframes, time, since, skip_zero_area, half_thickness, tolerance, scale, &
+      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
+    class(riis_surface), intent(inout) :: this              !< Must be empty.
+    class(riis_keyframes), intent(in) :: keyframes          !< Created; read during the call only.
+    real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+    real(c_double), intent(in), optional :: since           !< The time that the velocity is the mean from. Default: time
+                                                            !! itself, for the derivative of the interpolation.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! .false..
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options) :: options
+    real(c_double) :: from
+    integer(riis_status) :: code
+    from = time
+    if (present(since)) from = since
+    code = RIIS_OK
+    call create_options(this, options, code)
+    if (code == RIIS_OK) code = check_created(keyframes%c_handle(), 'keyframes')
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+    if (code == RIIS_OK) code = riis_surface_create_from_keyframes(keyframes%c_handle(), time, from, options, this%handle)
+    if (code == RIIS_OK) this%options = options
+    call finish(code, status)
+  end subroutine surface_create_from_keyframes
+
+  !> Replaces the surface as %update does, by that of another time, as in %create_from_keyframes.
+  subroutine surface_update_from_keyframes(this, keyframes, time, since, skip_zero_area, half_thickness, tolerance, scale, &
+      rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
+    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_keyframes), intent(in) :: keyframes          !< Created; read during the call only.
+    real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+    real(c_double), intent(in), optional :: since           !< The time that the velocity is the mean from. Default: time
+                                                            !! itself, for the derivative of the interpolation.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+                                                            !! as before.
+    real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
+    real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
+    real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
+    real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
+    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options) :: options
+    real(c_double) :: from
+    integer(riis_status) :: code
+    from = time
+    if (present(since)) from = since
+    code = RIIS_OK
+    call update_options(this, options, code)
+    if (code == RIIS_OK) code = check_created(keyframes%c_handle(), 'keyframes')
+    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+      flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
+    if (code == RIIS_OK) code = riis_surface_update_from_keyframes(this%handle, keyframes%c_handle(), time, from, options)
+    if (code == RIIS_OK) this%options = options
+    call finish(code, status)
+  end subroutine surface_update_from_keyframes
+
+  ! The options that a new surface begins with; does nothing after an error.
+  subroutine create_options(this, options, code)
+    class(riis_surface), intent(in) :: this
+    type(riis_surface_options), intent(out) :: options
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
+  end subroutine create_options
+
+  ! The options that a surface has; does nothing after an error.
+  subroutine update_options(this, options, code)
+    class(riis_surface), intent(in) :: this
+    type(riis_surface_options), intent(out) :: options
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) options = this%options
+  end subroutine update_options
+
   ! Sets the options that are present; does nothing after an error.
   subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code)
+      flip_normals, code, distance, distance_tolerance, n_threads, triangulation, skip_zero_area)
     type(riis_surface_options), intent(inout) :: options
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
-    logical, intent(in), optional :: flip_normals
+    logical, intent(in), optional :: flip_normals, skip_zero_area
     integer(riis_status), intent(inout) :: code
+    integer(int32), intent(in), optional :: distance, n_threads, triangulation
+    real(c_double), intent(in), optional :: distance_tolerance
     if (code /= RIIS_OK) return
     if (present(half_thickness)) options%half_thickness = half_thickness
     if (present(tolerance)) options%tolerance = tolerance
     if (present(scale)) options%scale = scale
     if (present(rotation_angle)) options%rotation_angle = rotation_angle
     if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
+    if (present(distance)) options%distance = distance
+    if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
+    if (present(n_threads)) options%n_threads = n_threads
+    if (present(triangulation)) options%triangulation = triangulation
+    if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
     call set_vector(rotation_axis, 'rotation_axis', options%rotation_axis, code)
     call set_vector(translation, 'translation', options%translation, code)
   end subroutine set_options
@@ -468,75 +705,6 @@ contains
       code = refuse('the size of ' // name // ' is ' // text_of(size(values)) // '; it must be 3')
     end if
   end subroutine set_vector
-
-  ! Fills the struct except vertex_ids; does nothing after an error.
-  subroutine get_arrays(points, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
-    type(strided_points), intent(in) :: points
-    integer, intent(in) :: n_corners, vertex_id_bits
-    integer(int64), intent(in) :: n_faces
-    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:)
-    class(*), intent(in), optional :: index_base
-    type(riis_surface_arrays), intent(out) :: arrays
-    integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = riis_surface_arrays_init(arrays, c_sizeof(arrays))
-    arrays%n_vertices = points%n
-    arrays%x = points%x
-    arrays%y = points%y
-    arrays%z = points%z
-    arrays%stride = points%stride
-    arrays%n_faces = n_faces
-    arrays%vertex_id_bits = vertex_id_bits
-    arrays%corners_per_face = n_corners
-    arrays%index_base = 1
-    if (code == RIIS_OK .and. n_corners /= 3 .and. n_corners /= 4) &
-      code = refuse('the first extent of vertex_ids is ' // text_of(n_corners) // '; it must be 3 or 4')
-    if (code == RIIS_OK .and. points%n == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no vertices')
-    if (code == RIIS_OK .and. n_faces == 0) code = fail(RIIS_INVALID_SURFACE, 'there are no faces')
-    call get_integer(index_base, 'index_base', arrays%index_base, code)
-    if (code /= RIIS_OK .or. .not. present(leaflet_id)) return
-    code = check_size(size(leaflet_id, kind=int64), n_faces, 'leaflet_id', 'faces')
-    if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
-  end subroutine get_arrays
-
-  ! The common part of all specifics of create_from_arrays; does nothing after an error.
-  subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
-      rotation_angle, translation, flip_normals, code)
-    class(riis_surface), intent(inout) :: this
-    type(riis_surface_arrays), intent(in) :: arrays
-    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
-      translation(:)
-    logical, intent(in), optional :: skip_zero_area, flip_normals
-    integer(riis_status), intent(inout) :: code
-    type(riis_surface_options) :: options
-    if (code == RIIS_OK) code = check_not_created(this%handle, 'the surface')
-    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
-    if (code /= RIIS_OK) return
-    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code)
-    if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
-    if (code == RIIS_OK) code = riis_surface_create_from_arrays(arrays, options, this%handle)
-    if (code == RIIS_OK) this%options = options
-  end subroutine create_from_arrays
-
-  ! The common part of all specifics of update_from_arrays; does nothing after an error.
-  subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
-      rotation_angle, translation, flip_normals, code)
-    class(riis_surface), intent(inout) :: this
-    type(riis_surface_arrays), intent(in) :: arrays
-    real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
-      translation(:)
-    logical, intent(in), optional :: skip_zero_area, flip_normals
-    integer(riis_status), intent(inout) :: code
-    type(riis_surface_options) :: options
-    if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
-    if (code /= RIIS_OK) return
-    options = this%options
-    call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code)
-    if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)
-    if (code == RIIS_OK) code = riis_surface_update_from_arrays(this%handle, arrays, options)
-    if (code == RIIS_OK) this%options = options
-  end subroutine update_from_arrays
 
   !> Gives the surface's counts, half thickness, area and bounds, and the wall times of the last create or update.
   subroutine surface_get_info(this, info, status)
@@ -663,8 +831,8 @@ contains
   !! copies sections of them that are not contiguous there and back. No array may overlap another or the coordinates, which
   !! are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side if distances are
   !! by sampling or minimisation. Nothing is then written.
-  subroutine surface_closest_points_xyz(this, xyz, distance_limit, far_distance, n_threads, &
-      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status)
+  subroutine surface_closest_points_xyz_logical(this, xyz, distance_limit, far_distance, n_threads, &
+      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
@@ -682,17 +850,54 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. are not written, but still
+                                                            !! finite; copied. Default: all points.
+    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of %marked: only
+                                                            !! these points are read, and only their entries written, in
+                                                            !! their places. Only a section that is not contiguous is copied.
+                                                            !! Default: all points. Not with point_mask.
+    integer(int8), allocatable :: bytes(:)
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(xyz, 'xyz', points, code)
+    call get_mask(point_mask, bytes, code)
+    call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
+      triangle_id, leaflet_id, side, code, bytes, point_id)
+    call finish(code, status)
+  end subroutine surface_closest_points_xyz_logical
+
+  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  subroutine surface_closest_points_xyz_int8(this, xyz, distance_limit, far_distance, n_threads, &
+      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+                                                            !! Default RIIS_AUTO: no limit.
+    real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
+    real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
+                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
+    integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
+    integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
+    integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
+                                                            !! surface or level with its rim.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 are not written, but still finite.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
     call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
-      triangle_id, leaflet_id, side, code)
+      triangle_id, leaflet_id, side, code, point_mask)
     call finish(code, status)
-  end subroutine surface_closest_points_xyz
+  end subroutine surface_closest_points_xyz_int8
 
   !> Does the same for separate coordinates.
-  subroutine surface_closest_points_x_y_z(this, x, y, z, distance_limit, far_distance, n_threads, &
-      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status)
+  subroutine surface_closest_points_x_y_z_logical(this, x, y, z, distance_limit, far_distance, n_threads, &
+      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
@@ -712,17 +917,56 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. are not written, but still
+                                                            !! finite; copied. Default: all points.
+    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of %marked: only
+                                                            !! these points are read, and only their entries written, in
+                                                            !! their places. Only a section that is not contiguous is copied.
+                                                            !! Default: all points. Not with point_mask.
+    integer(int8), allocatable :: bytes(:)
+    type(strided_points) :: points
+    integer(riis_status) :: code
+    call points_of(x, y, z, points, code)
+    call get_mask(point_mask, bytes, code)
+    call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
+      triangle_id, leaflet_id, side, code, bytes, point_id)
+    call finish(code, status)
+  end subroutine surface_closest_points_x_y_z_logical
+
+  !> Does the same for both.
+  subroutine surface_closest_points_x_y_z_int8(this, x, y, z, distance_limit, far_distance, n_threads, &
+      distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
+    real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
+    real(c_double), intent(in), target :: z(:)              !< (n_points), finite, any positive stride.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+                                                            !! Default RIIS_AUTO: no limit.
+    real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
+                                                            !! thread may use.
+    real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
+    real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
+                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
+    integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
+    integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
+    integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
+                                                            !! surface or level with its rim.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 are not written, but still finite.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
     call closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
-      triangle_id, leaflet_id, side, code)
+      triangle_id, leaflet_id, side, code, point_mask)
     call finish(code, status)
-  end subroutine surface_closest_points_x_y_z
+  end subroutine surface_closest_points_x_y_z_int8
 
-  ! The common part of both specifics of closest_points.
+  ! The common part of all specifics of closest_points.
   subroutine closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
-      triangle_id, leaflet_id, side, code)
+      triangle_id, leaflet_id, side, code, mask, point_id)
     class(riis_surface), intent(in) :: this
     type(strided_points), intent(in) :: points
     real(c_double), intent(in), optional :: distance_limit, far_distance
@@ -731,9 +975,13 @@ contains
     integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:)
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:), side(:)
     integer(riis_status), intent(inout) :: code
+    integer(int8), intent(in), contiguous, optional, target :: mask(:)
+    integer(int64), intent(in), optional, target :: point_id(:) ! gfortran would copy a pointer's target for CONTIGUOUS
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
     real(c_double) :: nothing(1)
+    integer(int64), target :: no_id(1)
+    integer(int64), allocatable, target :: ids(:)
 
     if (code == RIIS_OK) code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_closest_options_init(options, c_sizeof(options))
@@ -741,6 +989,11 @@ contains
     if (present(distance_limit)) options%distance_limit = distance_limit
     if (present(far_distance)) options%far_distance = far_distance
     call get_integer(n_threads, 'n_threads', options%n_threads, code)
+    if (code == RIIS_OK .and. present(mask)) then
+      code = check_size(size(mask, kind=int64), points%n, 'point_mask', 'points')
+      if (size(mask, kind=int64) > 0) options%point_mask = c_loc(mask)
+    end if
+    if (present(point_id)) call get_list()
     call get_vectors(point, 'point', arrays%point)
     call get_vectors(barycentric, 'barycentric', arrays%barycentric)
     call get_vectors(normal, 'normal', arrays%normal)
@@ -766,6 +1019,22 @@ contains
     if (code == RIIS_OK) call ask(points%n)
 
   contains
+
+    subroutine get_list()
+      integer :: stat
+      options%n_point_ids = size(point_id, kind=int64)
+      if (options%n_point_ids == 0) then
+        options%point_ids = c_loc(no_id) ! a list of no points is a list
+      else if (is_contiguous(point_id)) then
+        options%point_ids = c_loc(point_id(1))
+      else if (code == RIIS_OK) then
+        allocate (ids(options%n_point_ids), stat=stat)
+        code = out_of_memory(stat)
+        if (code /= RIIS_OK) return
+        ids = point_id
+        options%point_ids = c_loc(ids)
+      end if
+    end subroutine get_list
 
     subroutine get_vectors(vectors, name, location)
       real(c_double), intent(in), contiguous, optional, target :: vectors(:, :)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Valves: riis_valve_* of riis.h, as a part of module riis.
 module riis_valves
-  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c
   use riis_support
@@ -196,8 +196,10 @@ contains
     real(c_double), intent(in) :: value                     !< Lengths in the valve's unit, angles in degrees.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
+    character(len=len_trim(name) + 1, kind=c_char) :: c_name
+    call end_for_c(name, c_name)
     code = check_created(this%handle, 'the valve')
-    if (code == RIIS_OK) code = riis_valve_set_scalar(this%handle, riis_c_string(name), value)
+    if (code == RIIS_OK) code = riis_valve_set_scalar(this%handle, c_name, value)
     call finish(code, status)
   end subroutine valve_set_scalar
 
@@ -209,8 +211,10 @@ contains
     real(c_double), intent(in), contiguous :: value(:)      !< Lengths in the valve's unit, angles in degrees.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
+    character(len=len_trim(name) + 1, kind=c_char) :: c_name
+    call end_for_c(name, c_name)
     code = check_created(this%handle, 'the valve')
-    if (code == RIIS_OK) code = riis_valve_set(this%handle, riis_c_string(name), size(value, kind=int64), value)
+    if (code == RIIS_OK) code = riis_valve_set(this%handle, c_name, size(value, kind=int64), value)
     call finish(code, status)
   end subroutine valve_set_vector
 
@@ -221,10 +225,12 @@ contains
     real(c_double), intent(inout) :: value                  !< Left alone on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
+    character(len=len_trim(name) + 1, kind=c_char) :: c_name
     real(c_double) :: values(1)
     values = value
+    call end_for_c(name, c_name)
     code = check_created(this%handle, 'the valve')
-    if (code == RIIS_OK) code = riis_valve_get(this%handle, riis_c_string(name), 1_int64, values)
+    if (code == RIIS_OK) code = riis_valve_get(this%handle, c_name, 1_int64, values)
     value = values(1)
     call finish(code, status)
   end subroutine valve_get_scalar
@@ -236,8 +242,10 @@ contains
     real(c_double), intent(inout), contiguous :: value(:)   !< Left alone on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
+    character(len=len_trim(name) + 1, kind=c_char) :: c_name
+    call end_for_c(name, c_name)
     code = check_created(this%handle, 'the valve')
-    if (code == RIIS_OK) code = riis_valve_get(this%handle, riis_c_string(name), size(value, kind=int64), value)
+    if (code == RIIS_OK) code = riis_valve_get(this%handle, c_name, size(value, kind=int64), value)
     call finish(code, status)
   end subroutine valve_get_vector
 

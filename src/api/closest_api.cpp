@@ -25,13 +25,6 @@ const riis_closest_options default_options{
 const riis_closest_arrays default_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
-void put_vector(double *to, std::int64_t i, double x, double y, double z) {
-  if (!to) return;
-  to[3 * i] = x;
-  to[3 * i + 1] = y;
-  to[3 * i + 2] = z;
-}
-
 // Writes entry i of the wanted arrays for a point whose closest triangle was found.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
                    const riis::ClosestTriangle &found) {
@@ -41,14 +34,11 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
   if (to.triangle_id) to.triangle_id[i] = set.triangle_id[triangle];
   if (to.leaflet_id) to.leaflet_id[i] = set.leaflet_id[triangle];
   const std::array<riis::Vec3, 3> corners = set.corners(triangle);
-  if (to.normal) {
-    const riis::Vec3 normal = riis::triangle_normal(corners);
-    put_vector(to.normal, i, normal.x, normal.y, normal.z);
-  }
+  if (to.normal) riis::put_vector(to.normal, i, riis::triangle_normal(corners));
   if (to.point || to.barycentric || to.side) {
     const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
-    put_vector(to.point, i, on.point.x, on.point.y, on.point.z);
-    put_vector(to.barycentric, i, on.barycentric[0], on.barycentric[1], on.barycentric[2]);
+    if (to.point) riis::put_vector(to.point, i, on.point);
+    if (to.barycentric) riis::put_vector(to.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
     if (to.side) to.side[i] = content.side(p, triangle, on);
   }
 }
@@ -61,12 +51,9 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Pa
   if (to.triangle_id) to.triangle_id[i] = -1;
   if (to.leaflet_id) to.leaflet_id[i] = patch.leaflet_id;
   if (to.side) to.side[i] = 0;
-  put_vector(to.point, i, found.point.x, found.point.y, found.point.z);
-  put_vector(to.barycentric, i, 0, 0, 0);
-  if (to.normal) {
-    const riis::Vec3 normal = patch.normal_at(found.u, found.v);
-    put_vector(to.normal, i, normal.x, normal.y, normal.z);
-  }
+  if (to.point) riis::put_vector(to.point, i, found.point);
+  if (to.barycentric) riis::put_vector(to.barycentric, i, {0, 0, 0});
+  if (to.normal) riis::put_vector(to.normal, i, patch.normal_at(found.u, found.v));
 }
 
 // Refuses arrays that need triangles: a caller who gives them means to use them.
@@ -82,9 +69,8 @@ void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distanc
   if (to.triangle_id) to.triangle_id[i] = -1;
   if (to.leaflet_id) to.leaflet_id[i] = -1;
   if (to.side) to.side[i] = 0;
-  put_vector(to.normal, i, 0, 0, 0);
-  put_vector(to.point, i, 0, 0, 0);
-  put_vector(to.barycentric, i, 0, 0, 0);
+  for (double *vectors : {to.normal, to.point, to.barycentric})
+    if (vectors) riis::put_vector(vectors, i, {0, 0, 0});
 }
 
 // Returns infinity if the options have no limit.

@@ -26,8 +26,8 @@ const riis_opening_switch_state default_switch_state{
 const riis_opening_angle default_angle{sizeof(riis_opening_angle), no_value, no_value, no_value, no_value, 0, 75};
 const riis_opening_angle_state default_angle_state{sizeof(riis_opening_angle_state), 0, 0, 0, 0, 0, no_value, no_value};
 
-void write(const riis::Opening &made, double *opening, double *rate) {
-  riis::put(opening, made.opening);
+void write(const riis::ValueAndRate &made, double *opening, double *rate) {
+  riis::put(opening, made.value);
   riis::put(rate, made.rate);
 }
 

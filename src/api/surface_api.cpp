@@ -10,9 +10,11 @@
 #include "api/structs.hpp"
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
+#include "base/ranges.hpp"
 #include "parallel/parallel_for.hpp"
 #include "pipeline/make_surface.hpp"
 
+using riis::check_range;
 using riis::guarded;
 using riis::require;
 using riis::require_handle;
@@ -42,12 +44,6 @@ const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          nullptr,
                                          nullptr,
                                          1};
-
-void check_range(const char *options, const char *name, double value, double minimum, double maximum) {
-  if (!(value >= minimum && value <= maximum))
-    riis::fail(RIIS_INVALID_ARGUMENT, options, ".", name, " is ", value, "; it must be from ", minimum, " to ",
-               maximum);
-}
 
 void check_flag(const char *name, std::int32_t value) {
   if (value != 0 && value != 1)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 namespace riis {
 
@@ -20,5 +21,12 @@ inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a
 inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec3 a, Vec3 b) { return length(b - a); }
 inline Vec3 mix(Vec3 a, Vec3 b, double t) { return (1.0 - t) * a + t * b; }
+
+// Writes entry i of a list (3, n).
+inline void put_vector(double *list, std::int64_t i, Vec3 value) {
+  list[3 * i] = value.x;
+  list[3 * i + 1] = value.y;
+  list[3 * i + 2] = value.z;
+}
 
 }  // namespace riis

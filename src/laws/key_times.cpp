@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "base/ranges.hpp"
 
 namespace riis {
 namespace {
@@ -30,8 +31,7 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   if (n_keys < 1 || n_keys > max_keys)
     fail(RIIS_INVALID_ARGUMENT, name, ".n_keys is ", n_keys, "; it must be from 1 to ", max_keys);
   if (!time) fail(RIIS_INVALID_ARGUMENT, name, ".time is NULL");
-  if (!(period >= 0 && period <= largest_time))
-    fail(RIIS_INVALID_ARGUMENT, name, ".period is ", period, "; it must be from 0 to ", largest_time);
+  check_range(name, "period", period, 0, largest_time);
   if (interpolation != RIIS_INTERPOLATION_LINEAR && interpolation != RIIS_INTERPOLATION_CUBIC)
     fail(RIIS_INVALID_ARGUMENT, name, ".interpolation is ", interpolation,
          "; it must be RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC");

@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
-#include "laws/key_times.hpp"
+#include "base/ranges.hpp"
 
 namespace riis {
 namespace {
@@ -17,12 +17,7 @@ namespace {
 constexpr double largest = 1e30;
 constexpr double degree = 3.14159265358979323846 / 180;
 
-void check_range(const char *name, double value, double least, double most) {
-  if (!(value >= least && value <= most))
-    fail(RIIS_INVALID_ARGUMENT, name, " is ", value, "; it must be from ", least, " to ", most);
-}
-
-void check_time(double time) { check_range("time", time, -largest, largest); }
+void check_time(double time) { check_range("", "time", time, -largest, largest); }
 
 // A ramp from 0 at x = 0 to 1 at x = 1 whose first two derivatives are 0 at both ends: neither the velocity nor the
 // acceleration of the valve jumps.
@@ -31,7 +26,7 @@ double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) 
 
 }  // namespace
 
-Opening opening_from_table(const riis_opening_table &table, double time) {
+ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   const KeyTimes keys("table", table.n_keys, table.time, table.period, table.interpolation);
   check_reserved("table.reserved", table.reserved);
   require(table.opening, "table.opening");
@@ -50,14 +45,14 @@ Opening opening_from_table(const riis_opening_table &table, double time) {
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
-Opening opening_from_times(const riis_opening_times &times, double time) {
-  check_range("times.opening_start", times.opening_start, -largest, largest);
-  check_range("times.opening_seconds", times.opening_seconds, 1 / largest, largest);
-  check_range("times.closing_start", times.closing_start, times.opening_start + times.opening_seconds, largest);
-  check_range("times.closing_seconds", times.closing_seconds, 1 / largest, largest);
-  check_range("times.closed", times.closed, 0, 1);
-  check_range("times.open", times.open, 0, 1);
-  check_range("times.period", times.period, 0, largest);
+ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
+  check_range("times", "opening_start", times.opening_start, -largest, largest);
+  check_range("times", "opening_seconds", times.opening_seconds, 1 / largest, largest);
+  check_range("times", "closing_start", times.closing_start, times.opening_start + times.opening_seconds, largest);
+  check_range("times", "closing_seconds", times.closing_seconds, 1 / largest, largest);
+  check_range("times", "closed", times.closed, 0, 1);
+  check_range("times", "open", times.open, 0, 1);
+  check_range("times", "period", times.period, 0, largest);
   const double length = times.closing_start + times.closing_seconds - times.opening_start;
   if (times.period > 0 && length > times.period)
     fail(RIIS_INVALID_ARGUMENT, "times.period is ", times.period, "; opening and closing take ", length);
@@ -80,10 +75,10 @@ namespace {
 
 // The time since the state before. Values that drive the law are checked, too.
 double checked_step(double before, double time, double pressure_difference, double flow) {
-  check_range("before.time", before, -largest, largest);
-  check_range("time", time, before, largest);
-  check_range("pressure_difference", pressure_difference, -largest, largest);
-  check_range("flow", flow, -largest, largest);
+  check_range("before", "time", before, -largest, largest);
+  check_range("", "time", time, before, largest);
+  check_range("", "pressure_difference", pressure_difference, -largest, largest);
+  check_range("", "flow", flow, -largest, largest);
   return time - before;
 }
 
@@ -102,13 +97,13 @@ void check_phase(std::int32_t phase) {
 
 riis_opening_switch_state advance(const riis_opening_switch &law, const riis_opening_switch_state &before, double time,
                                   double pressure_difference, double flow) {
-  check_range("law.opening_seconds", law.opening_seconds, 1 / largest, largest);
-  check_range("law.closing_seconds", law.closing_seconds, 1 / largest, largest);
-  check_range("law.open_above", law.open_above, -largest, largest);
-  check_range("law.close_below", law.close_below, -largest, largest);
-  check_range("law.filter_seconds", law.filter_seconds, 0, largest);
-  check_range("law.dwell_seconds", law.dwell_seconds, 0, largest);
-  check_range("before.progress", before.progress, 0, 1);
+  check_range("law", "opening_seconds", law.opening_seconds, 1 / largest, largest);
+  check_range("law", "closing_seconds", law.closing_seconds, 1 / largest, largest);
+  check_range("law", "open_above", law.open_above, -largest, largest);
+  check_range("law", "close_below", law.close_below, -largest, largest);
+  check_range("law", "filter_seconds", law.filter_seconds, 0, largest);
+  check_range("law", "dwell_seconds", law.dwell_seconds, 0, largest);
+  check_range("before", "progress", before.progress, 0, 1);
   check_phase(before.phase);
   check_reserved("before.reserved", before.reserved);
   const double step = checked_step(before.time, time, pressure_difference, flow);
@@ -196,17 +191,17 @@ Motion stopped(Motion at, double least, double most) {
 
 riis_opening_angle_state advance(const riis_opening_angle &law, const riis_opening_angle_state &before, double time,
                                  double pressure_difference, double flow) {
-  check_range("law.pressure_gain", law.pressure_gain, 0, largest);
-  check_range("law.flow_gain", law.flow_gain, 0, largest);
-  check_range("law.friction", law.friction, 0, largest);
-  check_range("law.vortex_gain", law.vortex_gain, 0, largest);
-  check_range("law.angle_min", law.angle_min, 0, 90);
-  check_range("law.angle_max", law.angle_max, law.angle_min, 90);
+  check_range("law", "pressure_gain", law.pressure_gain, 0, largest);
+  check_range("law", "flow_gain", law.flow_gain, 0, largest);
+  check_range("law", "friction", law.friction, 0, largest);
+  check_range("law", "vortex_gain", law.vortex_gain, 0, largest);
+  check_range("law", "angle_min", law.angle_min, 0, 90);
+  check_range("law", "angle_max", law.angle_max, law.angle_min, 90);
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  check_range("before.angle", before.angle, law.angle_min, law.angle_max);
-  check_range("before.angle_rate", before.angle_rate, -largest, largest);
+  check_range("before", "angle", before.angle, law.angle_min, law.angle_max);
+  check_range("before", "angle_rate", before.angle_rate, -largest, largest);
   const double step = checked_step(before.time, time, pressure_difference, flow);
 
   // A first state has no drive: that of now stands for it.

@@ -6,15 +6,13 @@
 
 #include <riis/riis.h>
 
+#include "laws/key_times.hpp"
+
 namespace riis {
 
-struct Opening {
-  double opening, rate;
-};
-
 // All fail with RIIS_INVALID_ARGUMENT, naming the field and its value.
-Opening opening_from_table(const riis_opening_table &table, double time);
-Opening opening_from_times(const riis_opening_times &times, double time);
+ValueAndRate opening_from_table(const riis_opening_table &table, double time);
+ValueAndRate opening_from_times(const riis_opening_times &times, double time);
 riis_opening_switch_state advance(const riis_opening_switch &law, const riis_opening_switch_state &before, double time,
                                   double pressure_difference, double flow);
 riis_opening_angle_state advance(const riis_opening_angle &law, const riis_opening_angle_state &before, double time,

@@ -31,12 +31,6 @@ void for_each_array(std::int32_t fields, const Visit &visit) {
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::size_t{1});
 }
 
-void put(std::vector<double> &to, std::size_t i, Vec3 value) {
-  to[3 * i] = value.x;
-  to[3 * i + 1] = value.y;
-  to[3 * i + 2] = value.z;
-}
-
 // Returns the position of a triangle in the set. It is the id, unless triangles of the caller's arrays were left out.
 std::size_t position_of(const TriangleSet &set, std::int64_t triangle_id) {
   const auto guess = static_cast<std::size_t>(triangle_id);
@@ -101,10 +95,10 @@ class TriangleFields {
   }
 
   void write(std::size_t i, std::size_t triangle, Vec3 p, const PointOnTriangle &on) const {
-    if (has(RIIS_FIELD_POINT)) put(made_.point, i, on.point);
-    if (has(RIIS_FIELD_NORMAL)) put(made_.normal, i, normal(triangle));
+    if (has(RIIS_FIELD_POINT)) put_vector(made_.point.data(), i, on.point);
+    if (has(RIIS_FIELD_NORMAL)) put_vector(made_.normal.data(), i, normal(triangle));
     if (has(RIIS_FIELD_BARYCENTRIC))
-      put(made_.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
+      put_vector(made_.barycentric.data(), i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
     if (has(RIIS_FIELD_SIDE)) made_.side[i] = surface_.side(p, triangle, on);
     if (has(RIIS_FIELD_RIM)) made_.rim[i] = surface_.is_on_rim(triangle, on) ? 1 : 0;
     if (has(RIIS_FIELD_PATCH)) made_.patch_id[i] = set_.patch_id[triangle];
@@ -146,8 +140,8 @@ void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::
   const PatchDistance &method = *request.surface.other_distance();
   const ClosestOnPatches found = method.closest(request.mesh.nodes()[node], request.distance_limit);
   const PlacedPatch &patch = method.patches().patches[static_cast<std::size_t>(found.patch)];
-  if (fields & RIIS_FIELD_POINT) put(made.point, i, found.point);
-  if (fields & RIIS_FIELD_NORMAL) put(made.normal, i, patch.normal_at(found.u, found.v));
+  if (fields & RIIS_FIELD_POINT) put_vector(made.point.data(), i, found.point);
+  if (fields & RIIS_FIELD_NORMAL) put_vector(made.normal.data(), i, patch.normal_at(found.u, found.v));
   if (fields & RIIS_FIELD_PATCH) made.patch_id[i] = patch.patch_id;
 }
 

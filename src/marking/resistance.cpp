@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/ranges.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -44,8 +45,7 @@ void require_field(const MarkResult &result, std::int32_t field, const char *fie
 
 Resistance checked_resistance(const riis_resistance &resistance, const MarkResult &result) {
   if (!result.was_marked) fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
-  if (!(resistance.resistance >= 0 && resistance.resistance <= 1e60))
-    fail(RIIS_INVALID_ARGUMENT, "resistance.resistance is ", resistance.resistance, "; it must be from 0 to 1e+60");
+  check_range("resistance", "resistance", resistance.resistance, 0, 1e60);
   const double eps = resistance.half_thickness == RIIS_AUTO ? result.half_thickness : resistance.half_thickness;
   if (!(eps >= 1e-50 && eps <= result.distance_limit))
     fail(RIIS_INVALID_ARGUMENT, "resistance.half_thickness is ", eps,

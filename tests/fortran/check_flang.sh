@@ -5,8 +5,9 @@
 set -euo pipefail
 flang=$1 cc=$2 source=$3 work=$4 library=$5
 flags=(-O1 -Werror)
-modules=(riis_c riis_support riis_valves riis_surfaces riis_adjacencies riis_meshes riis_marking riis_leaking riis
-  riis_f77 riis_f77_adjacency riis_f77_marking riis_f77_leaks riis_f77_fields riis_f77_resistance)
+modules=(riis_c riis_support riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes riis_marking riis_leaking
+  riis_laws riis riis_f77 riis_f77_adjacency riis_f77_marking riis_f77_leaks riis_f77_fields riis_f77_resistance
+  riis_f77_arrays riis_f77_queries riis_f77_laws)
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
@@ -20,11 +21,15 @@ for name in checks box c_twin; do
   "$flang" -O1 -c "$tests/$name.f90"
 done
 "$cc" -std=c11 -I"$source/include" -c "$tests/c_twin.c" -o c_twin_c.o
-for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_f2003 error_stop; do
+for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
+    error_stop; do
   "$flang" -O1 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
-"$flang" -O1 -I"$source/fortran" "$tests/test_f77.f" ./riis*.o "${link[@]}" -o test_f77
-for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_f2003 test_f77; do
+for name in test_f77 test_f77_motion; do
+  "$flang" -O1 -I"$source/fortran" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
+done
+for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
+    test_f77 test_f77_motion; do
   echo "$name"
   "./$name"
 done

@@ -10,6 +10,7 @@ program error_stop
   end type model
   type(riis_valve) :: valve, other_valve
   type(riis_surface) :: surface, other_surface
+  type(riis_keyframes) :: keyframes, other_keyframes
   type(riis_mesh) :: mesh, other_mesh
   type(riis_adjacency) :: adjacency, other_adjacency
   type(riis_mark_result) :: result, other_result
@@ -36,6 +37,11 @@ program error_stop
     other_valve = valve
   case ('surface')
     other_surface = surface
+  case ('keyframes')
+    call keyframes%create([0d0], reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0], [3, 3, 1]), reshape([1, 2, 3], [3, 1]))
+    other_keyframes = keyframes
+  case ('law')
+    call riis_opening_from_times(riis_opening_times(0d0, -1d0, 1d0, 1d0), 0d0, xyz(1, 1))
   case ('mesh')
     other_mesh = mesh
   case ('adjacency')

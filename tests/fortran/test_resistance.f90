@@ -21,6 +21,7 @@ program test_resistance
   call test_copy()
   call test_velocities()
   call test_placement_before()
+  call test_fixed_triangles()
   call test_motion_errors()
   call test_fields()
   call test_fields_not_asked_for()
@@ -127,6 +128,41 @@ contains
     call check(all(abs(velocity(3, :) - 2) < 1d-13) .and. all(abs(velocity(:2, :)) < 1d-13), 'moved only')
     call moving%destroy()
   end subroutine test_placement_before
+
+  ! Triangles that stay the same while a valve opens, as riis_c makes them.
+  subroutine test_fixed_triangles()
+    type(riis_valve) :: mitral, before
+    type(riis_surface) :: fixed
+    type(riis_surface_info) :: info
+    integer(int64), pointer :: vertex_id(:, :)
+    integer(int64), allocatable :: first(:, :)
+    integer :: step
+    call mitral%create('mitral')
+    call mitral%set('opening', 0.2d0)
+    call mitral%copy(before)
+    call fixed%create(mitral, triangulation=RIIS_TRIANGULATION_FIXED)
+    call fixed%triangles(vertex_id)
+    allocate (first, source=vertex_id)
+    do step = 1, 2
+      call mitral%set('opening', 0.2d0 + 0.1d0 * step)
+      if (step == 1) call fixed%update(mitral)
+      if (step == 2) call fixed%update_moving(mitral, before, 0.1d0, triangulation=RIIS_TRIANGULATION_FIXED)
+      call fixed%triangles(vertex_id)
+      call check(size(vertex_id) == size(first), 'as many triangles at another opening')
+      if (size(vertex_id) == size(first)) call check(all(vertex_id == first), 'with the same vertices')
+      call fixed%get_info(info)
+      call check(info%error_bound > 0 .and. info%error_bound <= 0.05d0 * info%half_thickness, 'within the bound')
+    end do
+    call mitral%set('surface_angle', 3d0)
+    call fixed%update(mitral, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'surface_angle')
+    call fixed%update(mitral, triangulation=RIIS_TRIANGULATION_ADAPTED)
+    call fixed%update(mitral, triangulation=7, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.triangulation is 7')
+    call fixed%destroy()
+    call before%destroy()
+    call mitral%destroy()
+  end subroutine test_fixed_triangles
 
   subroutine test_motion_errors()
     type(riis_surface) :: moving

@@ -30,8 +30,9 @@ declare -A more_flags=([openmp_caller]=-fopenmp)
 expected=$source/tests/install/expected
 
 # The installed Fortran sources, in the order in which they use each other.
-fortran_sources=(riis_c riis_support riis_valves riis_surfaces riis_adjacencies riis_meshes riis_marking riis_leaking riis
-  riis_f77 riis_f77_adjacency riis_f77_marking riis_f77_leaks riis_f77_fields riis_f77_resistance)
+fortran_sources=(riis_c riis_support riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes riis_marking
+  riis_leaking riis_laws riis riis_f77 riis_f77_adjacency riis_f77_marking riis_f77_leaks riis_f77_fields riis_f77_resistance
+  riis_f77_arrays riis_f77_queries riis_f77_laws)
 
 
 configure_consumer() { # source directory, build directory, prefix, more options
@@ -134,7 +135,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
   if has Fortran; then
     # Built like codes that do not use modules.
     # shellcheck disable=SC2046
-    quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" -o "$out/test_f77" \
+    quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" "$source/tests/fortran/f77_checks.f" -o "$out/test_f77" \
       $(flags --cflags --libs "${@:2}" riis-fortran)
   fi
   for example in "${examples[@]}"; do

@@ -1,0 +1,318 @@
+! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_f77_queries.fypp by fortran/expand_templates.sh: edit that template, not this file.
+!> The external subroutines for what a surface consists of, and for closest points. The conventions are those of
+!! riis_f77.f90.
+
+!> Copies the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if the array is too
+!! short: nothing but n is then written.
+subroutine riisf_surface_vertices(surface, length, n, xyz, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertices
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int32), intent(in) :: length                    !< How many vertices the array has room for.
+  integer(int32), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: location
+  real(c_double), pointer :: own(:)
+  integer(int64) :: n_vertices
+  n_vertices = 0
+  location = c_null_ptr
+  status = riis_surface_vertices(c_handle_of(surface), n_vertices, location)
+  if (status /= RIIS_OK) return
+  n = int(min(n_vertices, int(huge(n), int64)), int32)
+  if (n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
+  else if (c_associated(location)) then
+    call c_f_pointer(location, own, [3 * n_vertices])
+    xyz(:3 * n_vertices) = own
+  end if
+end subroutine riisf_surface_vertices
+
+!> Does the same.
+subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertices
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: length                    !< How many vertices the array has room for.
+  integer(int64), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: location
+  real(c_double), pointer :: own(:)
+  integer(int64) :: n_vertices
+  n_vertices = 0
+  location = c_null_ptr
+  status = riis_surface_vertices(c_handle_of(surface), n_vertices, location)
+  if (status /= RIIS_OK) return
+  n = int(min(n_vertices, int(huge(n), int64)), int64)
+  if (n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
+  else if (c_associated(location)) then
+    call c_f_pointer(location, own, [3 * n_vertices])
+    xyz(:3 * n_vertices) = own
+  end if
+end subroutine riisf_surface_vertices_64
+
+!> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if
+!! the last update gave none, or if the array is too short: nothing but n is then written.
+subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertex_velocities
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int32), intent(in) :: length                    !< How many vertices the array has room for.
+  integer(int32), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: location
+  real(c_double), pointer :: own(:)
+  integer(int64) :: n_vertices
+  n_vertices = 0
+  location = c_null_ptr
+  status = riis_surface_vertex_velocities(c_handle_of(surface), n_vertices, location)
+  if (status /= RIIS_OK) return
+  n = int(min(n_vertices, int(huge(n), int64)), int32)
+  if (n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
+  else if (c_associated(location)) then
+    call c_f_pointer(location, own, [3 * n_vertices])
+    velocity(:3 * n_vertices) = own
+  else
+    status = fail(RIIS_INVALID_ARGUMENT, 'surface has no velocities: its last update gave none')
+  end if
+end subroutine riisf_surface_vertex_velocities
+
+!> Does the same.
+subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertex_velocities
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: length                    !< How many vertices the array has room for.
+  integer(int64), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: location
+  real(c_double), pointer :: own(:)
+  integer(int64) :: n_vertices
+  n_vertices = 0
+  location = c_null_ptr
+  status = riis_surface_vertex_velocities(c_handle_of(surface), n_vertices, location)
+  if (status /= RIIS_OK) return
+  n = int(min(n_vertices, int(huge(n), int64)), int64)
+  if (n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
+  else if (c_associated(location)) then
+    call c_f_pointer(location, own, [3 * n_vertices])
+    velocity(:3 * n_vertices) = own
+  else
+    status = fail(RIIS_INVALID_ARGUMENT, 'surface has no velocities: its last update gave none')
+  end if
+end subroutine riisf_surface_vertex_velocities_64
+
+!> Finds the closest points of the surface to many points, in parallel. No array may overlap another. Errors:
+!! RIIS_INVALID_ARGUMENT naming the first bad point, counted from 0, or for a surface that measures distances by sampling or
+!! minimisation, which has no sides. Nothing is then written.
+subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
+    distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
+    side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
+    riis_closest_options_init, riis_closest_points
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int32), intent(in) :: n_points                  !< >= 0.
+  real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+                                                          !! RIIS_AUTO: no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  options%distance_limit = distance_limit
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+end subroutine riisf_closest_points
+
+!> Does the same.
+subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
+    distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
+    side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
+    riis_closest_options_init, riis_closest_points
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: n_points                  !< >= 0.
+  real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+                                                          !! RIIS_AUTO: no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  options%distance_limit = distance_limit
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+end subroutine riisf_closest_points_64
+
+!> The same for some of the points: only they are read, and only their entries are written, in their places.
+subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
+    n_listed, point_num, distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
+    side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
+    riis_closest_options_init, riis_closest_points
+  use riis_support, only: c_handle_of, location_of, out_of_memory
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int32), intent(in) :: n_points                  !< >= 0.
+  real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: n_listed                  !< 0 to n_points.
+  integer(int32), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, as riisf_marked gives
+                                                          !! nodes; copied.
+  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+                                                          !! RIIS_AUTO: no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  integer(int64), allocatable, target :: ids(:)
+  integer :: stat
+  status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  allocate (ids(max(n_listed, 1_int32)), stat=stat) ! a list of no points is a list
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  ids(:n_listed) = int(point_num(:n_listed), int64) - 1
+  options%n_point_ids = n_listed
+  options%point_ids = c_loc(ids)
+  options%distance_limit = distance_limit
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+end subroutine riisf_closest_points_listed
+
+!> Does the same.
+subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
+    n_listed, point_num, distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
+    side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
+    riis_closest_options_init, riis_closest_points
+  use riis_support, only: c_handle_of, location_of, out_of_memory
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: n_points                  !< >= 0.
+  real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int64), intent(in) :: n_listed                  !< 0 to n_points.
+  integer(int64), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, as riisf_marked gives
+                                                          !! nodes; copied.
+  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+                                                          !! RIIS_AUTO: no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  integer(int64), allocatable, target :: ids(:)
+  integer :: stat
+  status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  allocate (ids(max(n_listed, 1_int64)), stat=stat) ! a list of no points is a list
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  ids(:n_listed) = int(point_num(:n_listed), int64) - 1
+  options%n_point_ids = n_listed
+  options%point_ids = c_loc(ids)
+  options%distance_limit = distance_limit
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+end subroutine riisf_closest_points_listed_64

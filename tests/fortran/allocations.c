@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Counts the allocations that Fortran code makes: those whose caller is the program, which has the Fortran modules inside, or
+ * gfortran's run-time library. All allocations of the process come by here, since a program's symbols go before those of
+ * the libraries. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* dladdr, RTLD_DEFAULT */
+#endif
+#include <dlfcn.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t n, size_t size);
+void *__libc_realloc(void *p, size_t size);
+
+void allocations_begin(void);
+int64_t allocations_end(void);
+
+static const void *program, *run_time; /* NULL: nothing is counted */
+static int64_t n_counted;
+
+static void *counted(void *p, const void *caller_address) {
+  const void *const begun = __atomic_load_n(&program, __ATOMIC_ACQUIRE);
+  Dl_info info;
+  if (begun && dladdr(caller_address, &info) && (info.dli_fbase == begun || info.dli_fbase == run_time))
+    __atomic_fetch_add(&n_counted, 1, __ATOMIC_RELAXED);
+  return p;
+}
+
+void *malloc(size_t size) { return counted(__libc_malloc(size), __builtin_return_address(0)); }
+void *calloc(size_t n, size_t size) { return counted(__libc_calloc(n, size), __builtin_return_address(0)); }
+void *realloc(void *p, size_t size) { return counted(__libc_realloc(p, size), __builtin_return_address(0)); }
+
+static const void *object_of(const void *address) {
+  Dl_info info;
+  return address && dladdr(address, &info) ? info.dli_fbase : NULL;
+}
+
+void allocations_begin(void) {
+  void *(*volatile here)(size_t) = malloc;
+  run_time = object_of(dlsym(RTLD_DEFAULT, "_gfortran_internal_pack"));
+  n_counted = 0;
+  __atomic_store_n(&program, object_of((const void *)(uintptr_t)here), __ATOMIC_RELEASE);
+}
+
+/* -1 if gfortran's library was not found. */
+int64_t allocations_end(void) {
+  __atomic_store_n(&program, NULL, __ATOMIC_RELEASE);
+  return run_time ? n_counted : -1;
+}

@@ -1,0 +1,328 @@
+! SPDX-License-Identifier: Apache-2.0
+! Module riis: surfaces from frames in time, velocities of the caller's vertices, closest points of a mask and of a list,
+! against closed forms and against what riis_c gives.
+program test_frames
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use box
+  use checks
+  use riis
+  use riis_c, only: c_vertex_velocities => riis_surface_vertex_velocities
+  implicit none
+  real(c_double), parameter :: square(3, 4) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 1d0, 1d0, 0d0, 0d0, 1d0, 0d0], [3, 4])
+  integer(int32), parameter :: quad(4, 1) = reshape([1, 2, 3, 4], [4, 1]), halves(3, 2) = reshape([1, 2, 3, 1, 3, 4], [3, 2])
+  real(c_double), parameter :: time(4) = [0d0, 0.25d0, 0.5d0, 1d0], height(4) = [0d0, 0.1d0, 0.3d0, 0d0]
+  real(c_double) :: frames(3, 4, 4)
+  integer(riis_status) :: status
+  integer :: k
+
+  do k = 1, 4
+    frames(:2, :, k) = square(:2, :)
+    frames(3, :, k) = height(k)
+  end do
+  call test_keyframes()
+  call test_period()
+  call test_bad_keyframes()
+  call test_velocities_of_arrays()
+  call test_bad_velocities()
+  call make_box()
+  call test_masks()
+  call test_bad_masks()
+  call free_box()
+  call finish()
+
+contains
+
+  ! The square is at this height everywhere, and moves up with this speed.
+  subroutine check_height(surface, height, speed, what)
+    type(riis_surface), intent(in) :: surface
+    real(c_double), intent(in) :: height, speed
+    character(len=*), intent(in) :: what
+    real(c_double), pointer :: xyz(:, :), velocity(:, :)
+    call surface%vertices(xyz)
+    call surface%vertex_velocities(velocity)
+    call check(size(xyz, 2) == 4 .and. size(velocity, 2) == 4 .and. lbound(velocity, 2) == 1, what // ': four vertices')
+    if (size(velocity, 2) /= 4) return
+    call check(all(abs(xyz(3, :) - height) < 1d-14) .and. all(abs(velocity(3, :) - speed) < 1d-12) .and. &
+      all(abs(velocity(:2, :)) <= 0), what)
+  end subroutine check_height
+
+  subroutine test_keyframes()
+    type(riis_keyframes) :: keyframes, others
+    type(riis_surface) :: surface
+    type(riis_surface_info) :: info
+    real(c_double) :: mine(3, 4, 4)
+    real(c_double), pointer :: velocity(:, :)
+    integer(int32), pointer :: leaflet_id(:)
+    integer(int64) :: n
+    type(c_ptr) :: own_velocities, of_c
+    mine = frames
+    call check(.not. keyframes%is_created(), 'empty at first')
+    call keyframes%create(time, mine, quad, [7])
+    mine = 0 ! they were copied
+    call surface%create_from_keyframes(keyframes, 0.125d0, half_thickness=0.2d0, scale=2d0, translation=[0d0, 0d0, 5d0])
+    call check_height(surface, 5.1d0, 0.8d0, 'placed')
+    call surface%triangles(leaflet_id=leaflet_id)
+    call check(size(leaflet_id) == 2 .and. all(leaflet_id == 7), 'with leaflets')
+    call surface%update_from_keyframes(keyframes, 0.25d0, scale=1d0, translation=[0d0, 0d0, 0d0])
+    call check_height(surface, 0.1d0, 0.8d0, 'the velocity behind a key')
+    call surface%update_from_keyframes(keyframes, 0.75d0, since=0.125d0)
+    call check_height(surface, 0.15d0, 0.1d0 / 0.625d0, 'the mean velocity')
+    call surface%update_from_keyframes(keyframes, 0.125d0, 0.75d0, .false., 0.3d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
+      [0d0, 0d0, 0d0], .true., 1)
+    call check_height(surface, 0.05d0, 0.1d0 / 0.625d0, 'back in time')
+    call surface%get_info(info)
+    call check(same(info%half_thickness, 0.3d0), 'with another half thickness')
+    call surface%update_from_keyframes(keyframes, 9d0)
+    call check_height(surface, 0d0, 0d0, 'at rest behind the last key')
+
+    ! The velocities are the library's own.
+    n = 0
+    of_c = c_null_ptr
+    call surface%vertex_velocities(velocity)
+    own_velocities = c_loc(velocity(1, 1))
+    call check_ok(c_vertex_velocities(surface%c_handle(), n, of_c), 'velocities from riis_c')
+    call check(n == 4 .and. c_associated(own_velocities, of_c), 'no copy of velocities')
+    call surface%destroy()
+
+    ! Sections, ids of the other kind from 0, cubic.
+    call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
+    call surface%create_from_keyframes(others, 0.25d0, 0.25d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
+      [0d0, 0d0, 0d0], .false., 1)
+    ! The weighted harmonic mean of the slopes on either side.
+    call check_height(surface, 0.1d0, 2 / (1 / 0.4d0 + 1 / 0.8d0), 'cubic')
+    call surface%destroy()
+    call surface%create_from_keyframes(keyframes, 0.25d0)
+    call keyframes%destroy()
+    call check_height(surface, 0.1d0, 0.8d0, 'a surface outlives its keyframes')
+    call check(.not. keyframes%is_created() .and. .not. c_associated(keyframes%c_handle()), 'destroyed')
+    call keyframes%destroy()
+    call surface%destroy()
+    call others%destroy()
+  end subroutine test_keyframes
+
+  subroutine test_period()
+    type(riis_keyframes) :: keyframes, empty(2), copies(2)
+    type(riis_surface) :: surface
+    integer :: i
+    call keyframes%create(time, frames, halves, period=1d0, interpolation=int(RIIS_INTERPOLATION_LINEAR, int64))
+    call surface%create_from_keyframes(keyframes, 0.125d0)
+    do i = -3, 3
+      call surface%update_from_keyframes(keyframes, i + 0.125d0)
+      call check_height(surface, 0.05d0, 0.4d0, 'in every period')
+    end do
+    copies = empty
+    call check(.not. copies(2)%is_created(), 'an empty copy is empty')
+    call surface%destroy()
+    call keyframes%destroy()
+  end subroutine test_period
+
+  subroutine test_bad_keyframes()
+    type(riis_keyframes) :: keyframes
+    type(riis_surface) :: surface
+    real(c_double) :: bad(3, 4, 4)
+    call surface%create_from_keyframes(keyframes, 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'keyframes was not created, or was destroyed')
+    call keyframes%create(time, frames(:2, :, :), quad, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of xyz is 2; it must be 3')
+    call keyframes%create(time, frames(:, :, :3), quad, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of xyz(1, 1, :) is 3; there are 4 times of keys')
+    call keyframes%create(time(:0), frames(:, :, :0), quad, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'frames.n_keys is 0')
+    call keyframes%create(time, frames(:, :0, :), quad, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'there are no vertices')
+    call keyframes%create(time, frames, quad(:2, :), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of vertex_ids is 2; it must be 3 or 4')
+    call keyframes%create(time, frames, quad(:, :0), status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'there are no faces')
+    call keyframes%create(time, frames, quad, [1, 2], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of leaflet_id is 2; there are 1 faces')
+    call keyframes%create(time, frames, quad, index_base=2, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'index_base is 2')
+    call keyframes%create(time, frames, quad + 1, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'corner 3 of face 0 is 5')
+    call keyframes%create(time([1, 3, 2, 4]), frames, quad, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'frames.time of key 2 is 0.25; it must be above')
+    call keyframes%create(time, frames, quad, period=0.75d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'frames.time of key 3 is 1, beyond the period of 0.75')
+    call keyframes%create(time, frames, quad, period=-1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'frames.period is -1')
+    call keyframes%create(time, frames, quad, interpolation=5, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'frames.interpolation is 5')
+    call keyframes%create(time, frames, quad, interpolation='cubic', status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'interpolation is neither')
+    bad = frames
+    bad(2, 3, 2) = 1d99
+    call keyframes%create(time, bad, quad, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'y of vertex 2 in frame 1 is 1e+99')
+    bad = frames
+    bad(3, 1, 4) = 1
+    call keyframes%create(time, bad, quad, period=1d0, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'vertex 0 in the last frame')
+    call check(.not. keyframes%is_created(), 'refused keyframes are empty')
+
+    call keyframes%create(time, frames, quad)
+    call keyframes%create(time, frames, quad, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'keyframes was already created')
+    call surface%update_from_keyframes(keyframes, 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call surface%create_from_keyframes(keyframes, 0d0, tolerance=7d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.tolerance is 7')
+    call surface%create_from_keyframes(keyframes, 0d0, translation=[1d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of translation is 1')
+    call surface%create_from_keyframes(keyframes, 1d31, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'time is 1e+31')
+    call check(.not. surface%is_created(), 'a refused surface is empty')
+    call surface%create_from_keyframes(keyframes, 0.125d0)
+    call surface%create_from_keyframes(keyframes, 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was already created')
+    call surface%update_from_keyframes(keyframes, 1d31, half_thickness=9d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'time is 1e+31')
+    call check_height(surface, 0.05d0, 0.4d0, 'refused updates change nothing')
+    call surface%destroy()
+    call keyframes%destroy()
+  end subroutine test_bad_keyframes
+
+  ! By xyz and by x, y, z; by ids of either kind; at first and later. The placement turns velocities about z and doubles them.
+  subroutine test_velocities_of_arrays()
+    type(riis_surface) :: surface
+    real(c_double), pointer :: velocity(:, :)
+    real(c_double) :: v(3, 4), wide(6, 8), placed(3, 4)
+    v = reshape([1d0, 2d0, 3d0, 4d0, 5d0, 6d0, 7d0, 8d0, 9d0, 10d0, 11d0, 12d0], [3, 4])
+    placed = 2 * reshape([-v(2, :), v(1, :), v(3, :)], [3, 4], order=[2, 1])
+    wide = -9
+    wide(1::2, 1::2) = v
+    call surface%create_from_arrays(square, halves, velocity=v, scale=2d0, rotation_angle=90d0, n_threads=1)
+    call check_velocities(surface, placed, 'a matrix')
+    call surface%update_from_arrays(square, int(quad, int64), velocity=wide(1::2, 1::2))
+    call check_velocities(surface, placed, 'a section of a matrix')
+    call surface%update_from_arrays(square(1, :), square(2, :), square(3, :), halves, vx=v(1, :), vy=v(2, :), vz=v(3, :))
+    call check_velocities(surface, placed, 'three vectors')
+    call surface%update_from_arrays(square(1, :), square(2, :), square(3, :), int(quad, int64), vx=wide(1, 1::2), &
+      vy=wide(3, 1::2), vz=wide(5, 1::2))
+    call check_velocities(surface, placed, 'sections of vectors')
+    call surface%update_from_arrays(square, halves)
+    call surface%vertex_velocities(velocity)
+    call check(size(velocity) == 0, 'without velocities')
+    call surface%destroy()
+    call surface%create_from_arrays(square, int(halves, int64), velocity=v)
+    call check_velocities(surface, v, 'at first, by ids of the other kind')
+    call surface%destroy()
+    call surface%create_from_arrays(square(1, :), square(2, :), square(3, :), halves, vx=v(1, :), vy=v(2, :), vz=v(3, :))
+    call check_velocities(surface, v, 'at first, by three vectors')
+    call surface%destroy()
+  end subroutine test_velocities_of_arrays
+
+  subroutine check_velocities(surface, expected, what)
+    type(riis_surface), intent(in) :: surface
+    real(c_double), intent(in) :: expected(:, :)
+    character(len=*), intent(in) :: what
+    real(c_double), pointer :: velocity(:, :)
+    logical :: is_same
+    call surface%vertex_velocities(velocity)
+    is_same = size(velocity, 2) == size(expected, 2)
+    if (is_same) is_same = all(abs(velocity - expected) < 1d-13)
+    call check(is_same, 'velocities by ' // what)
+  end subroutine check_velocities
+
+  subroutine test_bad_velocities()
+    type(riis_surface) :: surface
+    real(c_double) :: v(3, 4), x(4)
+    v = 1
+    x = 0
+    call surface%create_from_arrays(square, quad, velocity=v(:2, :), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of velocity is (2, 4); it must be (3, n)')
+    call surface%create_from_arrays(square, quad, velocity=v(:, :3), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of velocity(1, :) is 3; there are 4 vertices')
+    call surface%create_from_arrays(square, quad, velocity=v(:, :0), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of velocity(1, :) is 0; there are 4 vertices')
+    call surface%create_from_arrays(square, quad, velocity=v(:, 4:1:-1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'velocity is a section with a stride of -24 bytes')
+    call surface%create_from_arrays(square(1, :), square(2, :), square(3, :), quad, vx=x, vy=x, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'vx, vy and vz are not all given')
+    call surface%create_from_arrays(square(1, :), square(2, :), square(3, :), quad, vx=x, vy=x(:3), vz=x, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the sizes of vx, vy and vz are 4, 3 and 4; they must be equal')
+    call surface%create_from_arrays(square(1, :), square(2, :), square(3, :), quad, vx=x(:3), vy=x(:3), vz=x(:3), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of vx is 3; there are 4 vertices')
+    call surface%create_from_arrays(square(1, :), square(2, :), square(3, :), quad, vx=x, vy=v(1, :), vz=x, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the strides of vx, vy and vz are 1, 3 and 1; they must be equal')
+    v(2, 3) = 1d99
+    call surface%create_from_arrays(square, quad, velocity=v, status=status)
+    call check_refused(status, RIIS_INVALID_SURFACE, 'velocity y of vertex 2 is 1e+99')
+    call surface%create_from_arrays(square, quad, n_threads=-1, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.n_threads is -1')
+    call check(.not. surface%is_created(), 'a refused surface is empty')
+  end subroutine test_bad_velocities
+
+  ! Only the points of a mask or a list have answers: those of all points.
+  subroutine test_masks()
+    real(c_double), allocatable :: all_distances(:), distance(:), point(:, :), expected_distance(:)
+    integer(int8), allocatable :: bytes(:)
+    logical, allocatable :: mask(:)
+    integer(int64), allocatable :: list(:)
+    type(riis_mark_result) :: result
+    type(riis_mesh) :: mesh
+    integer(int64), pointer :: node_id(:)
+    integer :: i
+    allocate (all_distances(n_nodes), distance(n_nodes), point(3, n_nodes), bytes(n_nodes))
+    call surface%closest_points(xyz, distance=all_distances)
+    allocate (mask(n_nodes), source=[(mod(i, 3) == 0, i = 1, n_nodes)])
+    bytes = merge(1_int8, 0_int8, mask)
+    allocate (expected_distance, source=merge(all_distances, -7d0, mask))
+    distance = -7
+    call surface%closest_points(xyz, distance=distance, point_mask=mask)
+    call check(all(same(distance, expected_distance)), 'a mask')
+    distance = -7
+    call surface%closest_points(xyz, distance=distance, point_mask=bytes, n_threads=2)
+    call check(all(same(distance, expected_distance)), 'a mask of bytes')
+    distance = -7
+    call surface%closest_points(xyz(1, :), xyz(2, :), xyz(3, :), distance=distance, point_mask=mask)
+    call check(all(same(distance, expected_distance)), 'separate coordinates and a mask')
+    distance = -7
+    call surface%closest_points(xyz(1, :), xyz(2, :), xyz(3, :), distance=distance, point_mask=bytes)
+    call check(all(same(distance, expected_distance)), 'separate coordinates and a mask of bytes')
+
+    allocate (list, source=pack([(int(i - 1, int64), i = 1, n_nodes)], mask))
+    distance = -7
+    call surface%closest_points(xyz, distance=distance, point_id=list)
+    call check(all(same(distance, expected_distance)), 'a list')
+    distance = -7
+    call surface%closest_points(xyz(1, :), xyz(2, :), xyz(3, :), distance=distance, point_id=list(::2))
+    call check(all(same(distance(list(::2) + 1), all_distances(list(::2) + 1))) .and. &
+      count(same(distance, -7d0)) == n_nodes - size(list(::2)), 'separate coordinates and a section of a list')
+    distance = -7
+    call surface%closest_points(xyz, distance=distance, point_id=list(:0))
+    call check(all(same(distance, -7d0)), 'a list of none is not a list of all')
+
+    ! The nodes of a marking, as it points to them: nothing is gathered or scattered.
+    call mesh%create(xyz)
+    call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_POINT)
+    call result%marked(node_id)
+    distance = -7
+    point = -7
+    call surface%closest_points(xyz, distance=distance, point=point, point_id=node_id)
+    call check(all(same(distance(node_id + 1), all_distances(node_id + 1))) .and. &
+      count(.not. same(distance, -7d0)) == size(node_id), 'the marked nodes')
+    call check(all(all(same(point, -7d0), 1) .eqv. same(distance, -7d0)), 'and their points')
+    call result%destroy()
+    call mesh%destroy()
+  end subroutine test_masks
+
+  subroutine test_bad_masks()
+    real(c_double) :: distance(4)
+    distance = -7
+    call surface%closest_points(square, distance=distance, point_mask=[.true.], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of point_mask is 1; there are 4 points')
+    call surface%closest_points(square, distance=distance, point_mask=[1_int8], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of point_mask is 1; there are 4 points')
+    call surface%closest_points(square, distance=distance, point_id=[2_int64, 1_int64], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.point_ids: entry 1 is 1')
+    call surface%closest_points(square, distance=distance, point_id=[4_int64], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.point_ids: entry 0 is 4')
+    call surface%closest_points(square, distance=distance, point_id=[0_int64, 1_int64, 2_int64, 3_int64, 4_int64], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.n_point_ids is 5')
+    call surface%closest_points(square, distance=distance, point_id=[1_int64], point_mask=distance < 0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.point_ids and options.point_mask are both given')
+    call check(all(same(distance, -7d0)), 'refused calls write nothing')
+  end subroutine test_bad_masks
+end program test_frames
