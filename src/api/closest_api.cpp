@@ -36,11 +36,10 @@ void put_vector(double *to, std::int64_t i, double x, double y, double z) {
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
                    const riis::ClosestTriangle &found) {
   const riis::TriangleSet &set = content.triangles();
-  const auto triangle = static_cast<std::size_t>(found.triangle);
   if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
-  if (to.triangle_id) to.triangle_id[i] = set.triangle_id[triangle];
-  if (to.leaflet_id) to.leaflet_id[i] = set.leaflet_id[triangle];
-  const std::array<riis::Vec3, 3> corners = set.corners(triangle);
+  if (to.triangle_id) to.triangle_id[i] = riis::view(set.triangle_id)[found.triangle];
+  if (to.leaflet_id) to.leaflet_id[i] = riis::view(set.leaflet_id)[found.triangle];
+  const std::array<riis::Vec3, 3> corners = set.corners(found.triangle);
   if (to.normal) {
     const riis::Vec3 normal = riis::triangle_normal(corners);
     put_vector(to.normal, i, normal.x, normal.y, normal.z);
@@ -49,7 +48,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
     const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
     put_vector(to.point, i, on.point.x, on.point.y, on.point.z);
     put_vector(to.barycentric, i, on.barycentric[0], on.barycentric[1], on.barycentric[2]);
-    if (to.side) to.side[i] = content.side(p, triangle, on);
+    if (to.side) to.side[i] = content.side(p, found.triangle, on);
   }
 }
 

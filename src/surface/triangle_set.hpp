@@ -46,7 +46,7 @@ struct TriangleSet {
     const double *v = xyz.data() + 3 * id;
     return {v[0], v[1], v[2]};
   }
-  std::array<Vec3, 3> corners(std::size_t triangle) const {
+  std::array<Vec3, 3> corners(std::int64_t triangle) const {
     const std::int64_t *id = vertex_id.data() + 3 * triangle;
     return {vertex(id[0]), vertex(id[1]), vertex(id[2])};
   }
