@@ -18,7 +18,7 @@ using riis::require;
 namespace {
 
 // The structs' sizes in the first release.
-constexpr std::size_t closest_size = 96, options_size = 32, arrays_size = 64;
+constexpr std::int64_t closest_size = 96, options_size = 32, arrays_size = 64;
 
 const riis_closest_options default_options{
     sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};

@@ -17,8 +17,8 @@ using riis::require_handle;
 namespace {
 
 // The structs' sizes in the first release.
-constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
-                      leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
+constexpr std::int64_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
+                       leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
 
 const riis_mark_options default_options{
     sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0, RIIS_INSTRUCTIONS_AUTO, 0, 0, 0};
