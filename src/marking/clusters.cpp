@@ -50,8 +50,9 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
     // Not filled with zeros: the thread that first writes a page should be the one that uses it.
-    clusters.leaves.reset(new Leaf[static_cast<std::size_t>(n_leaves)]);
-    clusters.points.reset(new LeafPoints[static_cast<std::size_t>(n_leaves)]);
+    const auto n = static_cast<std::size_t>(n_leaves);
+    clusters.leaves.reset(new Leaf[n]);
+    clusters.points.reset(new LeafPoints[n]);
     clusters.n_leaves = n_leaves;
   }
   resize(clusters.clusters, n_clusters);
