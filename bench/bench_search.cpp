@@ -39,9 +39,7 @@ class MovingValve {
       } else {
         check(riis_valve_set_scalar(valve.get(), "opening", 0.5 + 0.01 * i));
       }
-      riis_surface *surface = nullptr;
-      check(riis_surface_create(valve.get(), nullptr, &surface));
-      states_[i].reset(surface);
+      states_[i] = make_surface(valve.get());
     }
   }
 
@@ -95,8 +93,7 @@ class Shortest {
 };
 
 void count(benchmark::State &state, const riis_mark_result *result) {
-  riis_mark_stats stats;
-  check(riis_mark_result_stats(result, &stats, sizeof stats));
+  const riis_mark_stats stats = stats_of(result);
   const auto n_nodes = static_cast<double>(stats.n_nodes), n_queries = static_cast<double>(stats.n_queries);
   state.counters["nodes"] = n_nodes;
   state.counters["marked"] = static_cast<double>(stats.n_marked);
