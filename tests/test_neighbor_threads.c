@@ -90,7 +90,7 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
-/* The same surface and mesh, new to all of them: the first makes the mesh's groups. */
+/* The same surface and mesh, new to all of them: the first caller makes the mesh's balls. */
 static void several_caller_threads_at_once(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -59,7 +59,7 @@ class TriangleFields {
         made_(made) {}
 
   void write(const Range &range) const {
-    // Nodes of a list are far apart in memory: their coordinates are fetched while the nodes before are computed.
+    // Nodes of a list are far apart in memory: their coordinates are fetched while earlier nodes are computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)

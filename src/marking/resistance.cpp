@@ -63,7 +63,7 @@ void add_resistance(const MarkResult &result, const Resistance &resistance, doub
   constexpr std::int64_t nodes_per_block = 4096;
   parallel_for_ranges(result.within.size(), nodes_per_block, result.n_threads, [&](const Range &range, int) {
     for_each_resistance(result, resistance, range, [&](std::int64_t i, double k) {
-      // Nodes are far apart in the caller's arrays: they are fetched while the nodes before are computed.
+      // Nodes are far apart in the caller's arrays: they are fetched while earlier nodes are computed.
       const std::int64_t ahead = node_id[std::min(i + 16, node_id.size() - 1)];
       if (coefficient) __builtin_prefetch(coefficient + ahead, 1);
       if (momentum) __builtin_prefetch(momentum + 3 * ahead, 1);
@@ -78,7 +78,7 @@ void add_resistance(const MarkResult &result, const Resistance &resistance, doub
 void add_reaction(const MarkResult &result, const Resistance &resistance, const double *velocity, const double *weight,
                   double *force) {
   const bool moves = (result.fields & RIIS_FIELD_VELOCITY) != 0;
-  // One thread sums in the order of the nodes, so that the bits do not depend on their number.
+  // One thread sums in the order of the nodes, so that the bits do not depend on the number of threads.
   for_each_resistance(result, resistance, {0, result.within.size()}, [&](std::int64_t i, double k) {
     const std::int64_t node = view(result.within.node_id)[i];
     for (int c = 0; c < 3; ++c) {

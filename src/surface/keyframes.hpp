@@ -24,7 +24,7 @@ class Keyframes {
   // right-hand at a linear key; else it is the mean from `since` to `time`.
   void at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
-  // The faces, with the caller's other fields; places and velocities are to be filled in.
+  // Returns the faces with the other fields that the caller gave. Places and velocities are still to be set.
   const riis_surface_arrays &faces() const { return faces_; }
 
  private:

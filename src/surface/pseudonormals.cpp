@@ -26,7 +26,7 @@ std::uint64_t hash(Vec3 p) {
 
 // Numbers all vertices; vertices with equal coordinates get the same number.
 std::vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
-  // A table of vertices, at most half full, each at the first free place from its hash on.
+  // A table of vertices that is at most half full. Each vertex is at the first place from its hash on that was free.
   constexpr std::int32_t none = -1;
   std::size_t size = 16;
   while (size < 2 * set.n_vertices()) size *= 2;
@@ -69,7 +69,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(position_, 3 * n);
   resize(edge_is_rim_, 3 * n);
   resize(corner_is_rim_, n_positions);
-  // Edges by their lower end: they are few, and equal ones are found by looking at all.
+  // Edges are listed by their lower end. Each list is short, and equal edges follow each other once it is sorted.
   std::vector<std::int64_t> first_edge;
   resize(first_edge, n_positions + 1);
   for (std::int64_t i = 0; i < n; ++i) {
@@ -98,7 +98,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   }
   for (std::int64_t lower = 0; lower < n_positions; ++lower) {
     const auto begin = edges.begin() + view(first_edge)[lower], end = edges.begin() + view(first_edge)[lower + 1];
-    // By slot among equal ones, so that the sums have the same bits however the ends are numbered.
+    // Equal edges are in the order of their slots, so that the sums have the same bits however the ends are numbered.
     std::sort(begin, end,
               [](const Edge &a, const Edge &b) { return std::tie(a.upper, a.slot) < std::tie(b.upper, b.slot); });
     for (auto first = begin; first != end;) {

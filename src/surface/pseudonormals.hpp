@@ -30,7 +30,8 @@ class Pseudonormals {
   }
 
   // Returns whether the edge or vertex that the barycentric weights lie on is of the rim. The rim of a valve consists of the
-  // sides of patches that nothing shares (surface/rims.hpp), that of triangles from arrays of the edges of one triangle.
+  // sides that only one patch has (surface/rims.hpp). The rim of triangles from arrays consists of the edges that only one
+  // triangle has.
   bool is_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
     return !is_inside(barycentric) && is_border_on_rim(triangle, barycentric);
   }
@@ -40,7 +41,7 @@ class Pseudonormals {
   static bool is_inside(const std::array<double, 3> &barycentric) {
     return barycentric[0] != 0 && barycentric[1] != 0 && barycentric[2] != 0;
   }
-  // The same for points that may be on an edge or a vertex.
+  // These two do the same for points that may be on an edge or a vertex.
   Vec3 at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
   bool is_border_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
 
