@@ -49,7 +49,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     assert_int_equal(most[2], 2);
     free_owned_after(owned_before);
   }
-  /* The groups, too: a mesh's first search by any number of threads. */
+  /* A mesh's first search also makes its balls, with any number of threads. */
   riis_mark_result *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
   for (int threads = 1; threads <= 4; ++threads) {
     const int owned_before = n_owned();
