@@ -14,7 +14,7 @@ namespace {
 
 // Sums block by block, so that the area does not depend on which thread summed which block.
 double area_of(const TriangleSet &set, int n_threads) {
-  const auto n = view(set.triangle_id).size();
+  const std::int64_t n = set.n_triangles();
   constexpr std::int64_t triangles_per_block = 4096;
   std::vector<double> areas;
   resize(areas, (n + triangles_per_block - 1) / triangles_per_block);

@@ -183,7 +183,7 @@ bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_no
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) return true;
   // A normal for each triangle is cheaper than one for each node if there are fewer triangles.
-  return (fields & RIIS_FIELD_NORMAL) && n_nodes > view(surface.triangles().triangle_id).size();
+  return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made) {

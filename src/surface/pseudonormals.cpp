@@ -28,12 +28,13 @@ std::uint64_t hash(Vec3 p) {
 std::vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
   // A table of vertices that is at most half full. Each vertex is at the first place from its hash on that was free.
   constexpr std::int32_t none = -1;
+  std::vector<std::int64_t> position;
+  resize(position, set.n_vertices());
   std::size_t size = 16;
-  while (size < 2 * set.n_vertices()) size *= 2;
+  while (size < 2 * position.size()) size *= 2;
   std::vector<std::int32_t> table(size, none);
-  std::vector<std::int64_t> position(set.n_vertices());
   n_positions = 0;
-  for (std::int64_t i = 0; i < view(position).size(); ++i) {
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
     const Vec3 p = set.vertex(i);
     std::size_t at = hash(p) & (size - 1);
     while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
@@ -60,7 +61,7 @@ Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
 }
 
 Pseudonormals::Pseudonormals(const TriangleSet &set) {
-  const auto n = view(set.triangle_id).size();
+  const std::int64_t n = set.n_triangles();
   std::int64_t n_positions = 0;
   const std::vector<std::int64_t> position_of_vertex = distinct_positions(set, n_positions);
   resize(face_, n);

@@ -101,10 +101,10 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
   constexpr double much = 2;
   frame = surface_frame;
-  corners.resize(9 * set.n_triangles());
+  resize(corners, 9 * set.n_triangles());
   const bool is_by_place = set.grouping.end.empty();
   // Groups by place are kept until they fall apart: if the number of triangles is the same, most triangles have only moved.
-  const bool are_known = is_by_place ? is_by_place_ && grouping_.order.size() == set.n_triangles()
+  const bool are_known = is_by_place ? is_by_place_ && view(grouping_.order).size() == set.n_triangles()
                                      : !is_by_place_ && grouping_ == set.grouping;
   const auto group_anew = [&] {
     grouping_ = set.grouping;
