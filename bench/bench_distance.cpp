@@ -26,9 +26,7 @@ Surface surface_of(const char *kind, std::int32_t distance, double tolerance) {
   options.half_thickness = half_thickness;
   options.distance = distance;
   (distance == RIIS_DISTANCE_TRIANGLES ? options.tolerance : options.distance_tolerance) = tolerance;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(make_valve(kind).get(), &options, &surface));
-  return Surface(surface);
+  return make_surface(make_valve(kind).get(), &options);
 }
 
 // The points are the same in every run. Their distances are to triangles within 1e-3 half thicknesses of the smooth surface.

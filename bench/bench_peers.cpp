@@ -141,9 +141,7 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
   const Surface made = [&] {
     const Valve valve = make_valve(kind);
     if (kind[0] == 'm') check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
-    riis_surface *surface = nullptr;
-    check(riis_surface_create(valve.get(), nullptr, &surface));
-    return Surface(surface);
+    return make_surface(valve.get());
   }();
   const riis_surface *surface = made.get();
   const CylinderNodes nodes(cylinder, about_n_nodes);

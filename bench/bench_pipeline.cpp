@@ -27,9 +27,7 @@ Surface surface_of(const riis_valve *valve) {
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
   options.n_threads = 1;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &options, &surface));
-  return Surface(surface);
+  return make_surface(valve, &options);
 }
 
 // Parameters to curves and patches.

@@ -14,6 +14,7 @@
 
 #include "../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
+#include "counters.hpp"
 #include "cylinder.hpp"
 #include "references.hpp"
 
@@ -39,9 +40,7 @@ class MovingValve {
       } else {
         check(riis_valve_set_scalar(valve.get(), "opening", 0.5 + 0.01 * i));
       }
-      riis_surface *surface = nullptr;
-      check(riis_surface_create(valve.get(), nullptr, &surface));
-      states_[i].reset(surface);
+      states_[i] = make_surface(valve.get());
     }
   }
 
@@ -72,11 +71,6 @@ riis_mark_options options_for(const benchmark::State &state, std::int32_t search
   return options;
 }
 
-void count_time_per(benchmark::State &state, const char *name, double n) {
-  state.counters[name] =
-      benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-
 // The shortest of many markings, since other work of the machine only adds time.
 class Shortest {
  public:
@@ -95,15 +89,9 @@ class Shortest {
 };
 
 void count(benchmark::State &state, const riis_mark_result *result) {
-  riis_mark_stats stats;
-  check(riis_mark_result_stats(result, &stats, sizeof stats));
-  const auto n_nodes = static_cast<double>(stats.n_nodes), n_queries = static_cast<double>(stats.n_queries);
-  state.counters["nodes"] = n_nodes;
-  state.counters["marked"] = static_cast<double>(stats.n_marked);
-  state.counters["queries"] = n_queries;
-  state.counters["threads"] = stats.n_threads;
-  count_time_per(state, "time/query", n_queries);
-  count_time_per(state, "time/node", n_nodes);
+  const riis_mark_stats stats = stats_of(result);
+  count_marking(state, stats);
+  count_time_per(state, "time/node", static_cast<double>(stats.n_nodes));
 }
 
 // Marks again and again into the same result while the valve moves.

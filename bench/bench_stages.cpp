@@ -11,6 +11,7 @@
 
 #include "../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
+#include "counters.hpp"
 #include "handles.hpp"
 
 namespace {
@@ -25,10 +26,8 @@ riis_surface_options with_tolerance(double tolerance) {
 }
 
 Surface aortic_surface(double tolerance) {
-  riis_surface *surface = nullptr;
   const riis_surface_options options = with_tolerance(tolerance);
-  check(riis_surface_create(make_valve("aortic").get(), &options, &surface));
-  return Surface(surface);
+  return make_surface(make_valve("aortic").get(), &options);
 }
 
 // Nodes in the box that the demo's cylinder fills, the same in every run.
@@ -99,15 +98,7 @@ void mark_exhaustive(benchmark::State &state) {
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   options.n_threads = static_cast<std::int32_t>(state.range(0));
   for (auto _ : state) check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get()));
-  riis_mark_stats stats;
-  check(riis_mark_result_stats(result.get(), &stats, sizeof stats));
-  state.counters["nodes"] = static_cast<double>(stats.n_nodes);
-  state.counters["marked"] = static_cast<double>(stats.n_marked);
-  state.counters["queries"] = static_cast<double>(stats.n_queries);
-  state.counters["threads"] = stats.n_threads;
-  state.counters["time/query"] =
-      benchmark::Counter(static_cast<double>(stats.n_queries),
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  count_marking(state, stats_of(result.get()));
 }
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -32,10 +32,23 @@ inline Valve make_valve(const char *kind) {
   return Valve(valve);
 }
 
+// NULL options are the defaults.
+inline Surface make_surface(const riis_valve *valve, const riis_surface_options *options = nullptr) {
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, options, &surface));
+  return Surface(surface);
+}
+
 inline Result make_result() {
   riis_mark_result *result = nullptr;
   check(riis_mark_result_create(&result));
   return Result(result);
+}
+
+inline riis_mark_stats stats_of(const riis_mark_result *result) {
+  riis_mark_stats stats;
+  check(riis_mark_result_stats(result, &stats, sizeof stats));
+  return stats;
 }
 
 inline double n_triangles_of(const riis_surface *surface) {

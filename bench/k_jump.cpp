@@ -17,9 +17,7 @@ class Change {
     check(riis_surface_options_init(&options, sizeof options));
     options.tolerance = tolerance;
     options.triangulation = triangulation;
-    riis_surface *surface = nullptr;
-    check(riis_surface_create(valve, &options, &surface));
-    surface_.reset(surface);
+    surface_ = make_surface(valve, &options);
     check(riis_resistance_init(&resistance_, sizeof resistance_));
     resistance_.resistance = 1;
   }

@@ -30,9 +30,7 @@ constexpr int n_seeds = 5;
 Surface surface_of(const char *kind, double opening) {
   const Valve valve = make_valve(kind);
   check(riis_valve_set_scalar(valve.get(), "opening", opening));
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve.get(), nullptr, &surface));
-  return Surface(surface);
+  return make_surface(valve.get());
 }
 
 riis_surface_info info_of(const Surface &surface) {

@@ -41,13 +41,9 @@ class MovingSteps {
     riis_surface_options of_surface;
     check(riis_surface_options_init(&of_surface, sizeof of_surface));
     of_surface.n_threads = 1;
-    riis_surface *surface = nullptr;
-    check(riis_surface_create(valve_.get(), &of_surface, &surface));
-    surface_.reset(surface);
+    surface_ = make_surface(valve_.get(), &of_surface);
     of_surface.triangulation = RIIS_TRIANGULATION_FIXED;
-    riis_surface *fixed = nullptr;
-    check(riis_surface_create(valve_.get(), &of_surface, &fixed));
-    fixed_.reset(fixed);
+    fixed_ = make_surface(valve_.get(), &of_surface);
     check(riis_mesh_prepare(mesh_.get(), 1));
     check(riis_mark_options_init(&marking_, sizeof marking_));
     marking_.n_threads = 1;
@@ -71,9 +67,7 @@ class MovingSteps {
     check(riis_surface_options_init(&options, sizeof options));
     options.n_threads = 1;
     options.triangulation = RIIS_TRIANGULATION_FIXED;
-    riis_surface *made = nullptr;
-    check(riis_surface_create(valve_.get(), &options, &made));
-    riis_surface_destroy(&made);
+    make_surface(valve_.get(), &options);
   }
   void update_moving() {
     check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
@@ -86,11 +80,7 @@ class MovingSteps {
     check(
         riis_mark_result_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
   }
-  riis_mark_stats stats() const {
-    riis_mark_stats stats;
-    check(riis_mark_result_stats(result_.get(), &stats, sizeof stats));
-    return stats;
-  }
+  riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }
   double n_fixed_triangles() const { return n_triangles_of(fixed_.get()); }
   // Returns the largest number of adapted triangles at 1,001 openings.

@@ -25,8 +25,8 @@ class NearTriangles {
  public:
   // Boxes farther than reach do not matter.
   NearTriangles(const riis::TriangleSet &set, double reach) : set_(set), edge_(std::max(reach, 0.05)) {
-    boxes_.reserve(set.n_triangles());
-    for (std::size_t i = 0; i < set.n_triangles(); ++i) {
+    boxes_.reserve(set.triangle_id.size());
+    for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
       const auto [a, b, c] = set.corners(i);
       boxes_.push_back(
           {{std::min({a.x, b.x, c.x}) - reach, std::min({a.y, b.y, c.y}) - reach, std::min({a.z, b.z, c.z}) - reach},
@@ -195,7 +195,7 @@ std::int64_t prove(const CylinderNodes &nodes, riis_mesh *mesh, StepOptions opti
       ++n_markings;
     }
   std::printf("| %s | %g | %g | %zu | %zu | %.1f | %d | %lld | %lld | %lld | %lld |\n", options.kind, position,
-              options.half_thickness, set.n_triangles(), expected.node_id.size(),
+              options.half_thickness, set.triangle_id.size(), expected.node_id.size(),
               1e-6 * static_cast<double>(expected.n_pairs), n_markings, static_cast<long long>(sum.marks),
               static_cast<long long>(sum.distances), static_cast<long long>(sum.triangles),
               static_cast<long long>(sample.all()));

@@ -77,16 +77,14 @@ constexpr Case cases[] = {{"exhaustive", RIIS_SEARCH_EXHAUSTIVE, Made::before},
                           {"neighbor, a new mesh each time", RIIS_SEARCH_NEIGHBOR, Made::mesh_each_time},
                           {"neighbor, all new each time", RIIS_SEARCH_NEIGHBOR, Made::all_each_time}};
 
-Surface make_surface() {
+Surface aortic_surface() {
   const Valve valve = make_valve("aortic");
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
   options.tolerance = 0.1;
   options.half_thickness = 0.1;
   options.n_threads = 1;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve.get(), &options, &surface));
-  return Surface(surface);
+  return make_surface(valve.get(), &options);
 }
 
 // The handles of a marking, made as the case says.
@@ -101,7 +99,7 @@ class Marking {
   void mark() {
     if (made_ != Made::before) mesh_.reset();
     if (made_ == Made::all_each_time) surface_.reset(), result_.reset();
-    if (!surface_) surface_ = make_surface();
+    if (!surface_) surface_ = aortic_surface();
     if (!result_) result_ = make_result();
     if (!mesh_) {
       mesh_ = mesh_over(nodes_);

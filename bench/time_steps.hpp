@@ -41,9 +41,7 @@ class TimeSteps {
     of_surface.tolerance = options.tolerance;
     of_surface.half_thickness = options.half_thickness;
     of_surface.n_threads = options.n_threads;
-    riis_surface *surface = nullptr;
-    check(riis_surface_create(valve_.get(), &of_surface, &surface));
-    surface_.reset(surface);
+    surface_ = make_surface(valve_.get(), &of_surface);
     check(riis_mark_options_init(&marking_, sizeof marking_));
     marking_.search = RIIS_SEARCH_CLUSTERS;
     marking_.n_threads = options.n_threads;
@@ -79,11 +77,7 @@ class TimeSteps {
 
   const riis_surface *surface() const { return surface_.get(); }
   const riis_mark_result *result() const { return result_.get(); }
-  riis_mark_stats stats() const {
-    riis_mark_stats stats;
-    check(riis_mark_result_stats(result_.get(), &stats, sizeof stats));
-    return stats;
-  }
+  riis_mark_stats stats() const { return stats_of(result_.get()); }
 
  private:
   const riis_mesh *mesh_;

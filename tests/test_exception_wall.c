@@ -9,6 +9,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 
 static void every_exception_becomes_a_status(void **state) {
   (void)state;
@@ -94,7 +95,7 @@ static int refusal_with_little_memory(void) {
 }
 
 static void check_in_child(int (*returns_0)(void)) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(IS_SANITIZED)
   skip(); /* sanitizers reserve the address space that this test takes away */
 #endif
   fflush(NULL);

@@ -77,7 +77,8 @@ static void check_part(const riis_mark_result *result) {
 
 /* --- The rim, by another count --------------------------------------------------------------------------------------- */
 
-/* A mark for each edge of each triangle, from corner k to the next, and for each corner: it is an end of such an edge. */
+/* Marks of the rim, three of each kind for each triangle. Edge k runs from corner k to the next. A corner is marked if it is
+ * an end of a marked edge. */
 typedef struct rims {
   surface_content c;
   const int64_t *triangle_id;
@@ -105,8 +106,8 @@ static void mark_corners(rims *r) {
   }
 }
 
-/* By the numbers of patches: the aortic sinus, u = 1, and free edge, v = 1 of the upper patches; the mitral annulus, v = 0,
- * and the free edges, v = 1, unless the leaflets meet there. */
+/* Marks the rim by the numbers of patches. It is u = 1 (the sinus) of all aortic patches and v = 1 (the free edge) of the upper
+ * ones. It is v = 0 (the annulus) of all mitral patches, and v = 1 (the free edge) unless the leaflets meet there. */
 static rims rims_of_valve(const riis_surface *surface, int is_mitral, double opening) {
   rims r = new_rims(surface);
   for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {
@@ -152,7 +153,7 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 
 /* --- Against single queries ------------------------------------------------------------------------------------------ */
 
-/* Everything that the fields say of the nodes within the limit. */
+/* Compares all fields of the nodes within the limit with single queries and with the rim. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r,
                          const riis_mark_result *result) {
   const riis_mark_fields f = within_fields(result);
@@ -274,7 +275,7 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
   }
 }
 
-/* A crumpled sheet whose triangles have corners of their own or share them, with holes, some without area. */
+/* A crumpled sheet with holes and with triangles without area. Triangles have corners of their own or share them. */
 static void fields_of_arrays_are_those_of_single_queries(void **state) {
   (void)state;
   enum { side = 9, max_vertices = 6 * side * side };
@@ -343,8 +344,8 @@ static double *beyond_edges(const surface_content *c, double off) {
   return xyz;
 }
 
-/* Neither valve has a rim inside: along the bending curve and the symmetry planes, or between patches; nor has the
- * closed mitral valve along its free edges. */
+/* Neither valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has
+ * none along its free edges. */
 static void valves_have_a_rim_all_around_and_none_inside(void **state) {
   (void)state;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
@@ -577,7 +578,7 @@ static void fields_are_refused_by_name(void **state) {
   }
 }
 
-/* What was not asked for is NULL, also after a marking that had it; and a result without nodes has no arrays. */
+/* Arrays that were not requested are NULL, also after a marking that had them. A result without nodes has no arrays. */
 static void what_is_not_asked_for_is_null(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -2,7 +2,6 @@
  * Surfaces with a velocity: the triangles of a plain update, the velocities of motions that are known, and refusals that
  * leave the surface as it was. The mitral valve's own motion is in test_mitral_motion.c. */
 #include <riis/riis.h>
-#include <stddef.h>
 
 #include "test_support.h"
 
@@ -115,22 +114,6 @@ static riis_valve *random_valve(int64_t kind) {
 }
 
 /* --- Content --------------------------------------------------------------------------------------------------------- */
-
-static int is_same_content(const riis_surface *a, const riis_surface *b) {
-  const surface_content s = surface_content_of(a), t = surface_content_of(b);
-  const riis_surface_info of_a = info_of(a), of_b = info_of(b);
-  const int64_t *id_a, *id_b;
-  CHECK_OK(riis_surface_triangles(a, NULL, NULL, &id_a, NULL, NULL));
-  CHECK_OK(riis_surface_triangles(b, NULL, NULL, &id_b, NULL, NULL));
-  const size_t n = (size_t)s.n_triangles;
-  return memcmp(&of_a, &of_b, offsetof(riis_surface_info, seconds_triangles)) == 0 &&
-         memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 &&
-         memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0 &&
-         memcmp(s.vertex_id, t.vertex_id, 3 * n * sizeof *s.vertex_id) == 0 &&
-         memcmp(id_a, id_b, n * sizeof *id_a) == 0 &&
-         memcmp(s.leaflet_id, t.leaflet_id, n * sizeof *s.leaflet_id) == 0 &&
-         memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
-}
 
 static void random_placement(riis_surface_options *options) {
   options->scale = pow(10, between(-2, 2));

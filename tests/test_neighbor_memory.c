@@ -9,17 +9,11 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 #include "searches.h"
 
-/* All allocations of the process come by here, since an executable's symbols go before those of the libraries; those that come out of the
- * object that has riis_mark_nodes are counted. Allocators of sanitizers want to be the only ones. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define IS_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define IS_SANITIZED 1
-#endif
-#endif
+/* All allocations of the process come by here, because an executable's symbols go before those of the libraries. Those of the
+ * object that has riis_mark_nodes are counted. A sanitizer's allocator must be the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);

@@ -161,7 +161,7 @@ static void any_adjacency_is_right(void **state) {
   }
 }
 
-/* Rows with the other ranks' nodes, in every width and base. */
+/* Rows also hold nodes of other ranks. Indices have every width and base. */
 static void ghosts_are_passed_over(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

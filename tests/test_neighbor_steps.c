@@ -116,7 +116,7 @@ static void nodes_move(void **state) {
     check_same_as_exhaustive(surface, mesh, mark_options(), result);
     check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   }
-  /* Fewer nodes, and the adjacency is gone; with one of them it goes on. */
+  /* Another number of nodes removes the adjacency. A new one for these nodes lets the search run again. */
   const int64_t fewer = nodes.n / 2;
   CHECK_OK(riis_mesh_update(mesh, fewer, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   riis_mark_options options = mark_options();

@@ -49,7 +49,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     assert_int_equal(most[2], 2);
     free_owned_after(owned_before);
   }
-  /* The groups, too: a mesh's first search by any number of threads. */
+  /* A mesh's first search also makes its balls, with any number of threads. */
   riis_mark_result *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
   for (int threads = 1; threads <= 4; ++threads) {
     const int owned_before = n_owned();
@@ -61,29 +61,36 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
   }
 }
 
+/* Returns 1 if any of several markings with a result of its own is not the expected one. */
+static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *expected,
+                       int n_threads) {
+  riis_mark_options options = {0};
+  riis_mark_result *result = NULL;
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  options.search = RIIS_SEARCH_NEIGHBOR;
+  options.n_threads = n_threads;
+  for (int step = 0; step < 3; ++step)
+    wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
+  riis_mark_result_destroy(&result);
+  return wrong;
+}
+
 typedef struct caller {
   const riis_surface *surface;
   const riis_mesh *mesh;
   const riis_mark_result *expected;
   pthread_barrier_t *barrier;
-  int n_threads, n_wrong;
+  int n_threads, is_wrong;
 } caller;
 
 static void *mark_with_own_result(void *of) {
   caller *c = of;
-  riis_mark_options options = {0};
-  riis_mark_result *result = NULL;
-  c->n_wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
-  options.search = RIIS_SEARCH_NEIGHBOR;
-  options.n_threads = c->n_threads;
   pthread_barrier_wait(c->barrier);
-  for (int step = 0; step < 3 && !c->n_wrong; ++step)
-    c->n_wrong += riis_mark_nodes(c->surface, c->mesh, &options, result) || !same_results(result, c->expected);
-  riis_mark_result_destroy(&result);
+  c->is_wrong = marks_wrong(c->surface, c->mesh, c->expected, c->n_threads);
   return NULL;
 }
 
-/* The same surface and mesh, new to all of them: the first makes the mesh's groups. */
+/* The same surface and mesh, new to all of them: the first caller makes the mesh's balls. */
 static void several_caller_threads_at_once(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -105,24 +112,10 @@ static void several_caller_threads_at_once(void **state) {
           assert_int_equal(pthread_create(&threads[i], NULL, mark_with_own_result, &callers[i]), 0);
         }
         for (int i = 0; i < n_callers; ++i) assert_int_equal(pthread_join(threads[i], NULL), 0);
-        for (int i = 0; i < n_callers; ++i) assert_int_equal(callers[i].n_wrong, 0);
+        for (int i = 0; i < n_callers; ++i) assert_int_equal(callers[i].is_wrong, 0);
         pthread_barrier_destroy(&barrier);
         free_owned_after(owned_before);
       }
-}
-
-/* 1 if the marking is not the expected one. */
-static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *expected,
-                       int n_threads) {
-  riis_mark_options options = {0};
-  riis_mark_result *result = NULL;
-  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
-  options.search = RIIS_SEARCH_NEIGHBOR;
-  options.n_threads = n_threads;
-  for (int step = 0; step < 2; ++step)
-    wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
-  riis_mark_result_destroy(&result);
-  return wrong;
 }
 
 static void inside_the_callers_openmp(void **state) {

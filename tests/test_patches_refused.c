@@ -15,7 +15,7 @@
     assert_null(made);                                                                    \
   } while (0)
 
-/* The square is refused after the change; the next change is made to a new square. */
+/* Changes a new square and checks that it is refused. */
 #define CHANGED_IS_REFUSED(change, status, parts) \
   do {                                            \
     shape square = unit_square();                 \
@@ -138,7 +138,7 @@ static void sides_have_to_meet(void **state) {
                      "side v = 1 ends in (1, 1, 0), side u = 1 ends in (3, 1, 0)");
   CHANGED_IS_REFUSED(square.reversed[1] = 1, RIIS_INVALID_PARAMETER,
                      "side v = 1 begins in (1, 1, 0), side u = 0 ends in (0, 1, 0)");
-  /* Up to 1e-9 of the size, which is sqrt(2), is rounding of the caller's. */
+  /* A gap of up to 1e-9 of the size, which is sqrt(2) here, counts as the caller's rounding. */
   CHANGED_IS_REFUSED(arrays.control[5] = 2e-9, RIIS_INVALID_PARAMETER, "patch 0 does not close");
   shape nearly = unit_square();
   nearly.control[0][1][2] = 1e-9;

@@ -107,9 +107,9 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
   return sum * volume;
 }
 
-/* Without the rim the integral of K is the area times R / eps: of a plane and of a cylinder, whose layers inside and
- * outside make up for each other, exactly; of a sphere times 1 + c eps^2 / r^2, where c is the integral of
- * x^2 (1 + cos pi x) from 0 to 1, 1/3 - 2/pi^2. */
+/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane, and for a cylinder, whose layers
+ * inside and outside make up for each other. A sphere has a factor 1 + c eps^2 / r^2 more, where c = 1/3 - 2/pi^2 is the
+ * integral of x^2 (1 + cos pi x) from 0 to 1. */
 static void the_integral_is_the_area(void **state) {
   (void)state;
   const double c = 1.0 / 3 - 2 / (pi * pi);
@@ -353,7 +353,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
   assert_true(n_rim > 100);
 }
 
-/* A pressure that jumps across a closed surface: the means are those of its sides. */
+/* The pressure jumps across the surface, and the means on either side are its values there. */
 static void a_jump_of_pressure_is_measured(void **state) {
   (void)state;
   random_frame();

@@ -389,7 +389,7 @@ static void opening_blends_control_points(void **state) {
   for (int64_t i = 0; i < closed.n_curves; ++i)
     for (int k = 0; k <= closed.degree[i]; ++k)
       for (int c = 0; c < 3; ++c) {
-        /* A shear and a lift, so that corners stay corners. */
+        /* The open state is sheared and lifted, so that sides still meet at the corners. */
         open.control[i][k][c] += c == 2 ? 0.5 + closed.control[i][k][0] : 0.25 * closed.control[i][k][2];
         middle.control[i][k][c] = 0.5 * (closed.control[i][k][c] + open.control[i][k][c]);
       }

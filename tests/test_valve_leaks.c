@@ -110,7 +110,7 @@ static void valves_leak_where_the_loop_says(void **state) {
   for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
 }
 
-/* Edges of at most two half thicknesses cannot leak: not even those of exactly that length, through a plane half way. */
+/* Edges of at most two half thicknesses cannot leak, not even if a plane cuts an edge of exactly that length in half. */
 static void short_edges_do_not_leak(void **state) {
   (void)state;
   for (int trial = 0; trial < 4; ++trial) {

@@ -27,7 +27,7 @@ class Places {
       : smooth_(smooth),
         triangles_(triangulate(patches, {0.02 * half_thickness, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1})) {
     double sum = 0;
-    for (std::size_t i = 0; i < triangles_.n_triangles(); ++i) {
+    for (std::int64_t i = 0; i < triangles_.n_triangles(); ++i) {
       const auto [a, b, c] = triangles_.corners(i);
       areas_.push_back(sum += 0.5 * length(cross(b - a, c - a)));
     }

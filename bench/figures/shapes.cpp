@@ -88,8 +88,8 @@ Faces quads_of(const Model &model, std::int32_t leaflet, const LeafletColours &c
 Faces triangles_of(const Model &model, std::int32_t leaflet, const LeafletColours &colours) {
   const TriangleSet &set = model.triangles;
   Faces faces{3, {}, {}, {}};
-  for (std::size_t i = 0; i < set.n_vertices(); ++i) faces.points.push_back(set.vertex(static_cast<std::int64_t>(i)));
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) faces.points.push_back(set.vertex(i));
+  for (std::size_t i = 0; i < set.triangle_id.size(); ++i) {
     if (leaflet != every_leaflet && set.leaflet_id[i] != leaflet) continue;
     faces.corners.insert(faces.corners.end(), set.vertex_id.begin() + static_cast<std::ptrdiff_t>(3 * i),
                          set.vertex_id.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
@@ -113,7 +113,7 @@ Segments edges_of(const Faces &faces) {
 TriangleEdges triangle_edges_of(const Model &model, std::int32_t leaflet) {
   const TriangleSet &set = model.triangles;
   TriangleEdges edges;
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
+  for (std::size_t i = 0; i < set.triangle_id.size(); ++i) {
     if (leaflet != every_leaflet && set.leaflet_id[i] != leaflet) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int64_t a = set.vertex_id[3 * i + k], b = set.vertex_id[3 * i + (k + 1) % 3];

@@ -18,7 +18,7 @@ using riis::require;
 namespace {
 
 // The structs' sizes in the first release.
-constexpr std::size_t closest_size = 96, options_size = 32, arrays_size = 64;
+constexpr std::int64_t closest_size = 96, options_size = 32, arrays_size = 64;
 
 const riis_closest_options default_options{
     sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};
@@ -29,17 +29,16 @@ const riis_closest_arrays default_arrays{
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
                    const riis::ClosestTriangle &found) {
   const riis::TriangleSet &set = content.triangles();
-  const auto triangle = static_cast<std::size_t>(found.triangle);
   if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
-  if (to.triangle_id) to.triangle_id[i] = set.triangle_id[triangle];
-  if (to.leaflet_id) to.leaflet_id[i] = set.leaflet_id[triangle];
-  const std::array<riis::Vec3, 3> corners = set.corners(triangle);
+  if (to.triangle_id) to.triangle_id[i] = riis::view(set.triangle_id)[found.triangle];
+  if (to.leaflet_id) to.leaflet_id[i] = riis::view(set.leaflet_id)[found.triangle];
+  const std::array<riis::Vec3, 3> corners = set.corners(found.triangle);
   if (to.normal) riis::put_vector(to.normal, i, riis::triangle_normal(corners));
   if (to.point || to.barycentric || to.side) {
     const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
     if (to.point) riis::put_vector(to.point, i, on.point);
     if (to.barycentric) riis::put_vector(to.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
-    if (to.side) to.side[i] = content.side(p, triangle, on);
+    if (to.side) to.side[i] = content.side(p, found.triangle, on);
   }
 }
 

@@ -11,7 +11,7 @@ using riis::require_handle;
 namespace {
 
 // The structs' sizes in the first release.
-constexpr std::size_t frames_size = 56, faces_size = 88;
+constexpr std::int64_t frames_size = 56, faces_size = 88;
 
 const riis_keyframe_arrays default_frames{sizeof(riis_keyframe_arrays), 0, 0, nullptr, nullptr, 0,
                                           RIIS_INTERPOLATION_LINEAR,    0};

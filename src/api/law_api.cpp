@@ -12,8 +12,8 @@ using riis::require;
 namespace {
 
 // The structs' sizes in the first release.
-constexpr std::size_t table_size = 48, times_size = 64, switch_size = 56, switch_state_size = 72, angle_size = 56,
-                      angle_state_size = 64;
+constexpr std::int64_t table_size = 48, times_size = 64, switch_size = 56, switch_state_size = 72, angle_size = 56,
+                       angle_state_size = 64;
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 

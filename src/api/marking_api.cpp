@@ -17,8 +17,8 @@ using riis::require_handle;
 namespace {
 
 // The structs' sizes in the first release.
-constexpr std::size_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
-                      leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
+constexpr std::int64_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
+                       leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
 
 const riis_mark_options default_options{
     sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0, RIIS_INSTRUCTIONS_AUTO, 0, 0, 0};
@@ -64,7 +64,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
 
 void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **node_id, const double **distance,
               const std::int64_t **triangle_id, const std::int32_t **leaflet_id) {
-  riis::put(n, riis::view(list.node_id).size());
+  riis::put(n, list.size());
   const bool empty = list.size() == 0;
   riis::put(node_id, empty ? nullptr : list.node_id.data());
   riis::put(distance, empty ? nullptr : list.distance.data());
@@ -72,11 +72,11 @@ void get_list(const riis::NodeList &list, std::int64_t *n, const std::int64_t **
   riis::put(leaflet_id, empty ? nullptr : list.leaflet_id.data());
 }
 
-void get_fields(const riis::NodeFields &made, std::size_t n, riis_mark_fields *fields, int64_t struct_size) {
+void get_fields(const riis::NodeFields &made, std::int64_t n, riis_mark_fields *fields, int64_t struct_size) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   riis::write_struct<fields_size>(
       fields, struct_size, "fields",
-      riis_mark_fields{static_cast<std::int64_t>(n), array(made.point), array(made.normal), array(made.barycentric),
+      riis_mark_fields{n, array(made.point), array(made.normal), array(made.barycentric),
                        array(made.uv), array(made.velocity), array(made.side), array(made.rim), array(made.patch_id)});
 }
 

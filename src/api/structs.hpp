@@ -13,42 +13,48 @@
 namespace riis {
 
 // first_size is the struct's size in the first release that had it. All later sizes are larger multiples of 8.
-template <std::size_t first_size, class Struct>
+template <std::int64_t first_size, class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
-  static_assert(std::is_trivially_copyable_v<Struct> && first_size <= sizeof(Struct) && sizeof(Struct) % 8 == 0);
-  constexpr std::size_t size_here = sizeof(Struct);
-  if (size < static_cast<std::int64_t>(first_size) || size > static_cast<std::int64_t>(size_here) || size % 8 != 0)
+  static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);
+  constexpr std::int64_t size_here = sizeof(Struct);
+  static_assert(first_size <= size_here);
+  if (size < first_size || size > size_here || size % 8 != 0)
     fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of ", name, " is ", size, "; riis ", riis_version_string(),
          " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
+// Copies the first bytes of a struct: as many as check_struct_size accepted.
+inline void copy_bytes(void *to, const void *from, std::int64_t size) {
+  std::memcpy(to, from, static_cast<std::size_t>(size));
+}
+
 // The body of an init function.
-template <std::size_t first_size, class Struct>
+template <std::int64_t first_size, class Struct>
 void init_struct(Struct *out, std::int64_t size, const char *name, const Struct &defaults) {
   require(out, name);
   check_struct_size<first_size, Struct>(size, name);
-  std::memcpy(out, &defaults, static_cast<std::size_t>(size));
+  copy_bytes(out, &defaults, size);
   out->struct_size = size;
 }
 
 // Returns the caller's struct, completed by defaults. Returns the defaults for NULL.
-template <std::size_t first_size, class Struct>
+template <std::int64_t first_size, class Struct>
 Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   Struct whole = defaults;
   if (in) {
     check_struct_size<first_size, Struct>(in->struct_size, name);
-    std::memcpy(&whole, in, static_cast<std::size_t>(in->struct_size));
+    copy_bytes(&whole, in, in->struct_size);
   }
   whole.struct_size = sizeof(Struct);
   return whole;
 }
 
 // Writes as much of the value as the caller has room for.
-template <std::size_t first_size, class Struct>
+template <std::int64_t first_size, class Struct>
 void write_struct(Struct *out, std::int64_t size, const char *name, const Struct &value) {
   require(out, name);
   check_struct_size<first_size, Struct>(size, name);
-  std::memcpy(out, &value, static_cast<std::size_t>(size));
+  copy_bytes(out, &value, size);
 }
 
 // Writes an output that the caller may leave out by passing null.

@@ -110,14 +110,13 @@ void check_precision(const riis_surface_options &options, const char *name, doub
 // Where the options leave the number open, takes as many threads as pay for their start. The last content's size is the guide.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
   if (options.n_threads > 0) return options.n_threads;
-  constexpr std::size_t triangles_per_thread = 4096;
-  const std::size_t n_triangles = surface.surface ? surface.surface->triangles().n_triangles() : 0;
-  return static_cast<int>(std::min<std::size_t>(1 + n_triangles / triangles_per_thread,
-                                                static_cast<std::size_t>(riis::default_thread_count())));
+  constexpr std::int64_t triangles_per_thread = 4096;
+  const std::int64_t n_triangles = surface.surface ? surface.surface->triangles().n_triangles() : 0;
+  return static_cast<int>(std::min<std::int64_t>(1 + n_triangles / triangles_per_thread, riis::default_thread_count()));
 }
 
 // A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
-constexpr std::size_t max_triangles_kept = 1'000'000;
+constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 riis::SurfaceRequest request_of(const riis_surface &surface, const riis_surface_options &options) {
   return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, threads_for(surface, options)};
@@ -326,8 +325,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
     riis::write_struct<info_size>(info, struct_size, "info",
-                                  riis_surface_info{static_cast<int64_t>(set.n_vertices()),
-                                                    riis::view(set.triangle_id).size(),
+                                  riis_surface_info{set.n_vertices(),
+                                                    set.n_triangles(),
                                                     set.n_zero_area,
                                                     content.half_thickness(),
                                                     content.area(),
@@ -342,7 +341,7 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
 riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices, const double **xyz) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    riis::put(n_vertices, set.n_vertices());
     riis::put(xyz, set.xyz.data());
   });
 }
@@ -350,7 +349,7 @@ riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertic
 riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    riis::put(n_vertices, set.n_vertices());
     riis::put(uv, set.uv.empty() ? nullptr : set.uv.data());
   });
 }
@@ -358,7 +357,7 @@ riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t 
 riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices, const double **velocity) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_vertices, static_cast<int64_t>(set.n_vertices()));
+    riis::put(n_vertices, set.n_vertices());
     riis::put(velocity, set.velocity.empty() ? nullptr : set.velocity.data());
   });
 }
@@ -367,7 +366,7 @@ riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_trian
                                    const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_triangles, riis::view(set.triangle_id).size());
+    riis::put(n_triangles, set.n_triangles());
     riis::put(vertex_id, set.vertex_id.data());
     riis::put(triangle_id, set.triangle_id.data());
     riis::put(leaflet_id, set.leaflet_id.data());

@@ -12,7 +12,7 @@ using riis::require_handle;
 
 namespace {
 
-constexpr std::size_t patches_size = 72;  // the struct's size in the first release
+constexpr std::int64_t patches_size = 72;  // the struct's size in the first release
 const riis_patches default_patches{sizeof(riis_patches), 0, nullptr, nullptr, 0, nullptr, nullptr, nullptr, 0, 0};
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Containers by int64_t, the type of every count and position here; their own functions take std::size_t.
+// Views and resizes containers by int64_t, the type of every count and position here, which is never negative. The containers'
+// own functions take std::size_t: the conversions stand in this file.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +32,7 @@ class ArrayView {
   std::int64_t size_;
 };
 
-// Views a std::vector, a std::array or an array of C. The view is of no use once the container has moved its elements.
+// Views a std::vector, a std::array or an array of C. Do not use the view once the container has moved its elements.
 template <class Container>
 constexpr auto view(Container &container) {
   return ArrayView<std::remove_pointer_t<decltype(std::data(container))>>(

@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// Whether there is a log function.
+// Returns whether there is a log function.
 bool is_logging() noexcept;
 
 void log_message(std::int32_t level, const Message &message) noexcept;
@@ -20,7 +20,7 @@ void log_message(std::int32_t level, const Parts &...parts) noexcept {
   log_message(level, Message(parts...));
 }
 
-// NULL means silence. Any thread may call these functions.
+// Sets the log function; NULL means silence. Any thread may call the functions of this file.
 void set_log_function(riis_log_function function, void *user_data) noexcept;
 
 }  // namespace riis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user who wrote a name that there is not may have meant. Header only: the program needs it too.
+// Finds the existing name that a user may have meant by a wrong one. The program also needs it, so it is all in this header.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace riis {
 
-// How many letters must be changed, added, left out, or swapped with the next one to make one name of the other. Capitals count
-// as small letters. Only the first 80 letters are compared.
+// Returns how many letters must be changed, added, left out, or swapped with the next one to turn one name into the other.
+// Capitals count as small letters. Only the first 80 letters are compared.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   constexpr std::size_t longest = 80;
   a = a.substr(0, longest);
   b = b.substr(0, longest);
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  // The rows of i - 2, i - 1 and i letters of a; column j is that of j letters of b.
+  // The rows are for i - 2, i - 1 and i letters of a, and column j is for j letters of b.
   std::array<std::array<std::size_t, longest + 1>, 3> rows{};
   for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -33,7 +33,8 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Takes candidates one after the other and keeps the nearest: the first of several. Names that are far off are none.
+// Takes candidates one after the other and keeps the nearest, the first of equally near ones. Names that are far off do not
+// count.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)
@@ -45,7 +46,7 @@ class NearestName {
     least_ = distance;
     nearest_ = candidate;
   }
-  // "" if none is near. Points into the candidate.
+  // Returns a view of the nearest candidate, or "" if none is near.
   std::string_view nearest() const { return nearest_; }
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/array_view.hpp"
 #include "distance/powell.hpp"
 
 namespace riis {
@@ -29,8 +30,9 @@ double Minimizer::lower_bound(const Bounds &box, Vec3 p) const {
 
 bool Minimizer::may_be_within(Vec3 p, double limit) const { return lower_bound(box_, p) <= limit; }
 
-void Minimizer::ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const {
-  const PlacedPatch &of = patches_.patches[patch];
+void Minimizer::ask(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const {
+  const PlacedPatch &of = view(patches_.patches)[patch];
+  const Measures &measures = view(measures_)[patch];
   const auto to_surface = [&](Parameters at) { return of.at(at.u, at.v) - p; };
   const auto distance_sq = [&](Parameters at) {
     const Vec3 d = to_surface(at);
@@ -38,31 +40,31 @@ void Minimizer::ask(std::size_t patch, Vec3 p, ClosestOnPatches &best) const {
   };
   // Returns a step that moves S by at most a tenth of `enough`, or the smallest step that squares can tell.
   const auto step_of = [&](Parameters along) {
-    const double speed = std::abs(along.u) * measures_[patch].width + std::abs(along.v) * measures_[patch].height;
+    const double speed = std::abs(along.u) * measures.width + std::abs(along.v) * measures.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));
     return std::max(speed > 0 ? 0.1 * enough_ / speed : 0.0, 1e-9 / longest);
   };
   const LocalMinimum found = minimize_by_powell(distance_sq, {0.5, 0.5}, enough_, step_of);
-  const auto number = static_cast<std::int64_t>(patch);
-  if (found.value < best.distance_sq || (found.value == best.distance_sq && number < best.patch))
-    best = {found.value, number, found.at.u, found.at.v, of.at(found.at.u, found.at.v)};
+  if (found.value < best.distance_sq || (found.value == best.distance_sq && patch < best.patch))
+    best = {found.value, patch, found.at.u, found.at.v, of.at(found.at.u, found.at.v)};
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   // Starts with the patch whose box is nearest, so that most of the others need no query. No result is less than the
   // distance to the patch's box.
-  std::size_t first = 0;
+  const auto measures = view(measures_);
+  std::int64_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < measures_.size(); ++i) {
-    const double bound = lower_bound(measures_[i].box, p);
+  for (std::int64_t i = 0; i < measures.size(); ++i) {
+    const double bound = lower_bound(measures[i].box, p);
     if (bound < nearest) nearest = bound, first = i;
   }
   ClosestOnPatches best;
   if (!(nearest <= limit)) return best;
   ask(first, p, best);
-  for (std::size_t i = 0; i < measures_.size(); ++i) {
+  for (std::int64_t i = 0; i < measures.size(); ++i) {
     if (i == first) continue;
-    const double bound = lower_bound(measures_[i].box, p);
+    const double bound = lower_bound(measures[i].box, p);
     if (bound <= limit && bound <= std::sqrt(best.distance_sq)) ask(i, p, best);
   }
   return std::sqrt(best.distance_sq) <= limit ? best : ClosestOnPatches{};

@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// Returns the n of steps 1/n, n whole, that are no longer than h.
+// Returns the least whole number n of equal steps from 0 to 1 that are no longer than h, at most too_many.
 std::int64_t n_steps(double h) {
   constexpr double too_many = 1e15;
   return h < 1 ? static_cast<std::int64_t>(std::min(std::ceil(1 / h), too_many)) : 1;
@@ -112,7 +112,7 @@ void SampleSet::join(std::int32_t node, std::int32_t second) {
 
 struct SampleSet::Query {
   Vec3 p;
-  double most;  // no square above this matters
+  double most;  // larger squares do not matter
   double distance_sq = std::numeric_limits<double>::infinity();
   std::int64_t sample = -1;
   std::int32_t leaf = -1;

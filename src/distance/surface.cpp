@@ -14,14 +14,14 @@ namespace {
 
 // Sums block by block, so that the area does not depend on which thread summed which block.
 double area_of(const TriangleSet &set, int n_threads) {
-  const auto n = view(set.triangle_id).size();
+  const std::int64_t n = set.n_triangles();
   constexpr std::int64_t triangles_per_block = 4096;
   std::vector<double> areas;
   resize(areas, (n + triangles_per_block - 1) / triangles_per_block);
   parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &range, int) {
     double area = 0;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
-      const auto [a, b, c] = set.corners(static_cast<std::size_t>(i));
+      const auto [a, b, c] = set.corners(i);
       area += 0.5 * length(cross(b - a, c - a));
     }
     view(areas)[range.begin / triangles_per_block] = area;
@@ -55,7 +55,7 @@ const Pseudonormals &Surface::make_pseudonormals() const {
   return *pseudonormals_owner_;
 }
 
-int Surface::side(Vec3 p, std::size_t triangle, const PointOnTriangle &closest) const {
+int Surface::side(Vec3 p, std::int64_t triangle, const PointOnTriangle &closest) const {
   const double height = dot(p - closest.point, pseudonormals().at(triangle, closest.barycentric));
   return (height > 0) - (height < 0);
 }

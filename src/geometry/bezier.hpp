@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -27,7 +28,7 @@ struct Bezier {
   }
 
   Vec3 first() const { return control[0]; }
-  Vec3 last() const { return control[static_cast<std::size_t>(degree)]; }
+  Vec3 last() const { return view(control)[degree]; }
 };
 
 // Returns B(t) for t in [0,1]; exactly the end points at 0 and 1.

@@ -10,9 +10,9 @@
 namespace riis {
 namespace {
 
-// An exact number: a sum of doubles that do not overlap, by ascending magnitude, zeros left out (Shewchuk, "Adaptive Precision
-// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums are right to the last bit as long as doubles do
-// not overflow, products as long as they do not underflow either; coordinates' ranges see to both.
+// An exact number: the sum of doubles that do not overlap, by ascending magnitude and without zeros (Shewchuk, "Adaptive
+// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums are exact unless doubles overflow.
+// Products are exact unless doubles overflow or underflow. The range of the coordinates excludes both.
 template <int capacity>
 struct Exact {
   std::array<double, capacity> part;
@@ -33,7 +33,7 @@ TwoDoubles two_sum(double a, double b) {
   return {sum, (a - a_in_sum) + (b - b_in_sum)};
 }
 
-// Into two halves of 26 bits.
+// Splits a double into two halves of 26 bits.
 TwoDoubles split(double a) {
   const double c = 134217729.0 * a, high = c - (c - a);
   return {high, a - high};
@@ -54,7 +54,8 @@ Exact<2> difference(double a, double b) {
   return made;
 }
 
-// Adds one double after the other: the sum grows by one part at most each time, and never past what was read of it.
+// Adds one double of b after the other. Each pass appends at most one part for each part that it has read, so it overwrites
+// only parts that it no longer needs.
 template <int n, int m>
 Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
   Exact<n + m> sum;
@@ -100,7 +101,7 @@ Exact<2 * n> scaled(const Exact<n> &a, double factor) {
   return made;
 }
 
-// By a number of two parts, which is all that is needed.
+// Multiplies by a number of at most two parts; longer factors are not needed.
 template <int n>
 Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
   Exact<4 * n> made;
@@ -116,7 +117,8 @@ Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-// Far above what underflow can make of products of three differences of coordinates from negligible_coordinate on.
+// Coordinates are 0 or at least negligible_coordinate in magnitude. So underflow changes a product of three of their differences
+// by far less than this.
 constexpr double underflow = 1e-290;
 
 struct Point2 {
@@ -127,7 +129,7 @@ int orientation_exactly(Point2 a, Point2 b, Point2 c) {
   return (difference(a.u, c.u) * difference(b.v, c.v) - difference(a.v, c.v) * difference(b.u, c.u)).sign();
 }
 
-// +1, -1 or 0: a, b, c run counter-clockwise, clockwise, or lie on a line.
+// Returns +1, -1 or 0 if a, b, c run counter-clockwise, run clockwise, or lie on a line.
 int orientation(Point2 a, Point2 b, Point2 c) {
   const double left = (a.u - c.u) * (b.v - c.v), right = (a.v - c.v) * (b.u - c.u);
   const double determinant = left - right;
@@ -143,7 +145,7 @@ int orientation_exactly(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return ((bx * cy - by * cx) * az + (cx * ay - cy * ax) * bz + (ax * by - ay * bx) * cz).sign();
 }
 
-// The sign of the volume that a, b, c and d span; 0 where they lie in a plane.
+// Returns the sign of the volume that a, b, c and d span; 0 if they lie in a plane.
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 p = a - d, q = b - d, r = c - d;
   const double qxry = q.x * r.y, qyrx = q.y * r.x, rxpy = r.x * p.y, rypx = r.y * p.x, pxqy = p.x * q.y,
@@ -157,10 +159,10 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return orientation_exactly(a, b, c, d);
 }
 
-// Signs of one kind, zeros among them.
+// Returns whether no two of the signs are opposite.
 bool agree(int a, int b, int c) { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0); }
 
-// c, on the line through a and b, lies between them.
+// Returns whether c lies between a and b. It must be on the line through them.
 bool is_between(Point2 a, Point2 b, Point2 c) {
   return std::min(a.u, b.u) <= c.u && c.u <= std::max(a.u, b.u) && std::min(a.v, b.v) <= c.v &&
          c.v <= std::max(a.v, b.v);
@@ -174,7 +176,7 @@ bool segments_meet(Point2 a, Point2 b, Point2 c, Point2 d) {
          (c_side == 0 && is_between(a, b, c)) || (d_side == 0 && is_between(a, b, d));
 }
 
-// In a plane: along the axis that leaves the triangle an area.
+// Decides for a segment in the triangle's plane. Everything is projected along an axis that leaves the triangle an area.
 bool meets_in_plane(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
   const auto along = [](int axis, Vec3 p) {
     return axis == 0 ? Point2{p.y, p.z} : axis == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};
@@ -211,7 +213,7 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);
-  // The line meets the plane in one point. Which side of the line each edge runs on says whether the point is inside.
+  // The line meets the plane in one point. The point is inside if the line passes all edges on the same side.
   return agree(orientation(a, b, c[0], c[1]), orientation(a, b, c[1], c[2]), orientation(a, b, c[2], c[0]));
 }
 

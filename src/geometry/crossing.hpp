@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a segment and a triangle have a point in common: exactly, for coordinates in double precision.
+// Decides exactly whether a segment and a triangle have a point in common, for coordinates in double precision.
 #pragma once
 
 #include <array>
@@ -8,12 +8,12 @@
 
 namespace riis {
 
-// Coordinates below this count as 0: products of smaller ones would leave the range of doubles.
+// Coordinates below this count as 0, because products of smaller ones would leave the range of doubles.
 inline constexpr double negligible_coordinate = 1e-90;
 
-// True if the closed segment from a to b and the closed triangle have a point in common. Coordinates are at most max_coordinate in
-// magnitude, the triangle has an area (has_zero_area). There is no tolerance and no rounding: a segment through the common edge of
-// two triangles meets both, and the order of the ends and of the corners does not matter.
+// Returns whether the closed segment from a to b and the closed triangle have a point in common. Coordinates must be at most
+// max_coordinate in magnitude, and the triangle must have an area (has_zero_area). There is no tolerance and no rounding: a
+// segment through the common edge of two triangles meets both, and the order of the ends and of the corners does not matter.
 bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners);
 
 }  // namespace riis

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 
 namespace riis {
@@ -79,8 +80,7 @@ class Flattening {
     double largest = 0;
     for (const Bezier &piece : part.pieces())
       for (int i = 0; i <= piece.degree; ++i)
-        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), piece.control[static_cast<std::size_t>(i)],
-                                                               part.last())));
+        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), view(piece.control)[i], part.last())));
     return largest;
   }
 
@@ -157,7 +157,8 @@ Curve Curve::reversed() const {
 Curve Curve::through(Vec3 first, Vec3 last) const {
   Curve moved = *this;
   moved.pieces_.front().control[0] = first;
-  moved.pieces_.back().control[static_cast<std::size_t>(moved.pieces_.back().degree)] = last;
+  Bezier &last_piece = moved.pieces_.back();
+  view(last_piece.control)[last_piece.degree] = last;
   return moved;
 }
 

@@ -2,7 +2,10 @@
 #include "geometry/polyline.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+
+#include "base/array_view.hpp"
 
 namespace riis {
 
@@ -44,9 +47,9 @@ Vec3 evaluate(const Polyline &polyline, double t) {
   const auto after = std::upper_bound(polyline.t.begin(), polyline.t.end(), t);
   if (after == polyline.t.end()) return polyline.points.back();
   if (after == polyline.t.begin()) return polyline.points.front();
-  const auto i = static_cast<std::size_t>(after - polyline.t.begin());
-  const double t0 = polyline.t[i - 1], t1 = polyline.t[i];
-  return mix(polyline.points[i - 1], polyline.points[i], (t - t0) / (t1 - t0));
+  const std::int64_t i = after - polyline.t.begin();
+  const double t0 = view(polyline.t)[i - 1], t1 = view(polyline.t)[i];
+  return mix(view(polyline.points)[i - 1], view(polyline.points)[i], (t - t0) / (t1 - t0));
 }
 
 }  // namespace riis

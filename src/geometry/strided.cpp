@@ -9,7 +9,7 @@
 namespace riis {
 namespace {
 
-// Two doubles in one register: comparing one by one would take longer than memory does.
+// Two doubles in one register. One at a time, the comparisons would take longer than the memory.
 typedef double Two __attribute__((vector_size(16)));
 
 struct Spread {
@@ -20,7 +20,7 @@ struct Spread {
   }
 };
 
-// x and y of one point after the other, z of two at a time.
+// Takes x and y of one point in a register, and z of two points in another.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};
@@ -41,11 +41,11 @@ struct PairSpread {
   }
 };
 
-// sum becomes NaN, which it never leaves again, where a coordinate is: comparisons pass over that.
+// If a coordinate is NaN, `sum` becomes and stays NaN. The comparisons for the bounds pass over it.
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // Two of them, since a comparison waits for the one before it.
+  // There are two, because a comparison waits for the last comparison of the same bounds.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)

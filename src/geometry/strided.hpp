@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's points where they lie, three pointers and a stride, and what is demanded of their coordinates.
+// The caller's points, borrowed as three pointers and a stride, and the checks of their coordinates.
 #pragma once
 
 #include <riis/riis.h>
@@ -24,22 +24,23 @@ struct StridedPoints {
   }
 };
 
-// Coordinates up to here, and edges of triangles from here, keep the fourth powers that distances need within doubles.
+// Distances need fourth powers. Coordinates up to the first number and edges from the second one on keep them within doubles.
 inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 
-// Finite and not too large; false for NaN.
+// Returns whether coordinates are finite and not too large; false for NaN.
 inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_coordinate; }
 inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
 
-// Checks pointers, stride and every coordinate, on the calling thread: starting others would not pay, and they may not be
-// wanted. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate, naming its point as
-// `what` ("node", "point") and number. Returns the points' box, of which the same pass over memory learns.
+// Checks pointers, stride and every coordinate. Only the calling thread runs: others would not pay, and the caller may not want
+// them. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message then names the
+// point by `what` ("node", "point") and its number. Returns the points' box, which the same pass over memory finds.
 Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
 
 // Checks one point, as check_points checks all.
 void check_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
-// Point i of points that were checked when they were given, but that the caller may have written to since: fails in the same way.
+// Returns point i of points that were checked when they were given. The caller may have written to them since: the call fails
+// as check_points does.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];
   if (!is_usable(p)) check_points(points, what, bad_coordinate);

@@ -117,7 +117,7 @@ void decide(int32_t n, const int32_t *point, const int32_t *triangle, const doub
     for (int lane = 0; lane < Doubles::n; ++lane) {
       const int32_t pair = first + lane < n ? first + lane : first;
       p[lane] = points + 3 * point[pair];
-      t[lane] = corners + 9 * static_cast<int64_t>(triangle[pair]);
+      t[lane] = corners + int64_t{9} * triangle[pair];
     }
     const auto corner = [&](int i) RIIS_LAMBDA {
       return Doubles3{Doubles::gather(t, 3 * i), Doubles::gather(t, 3 * i + 1), Doubles::gather(t, 3 * i + 2)};

@@ -202,7 +202,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Writes the integers of 16 whose bits are set, one after the other. It may write all 16 places, whatever their number.
+// Copies the integers whose bits are set, out of 16, one after the other. It may write to all 16 places, however few these are.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -221,7 +221,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
   return r != 0;
 }
 
-// Finds the least lane of each of four.
+// Writes the least of the lanes of each of four Floats.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
 #if defined(RIIS_SSE2)
   __m128 m[4];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolation between keys in time, once or again and again: of openings (laws/opening_laws.hpp) and of vertices
-// (surface/keyframes.hpp).
+// Interpolates between keys in time, once or in periods. Openings (laws/opening_laws.hpp) and the vertices of keyframes
+// (surface/keyframes.hpp) use it.
 // In: times of keys, a period. Out: the keys around a time, and the values and rates between them.
 #pragma once
 
@@ -17,15 +17,15 @@ struct ValueAndRate {
 
 class KeyTimes {
  public:
-  // Checks the arrays' fields, calls them by the name of their struct, and fails with RIIS_INVALID_ARGUMENT, naming the field
-  // or key and its value. The times are borrowed.
+  // Checks the fields of the struct with this name and borrows its times. Fails with RIIS_INVALID_ARGUMENT; the message names
+  // the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // True if the last key is the first again, a period later: their values must be equal.
+  // Returns whether the last key is a period after the first. The values of both must then be equal.
   bool is_closed() const { return is_closed_; }
 
-  // What a value at a time depends on: the keys around it and the weights of an interpolation between them. A key counts by
-  // its position in the arrays, so a time in the next period has keys of this one.
+  // A value at a time depends on the keys around it and on the times between them. Keys are positions in the arrays, so a time
+  // in a later period has the same keys.
   struct Place {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, behind it
     std::array<double, 3> width;      // from each of these to the next; infinite where there is no key
@@ -35,7 +35,7 @@ class KeyTimes {
   // Fails with RIIS_INVALID_ARGUMENT for a time that is not finite.
   Place place(double time) const;
 
-  // The value and the rate at a place, from the values at its four keys.
+  // Returns the value and the rate at a place, from the values at its four keys.
   ValueAndRate between(const Place &place, const std::array<double, 4> &values) const;
 
  private:

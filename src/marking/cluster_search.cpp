@@ -262,10 +262,10 @@ void ClusterScratch::prepare(int n_threads) {
     thread.near_groups.clear();
     thread.leaf_bits.clear();
     // The kernels write whole registers.
-    constexpr std::size_t room = static_cast<std::size_t>(room_for_pairs) + 16;
-    thread.pair_nodes.resize(room);
-    thread.pair_triangles.resize(room);
-    thread.pair_decided.resize(room);
+    constexpr std::int64_t room = room_for_pairs + 16;
+    resize(thread.pair_nodes, room);
+    resize(thread.pair_triangles, room);
+    resize(thread.pair_decided, room);
     resize(thread.closest, nodes_per_cluster);
     thread.n_queries = 0;
   }

@@ -49,9 +49,10 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   const std::int64_t n_clusters = n_of(n_nodes, nodes_per_cluster);
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
-    // Not filled with zeros: the thread that first writes a page should be the one that uses it.
-    clusters.leaves.reset(new Leaf[static_cast<std::size_t>(n_leaves)]);
-    clusters.points.reset(new LeafPoints[static_cast<std::size_t>(n_leaves)]);
+    // The memory is not filled with zeros: the thread that first writes a page should be the one that uses it.
+    const auto n = static_cast<std::size_t>(n_leaves);
+    clusters.leaves.reset(new Leaf[n]);
+    clusters.points.reset(new LeafPoints[n]);
     clusters.n_leaves = n_leaves;
   }
   resize(clusters.clusters, n_clusters);

@@ -18,8 +18,8 @@ struct NodeFields {
   std::vector<std::int32_t> side, rim, patch_id;             // (n)
 
   // Reserves memory for n nodes, so that resize(m) with m <= n does not throw.
-  void reserve(std::int32_t fields, std::size_t n);
-  void resize(std::int32_t fields, std::size_t n);
+  void reserve(std::int32_t fields, std::int64_t n);
+  void resize(std::int32_t fields, std::int64_t n);
 };
 
 // Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.

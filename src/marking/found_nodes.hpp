@@ -45,9 +45,9 @@ struct FoundNodes {
     }
   }
 
-  std::size_t size() const {
-    std::size_t n = 0;
-    for (const auto &found : by_thread) n += found.size();
+  std::int64_t size() const {
+    std::int64_t n = 0;
+    for (const auto &found : by_thread) n += view(found).size();
     return n;
   }
 };

@@ -23,8 +23,8 @@ struct Edge {
 };
 
 // An edge of at most this length that meets the surface has a node within the half thickness: its nearer node is at most half its
-// length from the crossing. The margins count rounding more than once, so this also holds for computed distances. Returns -1, so
-// that no edge counts as short, where marks may be missing or do not follow the distances to the triangles.
+// length from the crossing. The margins count rounding more than once, so this also holds for computed distances. Returns -1 if
+// marks may be missing or do not follow the distances to the triangles: then no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const MarkResult &result) {
   if (surface.other_distance() || !result.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();

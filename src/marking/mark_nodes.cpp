@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -82,7 +83,7 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   // Calls that may fail come before the first list is overwritten.
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
-  if (need_normals(request.surface, fields, static_cast<std::int64_t>(result.found.size())))
+  if (need_normals(request.surface, fields, result.found.size()))
     request.surface.prepare_sides();
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                result.order_scratch, result.within, result.marked);
@@ -97,8 +98,8 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   result.n_threads = request.n_threads;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result.stats = {request.mesh.nodes().n,
-                  static_cast<std::int64_t>(result.marked_nodes().size()),
-                  static_cast<std::int64_t>(result.within.size()),
+                  result.marked_nodes().size(),
+                  result.within.size(),
                   report.n_queries,
                   elapsed.count(),
                   search,
@@ -123,11 +124,11 @@ void write_dense(const MarkResult &result, double far_distance, std::uint8_t *ma
   for (const std::int64_t node : result.marked_nodes().node_id)
     if (mark) mark[node] = 1;
   const NodeList &within = result.within;
-  for (std::size_t i = 0; i < within.size(); ++i) {
-    const std::int64_t node = within.node_id[i];
-    if (distance) distance[node] = within.distance[i];
-    if (triangle_id) triangle_id[node] = within.triangle_id[i];
-    if (leaflet_id) leaflet_id[node] = within.leaflet_id[i];
+  for (std::int64_t i = 0; i < within.size(); ++i) {
+    const std::int64_t node = view(within.node_id)[i];
+    if (distance) distance[node] = view(within.distance)[i];
+    if (triangle_id) triangle_id[node] = view(within.triangle_id)[i];
+    if (leaflet_id) leaflet_id[node] = view(within.leaflet_id)[i];
   }
 }
 

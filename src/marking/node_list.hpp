@@ -10,28 +10,33 @@
 
 namespace riis {
 
+// Reserves memory for n elements, and then half as much again: a moving valve would otherwise need more memory at every new
+// largest number of nodes.
+template <class T>
+void reserve_amply(std::vector<T> &array, std::int64_t n) {
+  const auto needed = static_cast<std::size_t>(n);
+  if (needed > array.capacity()) array.reserve(needed + needed / 2);
+}
+
 struct NodeList {
   std::vector<std::int64_t> node_id;
   std::vector<double> distance;
   std::vector<std::int64_t> triangle_id;
   std::vector<std::int32_t> leaflet_id;
 
-  std::size_t size() const { return node_id.size(); }
-  // Reserves half as much again: a moving valve would otherwise need more memory at every new largest number of nodes.
-  void reserve(std::size_t n) {
-    if (n <= node_id.capacity() && n <= leaflet_id.capacity()) return;
-    n += n / 2;
-    node_id.reserve(n);
-    distance.reserve(n);
-    triangle_id.reserve(n);
-    leaflet_id.reserve(n);
+  std::int64_t size() const { return view(node_id).size(); }
+  void reserve(std::int64_t n) {
+    reserve_amply(node_id, n);
+    reserve_amply(distance, n);
+    reserve_amply(triangle_id, n);
+    reserve_amply(leaflet_id, n);
   }
   // Does not throw after reserve(n).
-  void resize(std::size_t n) {
-    node_id.resize(n);
-    distance.resize(n);
-    triangle_id.resize(n);
-    leaflet_id.resize(n);
+  void resize(std::int64_t n) {
+    riis::resize(node_id, n);
+    riis::resize(distance, n);
+    riis::resize(triangle_id, n);
+    riis::resize(leaflet_id, n);
   }
   void set(std::int64_t i, std::int64_t node, double node_distance, std::int64_t triangle, std::int32_t leaflet) {
     view(node_id)[i] = node;

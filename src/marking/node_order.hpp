@@ -128,9 +128,9 @@ class NodeSorter {
       per_unit = extent > 0 ? n_bins / extent : 0;
       if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
     }
-    std::size_t operator()(const Item &item) const {
+    int operator()(const Item &item) const {
       const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
-      return static_cast<std::size_t>(bin < n_bins ? bin : n_bins - 1);
+      return bin < n_bins ? bin : n_bins - 1;
     }
   };
 
@@ -143,14 +143,15 @@ class NodeSorter {
 
     ManyBlocks(const Part &of, int threads)
         : part(of),
-          n_threads(threads),
-          boxes(static_cast<std::size_t>((of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block)),
-          at(boxes.size()) {}
+          n_threads(threads) {
+      const std::int64_t n_blocks = (of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block;
+      resize(boxes, n_blocks);
+      resize(at, n_blocks);
+    }
     template <class Visit>
     void for_each(const Visit &visit) const {
       parallel_for_ranges(part.size(), nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
-        visit(static_cast<std::size_t>(range.begin / nodes_per_sorting_block),
-              Part{part.begin + range.begin, part.begin + range.end});
+        visit(range.begin / nodes_per_sorting_block, Part{part.begin + range.begin, part.begin + range.end});
       });
     }
   };
@@ -183,18 +184,18 @@ class NodeSorter {
   // Sorts into bins along the longest axis. Within a bin items keep their order, whatever the number of blocks.
   template <class Blocks>
   static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
-    blocks.for_each([&](std::size_t block, const Part &of_block) {
+    blocks.for_each([&](std::int64_t block, const Part &of_block) {
       NodeBox box;
       for (std::int64_t i = of_block.begin; i < of_block.end; ++i) box.add(from[i].x);
-      blocks.boxes[block] = box;
+      view(blocks.boxes)[block] = box;
     });
     NodeBox box;
     for (const NodeBox &of_block : blocks.boxes) box.add(of_block);
     const Bins bins(box);
-    blocks.for_each([&](std::size_t block, const Part &of_block) {
-      Counts &counts = blocks.at[block];
+    blocks.for_each([&](std::int64_t block, const Part &of_block) {
+      Counts &counts = view(blocks.at)[block];
       counts.fill(0);
-      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) ++counts[bins(from[i])];
+      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) ++view(counts)[bins(from[i])];
     });
     Node n = 0;
     for (std::size_t bin = 0; bin < n_bins; ++bin)
@@ -203,10 +204,10 @@ class NodeSorter {
         counts[bin] = n;
         n += count;
       }
-    blocks.for_each([&](std::size_t block, const Part &of_block) {
-      Counts &next = blocks.at[block];
+    blocks.for_each([&](std::int64_t block, const Part &of_block) {
+      Counts &next = view(blocks.at)[block];
       for (std::int64_t i = of_block.begin; i < of_block.end; ++i)
-        to[part.begin + static_cast<std::int64_t>(next[bins(from[i])]++)] = from[i];
+        to[part.begin + view(next)[bins(from[i])]++] = from[i];
     });
   }
 
@@ -227,7 +228,8 @@ class NodeSorter {
 
 template <class Node>
 std::vector<NodeItem<Node>> items_of(const StridedPoints &nodes, const NodeFrame &frame, int n_threads) {
-  std::vector<NodeItem<Node>> items(static_cast<std::size_t>(nodes.n));
+  std::vector<NodeItem<Node>> items;
+  resize(items, nodes.n);
   parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       NodeItem<Node> &item = view(items)[i];

@@ -152,14 +152,14 @@ class Ordering {
 
 void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
                   int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked) {
-  const std::size_t n_within = found.size();
-  constexpr std::size_t few = 4096;  // other threads would come too late
+  const std::int64_t n_within = found.size();
+  constexpr std::int64_t few = 4096;  // other threads would come too late
   Ordering ordering(surface, found, limit_is_wider, n_nodes, n_within < few ? 1 : n_threads, scratch);
   const OrderScratch::Counts sum = ordering.count();
-  const std::size_t n_marked = limit_is_wider ? static_cast<std::size_t>(sum.n_marked) : 0;
+  const std::int64_t n_marked = limit_is_wider ? sum.n_marked : 0;
   within.reserve(n_within);
   marked.reserve(n_marked);
-  if (scratch.by_stretch.size() < n_within) scratch.by_stretch.resize(n_within + n_within / 2);
+  if (view(scratch.by_stretch).size() < n_within) resize(scratch.by_stretch, n_within + n_within / 2);
   within.resize(n_within);
   marked.resize(n_marked);
   ordering.gather();

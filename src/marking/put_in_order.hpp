@@ -17,7 +17,7 @@ struct OrderScratch {
   struct Counts {
     std::int64_t n_within, n_marked;
   };
-  std::vector<Counts> counts;         // stretch by stretch, list by list; later the places where they begin
+  std::vector<Counts> counts;         // stretch by stretch, list by list; later the places where their nodes begin
   std::vector<FoundNode> by_stretch;  // all found nodes, stretch after stretch
 };
 

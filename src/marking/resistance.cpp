@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/ranges.hpp"
 #include "parallel/parallel_for.hpp"
@@ -26,14 +26,12 @@ template <class Visit>
 void for_each_resistance(const MarkResult &result, const Resistance &resistance, const Range &range,
                          const Visit &visit) {
   const NodeList &within = result.within;
-  for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
-    if (resistance.cuts_rim && result.fields_within.rim[i]) continue;
-    const double k = coefficient_at(resistance, within.distance[i]);
+  for (std::int64_t i = range.begin; i < range.end; ++i) {
+    if (resistance.cuts_rim && view(result.fields_within.rim)[i]) continue;
+    const double k = coefficient_at(resistance, view(within.distance)[i]);
     if (k > 0) visit(i, k);
   }
 }
-
-std::int64_t size_of(const MarkResult &result) { return static_cast<std::int64_t>(result.within.size()); }
 
 void require_field(const MarkResult &result, std::int32_t field, const char *field_name, const char *what) {
   if (!(result.fields & field))
@@ -60,19 +58,19 @@ Resistance checked_resistance(const riis_resistance &resistance, const MarkResul
 
 void add_resistance(const MarkResult &result, const Resistance &resistance, double *coefficient, double *momentum) {
   if (momentum) require_field(result, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "momentum");
-  const std::vector<std::int64_t> &node_id = result.within.node_id;
+  const auto node_id = view(result.within.node_id);
   const double *velocity = result.fields_within.velocity.data();
   constexpr std::int64_t nodes_per_block = 4096;
-  parallel_for_ranges(size_of(result), nodes_per_block, result.n_threads, [&](const Range &range, int) {
-    for_each_resistance(result, resistance, range, [&](std::size_t i, double k) {
-      // Nodes are far apart in the caller's arrays: they are fetched while the nodes before are computed.
+  parallel_for_ranges(result.within.size(), nodes_per_block, result.n_threads, [&](const Range &range, int) {
+    for_each_resistance(result, resistance, range, [&](std::int64_t i, double k) {
+      // Nodes are far apart in the caller's arrays: they are fetched while earlier nodes are computed.
       const std::int64_t ahead = node_id[std::min(i + 16, node_id.size() - 1)];
       if (coefficient) __builtin_prefetch(coefficient + ahead, 1);
       if (momentum) __builtin_prefetch(momentum + 3 * ahead, 1);
       const std::int64_t node = node_id[i];
       if (coefficient) coefficient[node] += k;
       if (momentum)
-        for (int c = 0; c < 3; ++c) momentum[3 * node + c] += k * velocity[3 * i + static_cast<std::size_t>(c)];
+        for (int c = 0; c < 3; ++c) momentum[3 * node + c] += k * velocity[3 * i + c];
     });
   });
 }
@@ -80,12 +78,12 @@ void add_resistance(const MarkResult &result, const Resistance &resistance, doub
 void add_reaction(const MarkResult &result, const Resistance &resistance, const double *velocity, const double *weight,
                   double *force) {
   const bool moves = (result.fields & RIIS_FIELD_VELOCITY) != 0;
-  // One thread sums in the order of the nodes, so that the bits do not depend on their number.
-  for_each_resistance(result, resistance, {0, size_of(result)}, [&](std::size_t i, double k) {
-    const std::int64_t node = result.within.node_id[i];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double surface_velocity = moves ? result.fields_within.velocity[3 * i + c] : 0;
-      force[c] += weight[node] * (k * (velocity[3 * node + static_cast<std::int64_t>(c)] - surface_velocity));
+  // One thread sums in the order of the nodes, so that the bits do not depend on the number of threads.
+  for_each_resistance(result, resistance, {0, result.within.size()}, [&](std::int64_t i, double k) {
+    const std::int64_t node = view(result.within.node_id)[i];
+    for (int c = 0; c < 3; ++c) {
+      const double surface_velocity = moves ? view(result.fields_within.velocity)[3 * i + c] : 0;
+      force[c] += weight[node] * (k * (velocity[3 * node + c] - surface_velocity));
     }
   });
 }
@@ -96,11 +94,12 @@ riis_band_sums band_sums(const MarkResult &result, double inner, double outer, c
   require_field(result, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "riis_mark_result_band_sums");
   riis_band_sums sums{};
   const NodeList &within = result.within;
-  for (std::size_t i = 0; i < within.size(); ++i) {
-    const std::int32_t side = result.fields_within.side[i];
-    if (result.fields_within.rim[i] || side == 0) continue;
-    if (!(within.distance[i] >= inner && within.distance[i] <= outer)) continue;
-    const std::int64_t node = within.node_id[i];
+  const auto distance = view(within.distance);
+  for (std::int64_t i = 0; i < within.size(); ++i) {
+    const std::int32_t side = view(result.fields_within.side)[i];
+    if (view(result.fields_within.rim)[i] || side == 0) continue;
+    if (!(distance[i] >= inner && distance[i] <= outer)) continue;
+    const std::int64_t node = view(within.node_id)[i];
     const std::size_t band = side < 0 ? 0 : 1;
     sums.sum[band] += weight[node] * value[node];
     sums.weight[band] += weight[node];

@@ -15,13 +15,13 @@
 namespace riis {
 namespace {
 
-// Nothing destroys it when the process exits: destructors of a caller's static objects may still walk.
+// Nothing destroys the pool when the process exits, because destructors of a caller's static objects may still walk.
 struct Pool {
   std::mutex mutex;
   std::int64_t n_keepers = 0;
   std::size_t n_arenas = 0;
   PooledArena *idle = nullptr;  // a list, since giving back must not need memory
-  pid_t process = 0;            // that made them
+  pid_t process = 0;            // the one that made them
 };
 Pool pool;
 static_assert(std::is_trivially_destructible_v<Pool>);
@@ -40,7 +40,7 @@ PooledArena *take_idle(int n_threads) noexcept {
 void destroy(PooledArena *first) noexcept {
   std::optional<tbb::global_control> no_workers;
   try {
-    // TBB then frees an arena at once, although workers that it called may not have come.
+    // TBB then frees an arena at once, even if workers that it called have not come.
     no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
   } catch (...) {  // no memory: TBB frees the arena later, or keeps it
   }
@@ -78,7 +78,7 @@ KeepsArenas::~KeepsArenas() {
   {
     const std::lock_guard<std::mutex> lock(pool.mutex);
     --pool.n_keepers;
-    // A child of fork() has none of the workers, and TBB may wait there for what they held.
+    // A child of fork() lacks the workers, and TBB may wait there for what they held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
     first = std::exchange(pool.idle, nullptr);
     for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seam through which work that makes more work goes; it and arena_pool.* are the only files that name TBB.
+// Every loop whose bodies add more work goes through this file. Only this file and arena_pool.* name TBB.
 #pragma once
 
 #if defined(RIIS_STD_THREADS)
@@ -23,9 +23,9 @@
 
 namespace riis {
 
-// An arena of up to n_threads threads, the calling one among them, lent by the pool for as long as this lives. TBB gives no more
-// threads than it may have in the process: where that is fewer it may have more for as long as this lives, unless it was the
-// caller who said so. An arena of more than there can be would be announced on stderr.
+// An arena of up to n_threads threads, including the calling one. The pool lends it while this object lives. TBB limits the
+// threads of the process. If that limit is lower than n_threads, this object raises it while it lives, unless the caller set
+// it. The arena stays within the limit, because TBB would announce a larger one on stderr.
 class Arena {
  public:
   explicit Arena(int n_threads) {
@@ -51,10 +51,10 @@ class Arena {
   PooledArena *lent_;
 };
 
-// Runs body(range, add, thread) for every range of the list and for all that bodies add, add(range), on up to n_threads threads, 0
-// <= thread < n_threads, in no particular order. Returns how many threads ran. The first exception is thrown again here. Starts
-// anew from anywhere: a caller's parallel regions and tasks, settings and limits stay as they are. One thread is the calling one,
-// without TBB, and the list is used up.
+// Runs body(range, add, thread) for every range of the list, and for every range that a body adds by add(range). Up to
+// n_threads threads run bodies in no particular order, 0 <= thread < n_threads. Returns how many threads ran. The first
+// exception is thrown again here. A walk may start anywhere: a caller's parallel regions, tasks, settings and limits stay as
+// they are. With n_threads = 1 the calling thread runs all bodies without TBB and empties the list.
 template <class Body>
 int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body) {
   if (n_threads == 1) {

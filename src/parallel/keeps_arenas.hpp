@@ -3,8 +3,8 @@
 
 namespace riis {
 
-// The pool of arenas (arena_pool.hpp) keeps them as long as one of these lives: each handle that a walk needs has one. The arenas
-// go with the last of them, because a caller may want to end TBB (tbb::finalize), which TBB refuses while there are arenas.
+// The pool (arena_pool.hpp) keeps its arenas while an object of this type lives. Each handle that a walk needs has one. The
+// arenas go with the last object: a caller may want to end TBB (tbb::finalize), and TBB refuses that while there are arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "base/float_environment.hpp"
 #include "parallel/range.hpp"
 
@@ -38,7 +39,7 @@ class RangePlaces {
   // Chunk c has first_size << c places.
   Place &operator[](std::int64_t i) {
     const int c = 63 - __builtin_clzll(static_cast<unsigned long long>(i / first_size + 1));
-    std::atomic<Place *> &chunk = chunks_[static_cast<std::size_t>(c)];
+    std::atomic<Place *> &chunk = view(chunks_)[c];
     Place *places = chunk.load(std::memory_order_acquire);
     if (!places) {
       auto *const made = new Place[static_cast<std::size_t>(first_size << c)];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "geometry/strided.hpp"
@@ -33,13 +34,13 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
   for (std::int64_t key = 0; key < frames.n_keys; ++key)
     for (std::int64_t i = 0; i < n; ++i)
       if (!is_usable(frames.xyz[key * n + i]))
-        fail(RIIS_INVALID_SURFACE, axes[static_cast<std::size_t>(i % 3)], " of vertex ", i / 3, " in frame ", key,
+        fail(RIIS_INVALID_SURFACE, view(axes)[i % 3], " of vertex ", i / 3, " in frame ", key,
              " is ", frames.xyz[key * n + i], "; it must be finite and at most ", max_coordinate, " in magnitude");
   if (keys_.is_closed())
     for (std::int64_t i = 0; i < n; ++i)
       if (frames.xyz[i] != frames.xyz[(frames.n_keys - 1) * n + i])
         fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
-             axes[static_cast<std::size_t>(i % 3)], " ", frames.xyz[(frames.n_keys - 1) * n + i],
+             view(axes)[i % 3], " ", frames.xyz[(frames.n_keys - 1) * n + i],
              "; it must be that of the first, ", frames.xyz[i]);
   // The faces are checked once, as a surface from the first frame.
   faces_ = faces_from_arrays(faces);
@@ -56,18 +57,18 @@ Keyframes::Keyframes(const riis_surface_arrays &faces, const riis_keyframe_array
 
 void Keyframes::at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const {
   const KeyTimes::Place now = keys_.place(time), before = keys_.place(since);
-  const auto n = static_cast<std::size_t>(3 * faces_.n_vertices);
-  const auto value = [&](const KeyTimes::Place &place, std::size_t i) {
+  const std::int64_t n = 3 * faces_.n_vertices;
+  const auto value = [&](const KeyTimes::Place &place, std::int64_t i) {
     std::array<double, 4> values;
-    for (std::size_t k = 0; k < 4; ++k) values[k] = xyz_[static_cast<std::size_t>(place.key[k]) * n + i];
+    for (std::size_t k = 0; k < 4; ++k) values[k] = view(xyz_)[place.key[k] * n + i];
     return keys_.between(place, values);
   };
-  xyz.resize(n);
-  velocity.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  resize(xyz, n);
+  resize(velocity, n);
+  for (std::int64_t i = 0; i < n; ++i) {
     const ValueAndRate made = value(now, i);
-    xyz[i] = made.value;
-    velocity[i] = since == time ? made.rate : (made.value - value(before, i).value) / (time - since);
+    view(xyz)[i] = made.value;
+    view(velocity)[i] = since == time ? made.rate : (made.value - value(before, i).value) / (time - since);
   }
 }
 

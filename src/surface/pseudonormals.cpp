@@ -25,23 +25,24 @@ std::uint64_t hash(Vec3 p) {
 }
 
 // Numbers all vertices; vertices with equal coordinates get the same number.
-std::vector<std::size_t> distinct_positions(const TriangleSet &set, std::size_t &n_positions) {
-  // A table of vertices, at most half full, each at the first free place from its hash on.
+std::vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
+  // A table of vertices that is at most half full. Each vertex is at the first place from its hash on that was free.
   constexpr std::int32_t none = -1;
+  std::vector<std::int64_t> position;
+  resize(position, set.n_vertices());
   std::size_t size = 16;
-  while (size < 2 * set.n_vertices()) size *= 2;
+  while (size < 2 * position.size()) size *= 2;
   std::vector<std::int32_t> table(size, none);
-  std::vector<std::size_t> position(set.n_vertices());
   n_positions = 0;
-  for (std::size_t i = 0; i < set.n_vertices(); ++i) {
-    const Vec3 p = set.vertex(static_cast<std::int64_t>(i));
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
+    const Vec3 p = set.vertex(i);
     std::size_t at = hash(p) & (size - 1);
     while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
     if (table[at] == none) {
       table[at] = static_cast<std::int32_t>(i);
-      position[i] = n_positions++;
+      view(position)[i] = n_positions++;
     } else {
-      position[i] = position[static_cast<std::size_t>(table[at])];
+      view(position)[i] = view(position)[table[at]];
     }
   }
   return position;
@@ -60,90 +61,94 @@ Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
 }
 
 Pseudonormals::Pseudonormals(const TriangleSet &set) {
-  const std::size_t n = set.n_triangles();
-  std::size_t n_positions = 0;
-  const std::vector<std::size_t> position_of_vertex = distinct_positions(set, n_positions);
-  face_.resize(n);
-  edge_.resize(3 * n);
-  corner_.assign(n_positions, Vec3{0, 0, 0});
-  position_.resize(3 * n);
-  edge_is_rim_.resize(3 * n);
-  corner_is_rim_.resize(n_positions);
-  // Edges by their lower end: they are few, and equal ones are found by looking at all.
-  std::vector<std::size_t> first_edge(n_positions + 1, 0);
-  for (std::size_t i = 0; i < n; ++i) {
+  const std::int64_t n = set.n_triangles();
+  std::int64_t n_positions = 0;
+  const std::vector<std::int64_t> position_of_vertex = distinct_positions(set, n_positions);
+  resize(face_, n);
+  resize(edge_, 3 * n);
+  resize(corner_, n_positions);
+  resize(position_, 3 * n);
+  resize(edge_is_rim_, 3 * n);
+  resize(corner_is_rim_, n_positions);
+  // Edges are listed by their lower end. Each list is short, and equal edges follow each other once it is sorted.
+  std::vector<std::int64_t> first_edge;
+  resize(first_edge, n_positions + 1);
+  for (std::int64_t i = 0; i < n; ++i) {
     const std::array<Vec3, 3> corners = set.corners(i);
-    face_[i] = triangle_normal(corners);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 here = corners[k], next = corners[(k + 1) % 3], previous = corners[(k + 2) % 3];
-      position_[3 * i + k] = view(position_of_vertex)[set.vertex_id[3 * i + k]];
-      Vec3 &sum = corner_[position_[3 * i + k]];
-      sum = sum + angle_between(next - here, previous - here) * face_[i];
+    const Vec3 normal = view(face_)[i] = triangle_normal(corners);
+    const auto corner = view(corners);
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const Vec3 here = corner[k], next = corner[(k + 1) % 3], previous = corner[(k + 2) % 3];
+      const std::int64_t position = view(position_of_vertex)[view(set.vertex_id)[3 * i + k]];
+      view(position_)[3 * i + k] = position;
+      Vec3 &sum = view(corner_)[position];
+      sum = sum + angle_between(next - here, previous - here) * normal;
     }
-    for (std::size_t k = 0; k < 3; ++k) ++first_edge[ends_of(3 * i + k).lower + 1];
+    for (std::int64_t k = 0; k < 3; ++k) ++view(first_edge)[ends_of(3 * i + k).lower + 1];
   }
   std::partial_sum(first_edge.begin(), first_edge.end(), first_edge.begin());
   struct Edge {
-    std::size_t upper, slot;  // position of its upper end, place in edge_
+    std::int64_t upper, slot;  // position of its upper end, place in edge_
   };
-  std::vector<Edge> edges(3 * n);
-  std::vector<std::size_t> next(first_edge.begin(), first_edge.end() - 1);
-  for (std::size_t slot = 0; slot < 3 * n; ++slot) {
+  std::vector<Edge> edges;
+  resize(edges, 3 * n);
+  std::vector<std::int64_t> next(first_edge.begin(), first_edge.end() - 1);
+  for (std::int64_t slot = 0; slot < 3 * n; ++slot) {
     const auto [lower, upper] = ends_of(slot);
-    edges[next[lower]++] = {upper, slot};
+    view(edges)[view(next)[lower]++] = {upper, slot};
   }
-  for (std::size_t lower = 0; lower < n_positions; ++lower) {
-    const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(first_edge[lower]),
-               end = edges.begin() + static_cast<std::ptrdiff_t>(first_edge[lower + 1]);
-    // By slot among equal ones, so that the sums have the same bits however the ends are numbered.
+  for (std::int64_t lower = 0; lower < n_positions; ++lower) {
+    const auto begin = edges.begin() + view(first_edge)[lower], end = edges.begin() + view(first_edge)[lower + 1];
+    // Equal edges are in the order of their slots, so that the sums have the same bits however the ends are numbered.
     std::sort(begin, end,
               [](const Edge &a, const Edge &b) { return std::tie(a.upper, a.slot) < std::tie(b.upper, b.slot); });
     for (auto first = begin; first != end;) {
       Vec3 sum{0, 0, 0};
       auto last = first;
-      for (; last != end && last->upper == first->upper; ++last) sum = sum + face_[last->slot / 3];
+      for (; last != end && last->upper == first->upper; ++last) sum = sum + view(face_)[last->slot / 3];
       const bool is_single = last - first == 1;
       for (; first != last; ++first) {
-        const std::size_t slot = first->slot;
-        edge_[slot] = sum;
+        const std::int64_t slot = first->slot;
+        view(edge_)[slot] = sum;
         if (!(set.rim_sides.empty() ? is_single : is_on_rim_side(set, slot / 3, slot % 3))) continue;
-        edge_is_rim_[slot] = 1;
-        corner_is_rim_[lower] = corner_is_rim_[first->upper] = 1;
+        view(edge_is_rim_)[slot] = 1;
+        view(corner_is_rim_)[lower] = view(corner_is_rim_)[first->upper] = 1;
       }
     }
   }
 }
 
-Pseudonormals::Ends Pseudonormals::ends_of(std::size_t slot) const {
-  const std::size_t triangle = slot / 3, k = slot % 3;
-  const auto [lower, upper] = std::minmax(position_[slot], position_[3 * triangle + (k + 1) % 3]);
+Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
+  const std::int64_t triangle = slot / 3, k = slot % 3;
+  const auto position = view(position_);
+  const auto [lower, upper] = std::minmax(position[slot], position[3 * triangle + (k + 1) % 3]);
   return {lower, upper};
 }
 
 Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &barycentric) {
-  const auto is_zero = [&](std::size_t k) { return barycentric[k] == 0.0; };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
+  const auto is_zero = [&](std::int64_t k) { return view(barycentric)[k] == 0.0; };
+  for (std::int64_t k = 0; k < 3; ++k) {
+    const std::int64_t next = (k + 1) % 3, previous = (k + 2) % 3;
     if (is_zero(next) && is_zero(previous)) return {Feature::vertex, k};
     if (is_zero(previous) && !is_zero(k) && !is_zero(next)) return {Feature::edge, k};
   }
   return {Feature::face, 0};
 }
 
-Vec3 Pseudonormals::at_border(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+Vec3 Pseudonormals::at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
   const auto [feature, corner] = place_of(barycentric);
-  if (feature == Feature::face) return face_[triangle];
-  const std::size_t slot = 3 * triangle + corner;
-  const Vec3 normal = feature == Feature::vertex ? corner_[position_[slot]] : edge_[slot];
+  if (feature == Feature::face) return of_face(triangle);
+  const std::int64_t slot = 3 * triangle + corner;
+  const Vec3 normal = feature == Feature::vertex ? view(corner_)[view(position_)[slot]] : view(edge_)[slot];
   // Faces folded onto each other cancel up to rounding; the triangle's own normal then takes their place.
-  return length(normal) > 1e-9 ? normal : face_[triangle];
+  return length(normal) > 1e-9 ? normal : of_face(triangle);
 }
 
-bool Pseudonormals::is_border_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+bool Pseudonormals::is_border_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
   const auto [feature, corner] = place_of(barycentric);
-  const std::size_t slot = 3 * triangle + corner;
-  return feature == Feature::vertex ? corner_is_rim_[position_[slot]] != 0
-                                    : feature == Feature::edge && edge_is_rim_[slot] != 0;
+  const std::int64_t slot = 3 * triangle + corner;
+  return feature == Feature::vertex ? view(corner_is_rim_)[view(position_)[slot]] != 0
+                                    : feature == Feature::edge && view(edge_is_rim_)[slot] != 0;
 }
 
 }  // namespace riis

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -21,16 +22,17 @@ class Pseudonormals {
  public:
   explicit Pseudonormals(const TriangleSet &set);
 
-  Vec3 of_face(std::size_t triangle) const { return face_[triangle]; }
+  Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
   // Returns the normal, of any length, of the face, edge or vertex that the barycentric weights lie on.
-  Vec3 at(std::size_t triangle, const std::array<double, 3> &barycentric) const {
-    return is_inside(barycentric) ? face_[triangle] : at_border(triangle, barycentric);
+  Vec3 at(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
+    return is_inside(barycentric) ? of_face(triangle) : at_border(triangle, barycentric);
   }
 
   // Returns whether the edge or vertex that the barycentric weights lie on is of the rim. The rim of a valve consists of the
-  // sides of patches that nothing shares (surface/rims.hpp), that of triangles from arrays of the edges of one triangle.
-  bool is_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const {
+  // sides that only one patch has (surface/rims.hpp). The rim of triangles from arrays consists of the edges that only one
+  // triangle has.
+  bool is_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
     return !is_inside(barycentric) && is_border_on_rim(triangle, barycentric);
   }
 
@@ -39,28 +41,28 @@ class Pseudonormals {
   static bool is_inside(const std::array<double, 3> &barycentric) {
     return barycentric[0] != 0 && barycentric[1] != 0 && barycentric[2] != 0;
   }
-  // The same for points that may be on an edge or a vertex.
-  Vec3 at_border(std::size_t triangle, const std::array<double, 3> &barycentric) const;
-  bool is_border_on_rim(std::size_t triangle, const std::array<double, 3> &barycentric) const;
+  // These two do the same for points that may be on an edge or a vertex.
+  Vec3 at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
+  bool is_border_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
 
   // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
   enum class Feature { face, edge, vertex };
   struct Place {
     Feature feature;
-    std::size_t corner;
+    std::int64_t corner;
   };
   static Place place_of(const std::array<double, 3> &barycentric);
 
   // The positions of an edge's ends.
   struct Ends {
-    std::size_t lower, upper;
+    std::int64_t lower, upper;
   };
-  Ends ends_of(std::size_t slot) const;
+  Ends ends_of(std::int64_t slot) const;
 
-  std::vector<Vec3> face_;             // one for each triangle
-  std::vector<Vec3> edge_;             // three for each triangle; edge k runs from corner k to k + 1
-  std::vector<Vec3> corner_;           // one for each distinct position
-  std::vector<std::size_t> position_;  // three for each triangle: position of each corner
+  std::vector<Vec3> face_;              // one for each triangle
+  std::vector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
+  std::vector<Vec3> corner_;            // one for each distinct position
+  std::vector<std::int64_t> position_;  // three for each triangle: position of each corner
   std::vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
 };
 

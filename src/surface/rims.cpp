@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/array_view.hpp"
+
 namespace riis {
 namespace {
 
@@ -22,7 +24,7 @@ bool lies_in_mirror(const Curve &curve, Mirror mirror) {
   if (mirror == Mirror::none) return false;
   for (const Bezier &piece : curve.pieces())
     for (int i = 0; i <= piece.degree; ++i) {
-      const Vec3 q = piece.control[static_cast<std::size_t>(i)];
+      const Vec3 q = view(piece.control)[i];
       if ((mirror == Mirror::in_x ? q.x : q.y) != 0) return false;
     }
   return true;
@@ -39,24 +41,25 @@ bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
 
 std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
   std::vector<Use> uses;
-  std::size_t n_ids = 0;
+  std::int64_t n_ids = 0;
   for (const Patch &patch : set.patches)
     for (const PatchImage &image : patch.images) {
-      n_ids = std::max(n_ids, static_cast<std::size_t>(image.patch_id) + 1);
+      n_ids = std::max(n_ids, std::int64_t{image.patch_id} + 1);
       uses.push_back({patch.v0.curve, &image, rim_v0});
       uses.push_back({patch.v1.curve, &image, rim_v1});
       uses.push_back({patch.u0.curve, &image, rim_u0});
       uses.push_back({patch.u1.curve, &image, rim_u1});
     }
   std::sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
-  std::vector<std::uint8_t> sides(n_ids, 0);
+  std::vector<std::uint8_t> sides;
+  resize(sides, n_ids);
   for (auto first = uses.begin(); first != uses.end();) {
     const auto last = std::find_if(first, uses.end(), [&](const Use &use) { return use.curve != first->curve; });
     for (auto use = first; use != last; ++use) {
       const bool is_shared = std::any_of(first, last, [&](const Use &other) {
         return &other != &*use && coincide(set.curves[use->curve], *use->image, *other.image);
       });
-      std::uint8_t &of_patch = sides[static_cast<std::size_t>(use->image->patch_id)];
+      std::uint8_t &of_patch = view(sides)[use->image->patch_id];
       if (!is_shared) of_patch = static_cast<std::uint8_t>(of_patch | use->side);
     }
     first = last;
@@ -64,10 +67,11 @@ std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
   return sides;
 }
 
-bool is_on_rim_side(const TriangleSet &set, std::size_t triangle, std::size_t k) {
-  const std::uint8_t rim = set.rim_sides[static_cast<std::size_t>(set.patch_id[triangle])];
+bool is_on_rim_side(const TriangleSet &set, std::int64_t triangle, std::int64_t k) {
+  const std::uint8_t rim = view(set.rim_sides)[view(set.patch_id)[triangle]];
   if (rim == 0) return false;
-  const auto place = [&](std::size_t corner) { return set.uv.data() + 2 * set.vertex_id[3 * triangle + corner % 3]; };
+  const std::int64_t *vertex = set.vertex_id.data() + 3 * triangle;
+  const auto place = [&](std::int64_t corner) { return set.uv.data() + 2 * vertex[corner % 3]; };
   const double *a = place(k), *b = place(k + 1);
   // Vertices on a side have its parameter exactly.
   return ((rim & rim_u0) && a[0] == 0 && b[0] == 0) || ((rim & rim_u1) && a[0] == 1 && b[0] == 1) ||

@@ -3,7 +3,6 @@
 // In: patches; an edge of a triangle. Out: the sides on the rim, and whether the edge lies on one of them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +21,6 @@ enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8 };
 std::vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // Returns whether edge k, from corner k to the next, of a triangle lies on a side on the rim.
-bool is_on_rim_side(const TriangleSet &set, std::size_t triangle, std::size_t k);
+bool is_on_rim_side(const TriangleSet &set, std::int64_t triangle, std::int64_t k);
 
 }  // namespace riis

@@ -77,10 +77,10 @@ Bounds bounds_of(const TriangleSet &set, int n_threads) {
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping) {
   std::vector<Centroid> centroids;
   centroids.reserve(static_cast<std::size_t>(end - begin));
-  const Vec3 origin = set.corners(static_cast<std::size_t>(begin))[0];
+  const Vec3 origin = set.corners(begin)[0];
   double largest = 0;
   for (std::int32_t i = begin; i < end; ++i)
-    for (const Vec3 p : set.corners(static_cast<std::size_t>(i))) {
+    for (const Vec3 p : set.corners(i)) {
       const Vec3 q = p - origin;
       largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     }
@@ -88,7 +88,7 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
   const double scale = largest > 0 ? 1 / largest : 0;
   for (std::int32_t i = begin; i < end; ++i) {
     Vec3 sum{0, 0, 0};
-    for (const Vec3 p : set.corners(static_cast<std::size_t>(i))) sum = sum + scale * (p - origin);
+    for (const Vec3 p : set.corners(i)) sum = sum + scale * (p - origin);
     centroids.push_back({{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, i});
   }
   for_each_group(centroids.data(), view(centroids).size(), [&](Centroid *members, int n) {
@@ -101,10 +101,10 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
   constexpr double much = 2;
   frame = surface_frame;
-  corners.resize(9 * set.n_triangles());
+  resize(corners, 9 * set.n_triangles());
   const bool is_by_place = set.grouping.end.empty();
   // Groups by place are kept until they fall apart: if the number of triangles is the same, most triangles have only moved.
-  const bool are_known = is_by_place ? is_by_place_ && grouping_.order.size() == set.n_triangles()
+  const bool are_known = is_by_place ? is_by_place_ && view(grouping_.order).size() == set.n_triangles()
                                      : !is_by_place_ && grouping_ == set.grouping;
   const auto group_anew = [&] {
     grouping_ = set.grouping;
@@ -154,7 +154,7 @@ void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
         of_group.triangle[i] = triangle;
         double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle);
         int to = 0;
-        for (const Vec3 p : set.corners(static_cast<std::size_t>(triangle))) {
+        for (const Vec3 p : set.corners(triangle)) {
           const Vec3 q = frame(p);
           as_is[to] = p.x, as_is[to + 1] = p.y, as_is[to + 2] = p.z;
           framed.xyz[to][i] = q.x, framed.xyz[to + 1][i] = q.y, framed.xyz[to + 2][i] = q.z;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/array_view.hpp"
 #include "geometry/strided.hpp"
 
 namespace riis {
@@ -40,13 +41,13 @@ struct TriangleSet {
     n_zero_area = 0;
     error_bound = 0;
   }
-  std::size_t n_vertices() const { return xyz.size() / 3; }
-  std::size_t n_triangles() const { return triangle_id.size(); }
+  std::int64_t n_vertices() const { return view(xyz).size() / 3; }
+  std::int64_t n_triangles() const { return view(triangle_id).size(); }
   Vec3 vertex(std::int64_t id) const {
     const double *v = xyz.data() + 3 * id;
     return {v[0], v[1], v[2]};
   }
-  std::array<Vec3, 3> corners(std::size_t triangle) const {
+  std::array<Vec3, 3> corners(std::int64_t triangle) const {
     const std::int64_t *id = vertex_id.data() + 3 * triangle;
     return {vertex(id[0]), vertex(id[1]), vertex(id[2])};
   }

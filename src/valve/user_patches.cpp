@@ -62,7 +62,7 @@ class PatchReader {
 
   Patch read(std::int64_t patch) const {
     std::array<Side, 4> sides{};
-    for (std::size_t k = 0; k < 4; ++k) sides[k] = side(patch, k);
+    for (std::int64_t k = 0; k < 4; ++k) view(sides)[k] = side(patch, k);
     // Two sides meet in each corner.
     check_corner(patch, sides, 0, false, 2, false);
     check_corner(patch, sides, 0, true, 3, false);
@@ -79,15 +79,15 @@ class PatchReader {
   }
 
  private:
-  Side side(std::int64_t patch, std::size_t k) const {
-    const std::size_t at = 4 * static_cast<std::size_t>(patch) + k;
+  Side side(std::int64_t patch, std::int64_t k) const {
+    const std::int64_t at = 4 * patch + k;
     const std::int64_t given = arrays_.curve_id[at], curve = given - arrays_.index_base;
     if (curve < 0 || curve >= arrays_.n_curves)
-      fail(RIIS_INVALID_PARAMETER, "side ", side_names[k], " of patch ", patch, " is curve ", given,
+      fail(RIIS_INVALID_PARAMETER, "side ", view(side_names)[k], " of patch ", patch, " is curve ", given,
            "; there are curves ", arrays_.index_base, " to ", arrays_.n_curves - 1 + arrays_.index_base);
     const std::int32_t reversed = arrays_.reversed ? arrays_.reversed[at] : 0;
     if (reversed != 0 && reversed != 1)
-      fail(RIIS_INVALID_PARAMETER, "reversed of side ", side_names[k], " of patch ", patch, " is ", reversed,
+      fail(RIIS_INVALID_PARAMETER, "reversed of side ", view(side_names)[k], " of patch ", patch, " is ", reversed,
            "; it must be 0 or 1");
     return {static_cast<std::size_t>(curve), reversed == 1};
   }

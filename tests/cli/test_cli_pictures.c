@@ -48,15 +48,6 @@ static void expect_picture(const char *name) {
   assert_true(n_coloured[0] > 30000 && n_coloured[1] > 30000);
 }
 
-static int same_file(const char *a, const char *b) {
-  size_t size[2] = {0, 0};
-  char *bytes[2] = {scratch_read(scratch_path(a), &size[0]), scratch_read(scratch_path(b), &size[1])};
-  const int same = size[0] == size[1] && memcmp(bytes[0], bytes[1], size[0]) == 0;
-  free(bytes[0]);
-  free(bytes[1]);
-  return same;
-}
-
 static void test_pictures(void **state) {
   (void)state;
   RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.3", "--picture", scratch_path("1.png"), "--view", "top",
@@ -67,14 +58,14 @@ static void test_pictures(void **state) {
   assert_non_null(strstr(program_out, "3.png"));
   /* The third picture had no --view, so its view is oblique. */
   RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("4.png"), scratch_path("in.vtu"), "--view", "oblique");
-  assert_true(same_file("3.png", "4.png"));
-  assert_false(same_file("1.png", "2.png"));
-  assert_false(same_file("1.png", "3.png"));
-  assert_false(same_file("2.png", "3.png"));
+  assert_true(scratch_is_same("3.png", "4.png"));
+  assert_false(scratch_is_same("1.png", "2.png"));
+  assert_false(scratch_is_same("1.png", "3.png"));
+  assert_false(scratch_is_same("2.png", "3.png"));
   /* Marks with another name are drawn in the same way. */
   RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix", "left",
            "--output", scratch_path("left.vtu"));
-  assert_true(same_file("3.png", "5.png"));
+  assert_true(scratch_is_same("3.png", "5.png"));
 }
 
 /* Compares a picture of the program with one of the C interface that has the expected title. */
@@ -92,7 +83,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   options.leaflet_names = names;
   options.n_leaflet_names = 3;
   expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
-  assert_true(same_file("by_program.png", "by_c.png"));
+  assert_true(scratch_is_same("by_program.png", "by_c.png"));
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
 }

@@ -14,11 +14,11 @@ namespace riis {
 // Returns the lowest position among the closest triangles of the set, and the square of their distance.
 inline ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p) {
   ClosestTriangle best{std::numeric_limits<double>::infinity(), -1};
-  for (std::size_t i = 0; i < set.n_triangles(); ++i) {
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
     const auto [a, b, c] = set.corners(i);
     const double distance_sq = closest_point_on_triangle(p, a, b, c).distance_sq;
     // Positions ascend, so the first of equally near ones is the lowest.
-    if (distance_sq < best.distance_sq) best = {distance_sq, static_cast<std::int64_t>(i)};
+    if (distance_sq < best.distance_sq) best = {distance_sq, i};
   }
   return best;
 }

@@ -4,6 +4,8 @@
 #ifndef RIIS_TEST_HANDLES_H
 #define RIIS_TEST_HANDLES_H
 
+#include <stddef.h>
+
 #include "owned.h"
 
 static inline riis_surface_options surface_options(void) {
@@ -92,6 +94,23 @@ static inline surface_content surface_content_of(const riis_surface *surface) {
   CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &all.uv));
   CHECK_OK(riis_surface_triangles(surface, &all.n_triangles, &all.vertex_id, NULL, &all.leaflet_id, &all.patch_id));
   return all;
+}
+
+/* Tells whether two surfaces have the same information (but for times), vertices, triangles and ids, to the last bit. */
+static inline int is_same_content(const riis_surface *a, const riis_surface *b) {
+  const surface_content s = surface_content_of(a), t = surface_content_of(b);
+  const riis_surface_info of_a = info_of(a), of_b = info_of(b);
+  const int64_t *id_a, *id_b;
+  CHECK_OK(riis_surface_triangles(a, NULL, NULL, &id_a, NULL, NULL));
+  CHECK_OK(riis_surface_triangles(b, NULL, NULL, &id_b, NULL, NULL));
+  const size_t n = (size_t)s.n_triangles;
+  return memcmp(&of_a, &of_b, offsetof(riis_surface_info, seconds_triangles)) == 0 &&
+         memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 && !s.uv == !t.uv &&
+         (!s.uv || memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0) &&
+         memcmp(s.vertex_id, t.vertex_id, 3 * n * sizeof *s.vertex_id) == 0 &&
+         memcmp(id_a, id_b, n * sizeof *id_a) == 0 &&
+         memcmp(s.leaflet_id, t.leaflet_id, n * sizeof *s.leaflet_id) == 0 &&
+         memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
 }
 
 /* (3, n_vertices); NULL unless the last update gave velocities. */

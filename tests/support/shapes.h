@@ -76,19 +76,9 @@ static inline shape unit_square(void) {
   return square;
 }
 
-static inline int is_same(const riis_surface *a, const riis_surface *b) {
-  const surface_content s = surface_content_of(a), t = surface_content_of(b);
-  return s.n_vertices == t.n_vertices && s.n_triangles == t.n_triangles &&
-         memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 &&
-         memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0 &&
-         memcmp(s.vertex_id, t.vertex_id, (size_t)s.n_triangles * 3 * sizeof *s.vertex_id) == 0 &&
-         memcmp(s.leaflet_id, t.leaflet_id, (size_t)s.n_triangles * sizeof *s.leaflet_id) == 0 &&
-         memcmp(s.patch_id, t.patch_id, (size_t)s.n_triangles * sizeof *s.patch_id) == 0;
-}
-
 /* Both surfaces are destroyed. */
 static inline void check_same_surfaces(riis_surface *a, riis_surface *b) {
-  const int same = is_same(a, b);
+  const int same = is_same_content(a, b);
   free_one_owned(a);
   free_one_owned(b);
   assert_true(same);

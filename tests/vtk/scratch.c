@@ -87,6 +87,15 @@ char *scratch_read(const char *path, size_t *n_bytes) {
   return bytes;
 }
 
+int scratch_is_same(const char *a, const char *b) {
+  size_t size[2] = {0, 0};
+  char *bytes[2] = {scratch_read(scratch_path(a), &size[0]), scratch_read(scratch_path(b), &size[1])};
+  const int is_same = size[0] == size[1] && memcmp(bytes[0], bytes[1], size[0]) == 0;
+  free(bytes[0]);
+  free(bytes[1]);
+  return is_same;
+}
+
 int scratch_n_files(void) {
   DIR *files = open_folder(folder);
   int n = 0;

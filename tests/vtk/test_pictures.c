@@ -87,12 +87,7 @@ static void test_views(void **state) {
   const char *names[3] = {"side.png", "top.png", "oblique.png"};
   for (int i = 0; i < 3; ++i) {
     expect_picture(names[i], 800, 400);
-    size_t size[2] = {0, 0};
-    char *bytes[2] = {scratch_read(scratch_path(names[i]), &size[0]),
-                      scratch_read(scratch_path(names[(i + 1) % 3]), &size[1])};
-    assert_true(size[0] != size[1] || memcmp(bytes[0], bytes[1], size[0]) != 0);
-    free(bytes[0]);
-    free(bytes[1]);
+    assert_false(scratch_is_same(names[i], names[(i + 1) % 3]));
   }
 }
 
@@ -104,15 +99,6 @@ static void test_one_panel(void **state) {
   int width = 0, height = 0, n_colours = 0, n_coloured[2];
   assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_coloured), 1);
   assert_true(width == 64 && height == 64 && n_colours > 1);
-}
-
-static int same_file(const char *a, const char *b) {
-  size_t size[2] = {0, 0};
-  char *bytes[2] = {scratch_read(scratch_path(a), &size[0]), scratch_read(scratch_path(b), &size[1])};
-  const int same = size[0] == size[1] && memcmp(bytes[0], bytes[1], size[0]) == 0;
-  free(bytes[0]);
-  free(bytes[1]);
-  return same;
 }
 
 static void draw_texts(const char *name, const char *title, const char *const *names, int64_t n_names) {
@@ -134,16 +120,16 @@ static void test_texts(void **state) {
   const char *names[3] = {"right", "left", "leaflet 2"};
   draw_texts("plain.png", NULL, NULL, 0);
   draw_texts("default.png", "Surface", (const char *const[]){"leaflet 0"}, 1);
-  assert_true(same_file("plain.png", "default.png"));
+  assert_true(scratch_is_same("plain.png", "default.png"));
   draw_texts("title.png", "Valve", NULL, 0);
-  assert_false(same_file("plain.png", "title.png"));
+  assert_false(scratch_is_same("plain.png", "title.png"));
   draw_texts("names.png", NULL, names, 2);
-  assert_false(same_file("plain.png", "names.png"));
+  assert_false(scratch_is_same("plain.png", "names.png"));
   draw_texts("more.png", NULL, names, 3);
-  assert_true(same_file("names.png", "more.png"));
+  assert_true(scratch_is_same("names.png", "more.png"));
   draw_texts("odd.png", "a\nb \xff\xc3 $x^2$ | 7", (const char *const[]){"\xe4", "", "$"}, 3);
   draw_texts("marked.png", "a?b ?? $x^2$ | 7", (const char *const[]){"?", "", "$"}, 3);
-  assert_true(same_file("odd.png", "marked.png"));
+  assert_true(scratch_is_same("odd.png", "marked.png"));
 }
 
 /* A mesh without marked nodes still gives a picture. */
@@ -220,9 +206,9 @@ static void test_one_scene(void **state) {
   for (int i = 0; i < 4; ++i) {
     options.view = views[i];
     expect_fine(riis_vtk_draw(surface, mesh, &options, scratch_path("alone.png")));
-    assert_true(same_file(names[i], "alone.png"));
+    assert_true(scratch_is_same(names[i], "alone.png"));
   }
-  assert_false(same_file("s0.png", "s1.png"));
+  assert_false(scratch_is_same("s0.png", "s1.png"));
 }
 
 /* A mesh that is too coarse for whole cells still shows the marked nodes. In a fine mesh whole cells are not covered. */
@@ -280,7 +266,7 @@ static void test_leaks(void **state) {
   options.leaking_edges = edge;
   expect_fine(riis_vtk_draw_views(surface, mesh, &options, 1, views, (const char *const[]){scratch_path("none.png")}));
   assert_int_equal(count_pixels("none.png", 1, is_red), 0);
-  assert_false(same_file("unknown.png", "none.png"));
+  assert_false(scratch_is_same("unknown.png", "none.png"));
   options.n_leaking_edges = 1;
   expect_fine(riis_vtk_draw_views(surface, mesh, &options, 3, views, paths));
   for (int i = 0; i < 3; ++i) {
