@@ -61,11 +61,12 @@ Panel halved_curve() {
 Panel polyline(double max_error) {
   const Curve curve(example);
   const Flattened flat = flatten(curve, max_error);
-  const std::size_t n = flat.points.size() - 1;
+  const Points points(flat.points.begin(), flat.points.end());
+  const std::size_t n = points.size() - 1;
   Picture picture = curve_picture("error at most " + number(max_error) + ": " + count(n) + " segments");
   picture.add_curve(samples({example}), paler(blue, 0.6), 10);
-  picture.add_curve(flat.points, dark, 4, 2);
-  picture.add_points(flat.points, vermilion, n > 20 ? 11 : 16);
+  picture.add_curve(points, dark, 4, 2);
+  picture.add_points(points, vermilion, n > 20 ? 11 : 16);
   double measured = 0;
   const double length_of_curve = curve.length();
   for (std::size_t i = 0; i < n; ++i) {

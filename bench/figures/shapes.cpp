@@ -177,7 +177,7 @@ Points control_points(const Pieces &pieces) {
 
 std::array<BoundaryPolyline, 4> boundary_polylines(const PatchSet &set, const Patch &patch, const QuadGrid &grid) {
   const std::size_t n_u = grid.u.size(), n_v = grid.v.size();
-  const auto vertices = [&](const Side &side, const std::vector<double> &t, const auto &point) {
+  const auto vertices = [&](const Side &side, const Vector<double> &t, const auto &point) {
     const Curve curve = side.reversed ? curve_of(set, side).reversed() : curve_of(set, side);
     BoundaryPolyline made;
     if (curve.length() == 0) return BoundaryPolyline{{curve.first()}, {0}};

@@ -20,7 +20,7 @@ inline constexpr std::int32_t every_leaflet = -1;
 // A valve after every stage.
 struct Model {
   PatchSet patches;
-  std::vector<QuadGrid> grids;  // one per patch, before its images are put in place
+  Vector<QuadGrid> grids;  // one per patch, before its images are put in place
   TriangleSet triangles;
 };
 Model make_model(const Valve &valve, double tolerance);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "base/recycled.hpp"
 #include "distance/surface.hpp"
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
@@ -63,6 +64,7 @@ struct riis_valve : riis::Handle<riis::HandleKind::valve> {
 
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsArenas keeps_arenas;
+  riis::KeepsMemory keeps_memory;
   std::unique_ptr<riis::Surface> surface;
   std::unique_ptr<riis::Surface> before;  // the last content, kept to reuse its memory
   riis_surface_options options;           // completed by defaults

@@ -16,7 +16,7 @@ namespace {
 double area_of(const TriangleSet &set, int n_threads) {
   const std::int64_t n = set.n_triangles();
   constexpr std::int64_t triangles_per_block = 4096;
-  std::vector<double> areas;
+  Vector<double> areas;
   resize(areas, (n + triangles_per_block - 1) / triangles_per_block);
   parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &range, int) {
     double area = 0;
@@ -49,8 +49,8 @@ void Surface::measure_by(std::unique_ptr<const PatchDistance> other_distance, do
 const Pseudonormals &Surface::make_pseudonormals() const {
   const std::lock_guard<std::mutex> lock(pseudonormals_mutex_);
   if (!pseudonormals_owner_) {
-    pseudonormals_owner_ = std::make_unique<const Pseudonormals>(triangles_);
-    pseudonormals_.store(pseudonormals_owner_.get(), std::memory_order_release);
+    pseudonormals_owner_.emplace(triangles_);
+    pseudonormals_.store(&*pseudonormals_owner_, std::memory_order_release);
   }
   return *pseudonormals_owner_;
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "distance/patch_distance.hpp"
@@ -64,7 +65,7 @@ class Surface {
   double triangle_error_ = 0;
   // They are made at the first query of a side: marking never needs them.
   mutable std::mutex pseudonormals_mutex_;
-  mutable std::unique_ptr<const Pseudonormals> pseudonormals_owner_;
+  mutable std::optional<const Pseudonormals> pseudonormals_owner_;
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};
 };
 

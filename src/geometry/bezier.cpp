@@ -104,7 +104,7 @@ double stepwise_quadrature(const Speed &speed, double t0, double t1) {
 
 // Finds the parameters of ascending lengths, each from the one before. Returns false if the lengths do not add up to that of
 // the curve. The speed is no polynomial then, as at a cusp, and one quadrature a step is not enough.
-bool find_in_one_pass(const Speed &speed, double curve_length, const std::vector<double> &behind, double *t) {
+bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<double> &behind, double *t) {
   const double close_enough = 1e-14 * curve_length;
   double at = 0, at_length = 0;
   for (std::size_t k = 0; k < behind.size(); ++k) {
@@ -211,7 +211,7 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   return t;
 }
 
-void parameters_at_lengths(const Bezier &curve, double curve_length, const std::vector<double> &behind, double *t) {
+void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t) {
   if (curve_length > 0 && find_in_one_pass(Speed(curve), curve_length, behind, t)) return;
   for (std::size_t k = 0; k < behind.size(); ++k) t[k] = parameter_at_length(curve, curve_length, behind[k]);
 }

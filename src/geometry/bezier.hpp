@@ -5,8 +5,8 @@
 
 #include <array>
 #include <utility>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "base/array_view.hpp"
 #include "geometry/vec3.hpp"
 
@@ -49,7 +49,7 @@ std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
 // Writes to t what parameter_at_length returns for ascending lengths behind. One pass over the curve takes a fraction of the time.
-void parameters_at_lengths(const Bezier &curve, double curve_length, const std::vector<double> &behind, double *t);
+void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
 // Returns kappa, the largest distance of an inner control point to the segment from the first to the last. (The paper
 // measures to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)

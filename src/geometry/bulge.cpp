@@ -124,7 +124,7 @@ Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor
 }  // namespace
 
 Bulge::Bulge(Curve base, Curve edge, double factor) : base_(std::move(base)), edge_(std::move(edge)), factor_(factor) {
-  const std::vector<double> of_base = base_.joints(), of_edge = edge_.joints();
+  const Vector<double> of_base = base_.joints(), of_edge = edge_.joints();
   std::merge(of_base.begin(), of_base.end(), of_edge.begin(), of_edge.end(), std::back_inserter(joints_));
 }
 
@@ -135,7 +135,7 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
   // W stays near the line between its ends: the largest bend of all pairs of pieces bounds the distance.
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  std::vector<Along> along_base, along_edge;
+  Vector<Along> along_base, along_edge;
   for (const Bezier &piece : range.base) along_base.push_back(along_piece(piece, range.base_length, du));
   for (const Bezier &piece : range.edge) along_edge.push_back(along_piece(piece, range.edge_length, du));
   Vec3 bend{0, 0, 0};

@@ -8,8 +8,8 @@
 // In: two curves and the factor. Out: O(u), and how far it may be from linear between two u.
 #pragma once
 
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/curve.hpp"
 #include "geometry/vec3.hpp"
 
@@ -23,7 +23,7 @@ inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.c
 
 // The parts of both curves on a range of u that is du wide, and the lengths of the whole curves.
 struct ArcRange {
-  const std::vector<Bezier> &base, &edge;
+  const Vector<Bezier> &base, &edge;
   double base_length, edge_length;
   double du;
 };
@@ -52,7 +52,7 @@ class Bulge {
   double linear_error(double u0, double u1, double enough) const;
 
   // Returns the u at which O may change its course, ascending: the joints of the curves.
-  const std::vector<double> &joints() const { return joints_; }
+  const Vector<double> &joints() const { return joints_; }
 
  private:
   double sampled_error(const Curve &base, const Curve &edge, double u0, double u1, int n, double second) const;
@@ -60,7 +60,7 @@ class Bulge {
 
   Curve base_, edge_;
   double factor_;
-  std::vector<double> joints_;
+  Vector<double> joints_;
 };
 
 }  // namespace riis

@@ -13,11 +13,11 @@ namespace riis {
 namespace {
 
 // Returns the parameters that a side contributes; only the ends if it is collapsed.
-std::vector<double> own_parameters(const Polyline &side) {
-  return side.length > 0 ? side.t : std::vector<double>{0.0, 1.0};
+Vector<double> own_parameters(const Polyline &side) {
+  return side.length > 0 ? side.t : Vector<double>{0.0, 1.0};
 }
 
-double smallest_step(const std::vector<double> &t) {
+double smallest_step(const Vector<double> &t) {
   double smallest = 1.0;
   for (std::size_t i = 1; i < t.size(); ++i) smallest = std::min(smallest, t[i] - t[i - 1]);
   return smallest;
@@ -25,8 +25,8 @@ double smallest_step(const std::vector<double> &t) {
 
 // Bounds how far a side is from its curve between each two grid lines. The bound is the error of the segment there plus
 // the shift of shared lines along the side.
-std::vector<double> errors_between(const std::vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
-  std::vector<double> errors(lines.size() - 1, 0.0);
+Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
+  Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
   const auto shift = [&](const GridLine &line) { return side.length * std::abs(line.*t - line.middle); };
   std::size_t segment = 0;
@@ -42,7 +42,7 @@ double larger_mix(double at0, double at1, double from, double to) {
   return std::max((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
 }
 
-std::vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
+Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
   // Each side moves by at most half the difference of the parameters, since the line stands at their mean.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
@@ -97,18 +97,18 @@ class ArcRefinement {
 
 }  // namespace
 
-std::vector<double> middles(const std::vector<GridLine> &lines) {
-  std::vector<double> values;
+Vector<double> middles(const Vector<GridLine> &lines) {
+  Vector<double> values;
   values.reserve(lines.size());
   for (const GridLine &line : lines) values.push_back(line.middle);
   return values;
 }
 
-std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
-  const std::vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
+Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
+  const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
   // The tolerance is never so wide that two vertices of one side compete for a partner.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
-  std::vector<GridLine> lines{{0.0, 0.0, 0.0}};
+  Vector<GridLine> lines{{0.0, 0.0, 0.0}};
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
     // Past the last inner vertex of a side, its parameter is infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
@@ -128,11 +128,11 @@ std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &si
   return lines;
 }
 
-std::vector<Vec3> coons_combination(const std::vector<double> &u, const std::vector<double> &v,
+Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v,
                                     const SideVectors &sides) {
   const std::size_t n_u = u.size(), n_v = v.size();
   const Vec3 p00 = sides.v0.front(), p10 = sides.v0.back(), p01 = sides.v1.front(), p11 = sides.v1.back();
-  std::vector<Vec3> made;
+  Vector<Vec3> made;
   made.reserve(n_u * n_v);
   for (std::size_t j = 0; j < n_v; ++j)
     for (std::size_t i = 0; i < n_u; ++i) {
@@ -161,7 +161,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLin
 }
 
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
-  const std::vector<GridLine> &u_lines = lines.u, &v_lines = lines.v;
+  const Vector<GridLine> &u_lines = lines.u, &v_lines = lines.v;
   QuadGrid grid{middles(u_lines), middles(v_lines), {}, {}};
   SideVectors sides_on_lines;
   for (const GridLine &line : u_lines) {
@@ -174,10 +174,10 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
   // A point of the patch inherits the errors of its four side points, with their weights.
-  const std::vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
-  const std::vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
-  const std::vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);
-  const std::vector<double> error_u1 = errors_between(v_lines, *sides.side_u1, &GridLine::t1);
+  const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
+  const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
+  const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);
+  const Vector<double> error_u1 = errors_between(v_lines, *sides.side_u1, &GridLine::t1);
   grid.errors.reserve(error_v0.size() * error_u0.size());
   for (std::size_t j = 0; j < error_u0.size(); ++j)
     for (std::size_t i = 0; i < error_v0.size(); ++i)
@@ -194,7 +194,7 @@ double ArcLines::largest_offset() const {
 
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits) {
-  const std::vector<GridLine> given = lines_between(*sides.side_v0, *sides.side_v1, limits.max_merge_shift);
+  const Vector<GridLine> given = lines_between(*sides.side_v0, *sides.side_v1, limits.max_merge_shift);
   ArcLines lines{{given.front()}, {offset_u0}, {}};
   ArcRefinement refinement(bulge, limits, lines);
   for (std::size_t i = 1; i < given.size(); ++i)
@@ -205,7 +205,7 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows) {
   QuadGrid grid{middles(lines.u_lines), {}, {}, {}};
   for (std::size_t j = 0; j <= n_rows; ++j) grid.v.push_back(static_cast<double>(j) / static_cast<double>(n_rows));
-  std::vector<Vec3> base, edge;
+  Vector<Vec3> base, edge;
   for (const GridLine &line : lines.u_lines) {
     base.push_back(evaluate(*sides.side_v0, line.t0));
     edge.push_back(evaluate(*sides.side_v1, line.t1));
@@ -219,8 +219,8 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
 
   // Between two lines, the base, the edge and O differ from linear by their errors. On a line, the chords of its arc
   // differ from it by |O| / 2 times the square of the row's height.
-  const std::vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
-  const std::vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
+  const Vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
+  const Vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);
   grid.errors.reserve(base_errors.size() * n_rows);
   for (std::size_t j = 0; j < n_rows; ++j)
@@ -238,7 +238,7 @@ GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid) {
   return made;
 }
 
-std::size_t interval_of(const std::vector<double> &values, double x) {
+std::size_t interval_of(const Vector<double> &values, double x) {
   const auto after = std::upper_bound(values.begin(), values.end(), x);
   const auto i = static_cast<std::size_t>(std::distance(values.begin(), after));
   return std::clamp<std::size_t>(i, 1, values.size() - 1) - 1;

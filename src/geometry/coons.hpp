@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/polyline.hpp"
 
@@ -27,21 +27,21 @@ struct GridLine {
 
 // Returns the union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without
 // length contributes none.
-std::vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
+Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
 
 // The lines that a grid was made from.
 struct GridLines {
-  std::vector<GridLine> u, v;
+  Vector<GridLine> u, v;
 };
 
 struct QuadGrid {
-  std::vector<double> u, v;  // ascending from 0 to 1
-  std::vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
-  std::vector<double>
+  Vector<double> u, v;  // ascending from 0 to 1
+  Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
+  Vector<double>
       errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
                // may be, at equal (u,v), from the patch of the curves that the sides stand for
 
-  std::vector<Vec3>
+  Vector<Vec3>
       displacements{};  // of the points since an earlier state (surface/displacement.hpp); empty without one
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
@@ -50,12 +50,12 @@ struct QuadGrid {
 
 // Vectors on the four sides of a patch, one for each line of its grid that ends there.
 struct SideVectors {
-  std::vector<Vec3> v0, v1;  // on the lines u
-  std::vector<Vec3> u0, u1;  // on the lines v; the first and the last are not read, because they are corners
+  Vector<Vec3> v0, v1;  // on the lines u
+  Vector<Vec3> u0, u1;  // on the lines v; the first and the last are not read, because they are corners
 };
 
 // Returns the Coons combination of the sides' vectors, points or displacements, in the order of QuadGrid::points.
-std::vector<Vec3> coons_combination(const std::vector<double> &u, const std::vector<double> &v, const SideVectors &sides);
+Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
 // Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if
 // that moves a point by at most max_merge_shift along a side. Writes the lines where they are wanted.
@@ -66,9 +66,9 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
 // (geometry/bulge.hpp). It is made in two steps, because patches that share an arc must agree on the number of rows.
 struct ArcLines {
-  std::vector<GridLine> u_lines;
-  std::vector<Vec3> offsets;   // O on each line
-  std::vector<double> errors;  // between each two lines: how far O may be from linear
+  Vector<GridLine> u_lines;
+  Vector<Vec3> offsets;   // O on each line
+  Vector<double> errors;  // between each two lines: how far O may be from linear
   double largest_offset() const;
 };
 
@@ -87,14 +87,14 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
 // Returns the parameters of lines.
-std::vector<double> middles(const std::vector<GridLine> &lines);
+Vector<double> middles(const Vector<GridLine> &lines);
 
 // Returns the lines of that grid.
 GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 
 // Returns the index of the interval of ascending values that holds x. A value belongs to the interval behind it, the
 // upper end to the last interval.
-std::size_t interval_of(const std::vector<double> &values, double x);
+std::size_t interval_of(const Vector<double> &values, double x);
 
 // Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for
 // the weight's numerator; it is u - u_{o-1}.)

@@ -34,7 +34,7 @@ class Flattening {
 
   // Adds a part of one or several pieces, from share t0 to t1 of the whole curve.
   void add(const Curve &part, double t0, double t1, int depth) {
-    const std::vector<Bezier> &pieces = part.pieces();
+    const Vector<Bezier> &pieces = part.pieces();
     if (pieces.size() == 1) {
       add(pieces.front(), part.length(), t0, t1, depth);
       return;
@@ -92,13 +92,13 @@ class Flattening {
 
 Curve::Curve(const Bezier &piece) : pieces_{piece}, ends_{arc_length(piece)} {}
 
-Curve::Curve(std::vector<Bezier> pieces) : pieces_(std::move(pieces)) {
+Curve::Curve(Vector<Bezier> pieces) : pieces_(std::move(pieces)) {
   double end = 0;
   for (const Bezier &piece : pieces_) ends_.push_back(end += arc_length(piece));
 }
 
-std::vector<double> Curve::joints() const {
-  std::vector<double> shares;
+Vector<double> Curve::joints() const {
+  Vector<double> shares;
   for (std::size_t i = 0; i + 1 < ends_.size(); ++i) shares.push_back(ends_[i] / length());
   return shares;
 }
@@ -137,7 +137,7 @@ Bezier Curve::piece_beside(double share, bool after) const {
 
 Curve Curve::between(double share0, double share1) const {
   const Place from = place(share0), to = place(share1);
-  std::vector<Bezier> part;
+  Vector<Bezier> part;
   for (std::size_t i = from.piece; i <= to.piece; ++i) {
     if (i == to.piece && to.t == 0 && i > from.piece) break;
     Bezier piece = pieces_[i];
@@ -149,7 +149,7 @@ Curve Curve::between(double share0, double share1) const {
 }
 
 Curve Curve::reversed() const {
-  std::vector<Bezier> pieces;
+  Vector<Bezier> pieces;
   for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) pieces.push_back(piece->reversed());
   return Curve(std::move(pieces));
 }

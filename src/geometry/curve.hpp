@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/bezier.hpp"
 
 namespace riis {
@@ -18,16 +18,16 @@ inline constexpr double negligible_share = 1e-14;
 class Curve {
  public:
   Curve(const Bezier &piece);  // NOLINT(google-explicit-constructor): a piece is a curve
-  explicit Curve(std::vector<Bezier> pieces);
+  explicit Curve(Vector<Bezier> pieces);
 
-  const std::vector<Bezier> &pieces() const { return pieces_; }
+  const Vector<Bezier> &pieces() const { return pieces_; }
   double length() const { return ends_.back(); }
   double length(std::size_t piece) const { return piece == 0 ? ends_[0] : ends_[piece] - ends_[piece - 1]; }
   Vec3 first() const { return pieces_.front().first(); }
   Vec3 last() const { return pieces_.back().last(); }
 
   // Returns the shares of the length at which one piece ends and the next begins, ascending.
-  std::vector<double> joints() const;
+  Vector<double> joints() const;
 
   // The point at a share of the length, and the unit vector along the curve there; the vector is 0 if the curve has no
   // direction.
@@ -55,8 +55,8 @@ class Curve {
   };
   Place place(double share) const;
 
-  std::vector<Bezier> pieces_;
-  std::vector<double> ends_;  // length from the start of the curve to the end of each piece
+  Vector<Bezier> pieces_;
+  Vector<double> ends_;  // length from the start of the curve to the end of each piece
 };
 
 // Returns whether both have the same control points, to the last bit.
@@ -64,9 +64,9 @@ bool are_equal(const Curve &a, const Curve &b);
 
 // A curve replaced by chords.
 struct Flattened {
-  std::vector<Vec3> points;    // on the curve, from its first to its last; only the first if the length is 0
-  std::vector<double> t;       // of every point: share of the curve's length, binary fractions from 0 to 1
-  std::vector<double> errors;  // of every chord: how far it may be from the curve, at equal shares of their own lengths
+  Vector<Vec3> points;    // on the curve, from its first to its last; only the first if the length is 0
+  Vector<double> t;       // of every point: share of the curve's length, binary fractions from 0 to 1
+  Vector<double> errors;  // of every chord: how far it may be from the curve, at equal shares of their own lengths
 };
 
 // Halves the curve until two conditions hold for every part. Its flatness keeps it within max_error (> 0) of its chord,

@@ -14,15 +14,15 @@ Bezier part_of(const Bezier &piece, double t0, double t1) {
 
 }  // namespace
 
-CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const std::vector<double> &shares)
+CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares)
     : curve_(curve), is_reversed_(is_reversed), shares_(shares) {
-  const std::vector<Bezier> &pieces = curve.pieces();
+  const Vector<Bezier> &pieces = curve.pieces();
   const std::size_t n = shares.size();
   places_.reserve(n);
   const auto behind = [&](std::size_t i) {
     return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length();
   };
-  std::vector<double> in_piece, t;
+  Vector<double> in_piece, t;
   double start = 0;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
     const double length = curve.length(piece);
@@ -59,7 +59,7 @@ Vec3 CurvePoints::tangent(std::size_t i) const {
   return (is_reversed_ ? -1 / speed : 1 / speed) * along;
 }
 
-const std::vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
+const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
   const Place &from = is_reversed_ ? place(j) : place(i), &to = is_reversed_ ? place(i) : place(j);
   parts_.clear();
   for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/curve.hpp"
 
 namespace riis {
@@ -14,7 +14,7 @@ class CurvePoints {
  public:
   // Finds the points at these shares, which ascend from 0 to 1. The shares of a reversed curve count from its last point. The
   // curve has to stay. A curve without length has all its points in one place.
-  CurvePoints(const Curve &curve, bool is_reversed, const std::vector<double> &shares);
+  CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares);
 
   std::size_t size() const { return places_.size(); }
   Vec3 point(std::size_t i) const;
@@ -23,7 +23,7 @@ class CurvePoints {
 
   // Returns the pieces of the curve from share i to share j, i < j, in the order of the shares. The reference is good until the
   // next call.
-  const std::vector<Bezier> &between(std::size_t i, std::size_t j);
+  const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
   // Bounds how far the chord from share i to share j is from the curve, at equal shares of their lengths (docs/theory.md,
   // "Chord error"). Refines the bound no further once it is at most `enough`.
@@ -38,9 +38,9 @@ class CurvePoints {
 
   const Curve &curve_;
   bool is_reversed_;
-  std::vector<double> shares_;  // as given
-  std::vector<Place> places_;   // along the curve
-  std::vector<Bezier> parts_;
+  Vector<double> shares_;  // as given
+  Vector<Place> places_;   // along the curve
+  Vector<Bezier> parts_;
 };
 
 }  // namespace riis

@@ -9,7 +9,7 @@
 
 namespace riis {
 
-Polyline make_polyline(const std::vector<Vec3> &points) {
+Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);

@@ -26,7 +26,7 @@ PatchSet patches_at(Valve &valve, double opening) {
 
 TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
   if (!valve.can_open()) return plan_triangulation({valve.make_patches()}, max_error, n_threads);
-  std::vector<PatchSet> states, between;
+  Vector<PatchSet> states, between;
   constexpr int n_steps = (n_between + 1) * (n_openings - 1);
   for (int i = 0; i <= n_steps; ++i)
     (i % (n_between + 1) == 0 ? states : between).push_back(patches_at(valve, static_cast<double>(i) / n_steps));

@@ -58,10 +58,10 @@ class ArcMotion {
         is_at_rest_(base_.is_at_rest() && edge_.is_at_rest() && moved.now.patches[moved.patch].bulge == bulge_before_) {
   }
 
-  std::vector<Vec3> displacements(const GridLines &lines) const {
-    std::vector<Vec3> made;
+  Vector<Vec3> displacements(const GridLines &lines) const {
+    Vector<Vec3> made;
     made.reserve(lines.u.size() * lines.v.size());
-    std::vector<Vec3> base, edge, offset;
+    Vector<Vec3> base, edge, offset;
     for (std::size_t i = 0; i < lines.u.size(); ++i) {
       base.push_back(base_.displacement(lines.u[i].t0));
       edge.push_back(edge_.displacement(lines.u[i].t1));
@@ -78,7 +78,7 @@ class ArcMotion {
  private:
   Vec3 offset_now(std::size_t i) const { return moved_.offsets ? (*moved_.offsets)[i] : Vec3{0, 0, 0}; }
 
-  Vec3 offset_before(const std::vector<GridLine> &lines, std::size_t i) const {
+  Vec3 offset_before(const Vector<GridLine> &lines, std::size_t i) const {
     if (bulge_before_ == 0) return {0, 0, 0};
     // The neighbours have the same offsets at the ends.
     const Patch &before = moved_.before.patches[moved_.patch];
@@ -97,7 +97,7 @@ class ArcMotion {
   bool is_at_rest_;
 };
 
-std::vector<Vec3> coons_displacements(const MovedPatch &moved, const GridLines &lines) {
+Vector<Vec3> coons_displacements(const MovedPatch &moved, const GridLines &lines) {
   const MovedSide v0(moved, &Patch::v0, moved.sides.side_v0), v1(moved, &Patch::v1, moved.sides.side_v1),
       u0(moved, &Patch::u0, moved.sides.side_u0), u1(moved, &Patch::u1, moved.sides.side_u1);
   SideVectors sides;
@@ -115,7 +115,7 @@ std::vector<Vec3> coons_displacements(const MovedPatch &moved, const GridLines &
 
 }  // namespace
 
-std::vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines) {
+Vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines) {
   // A patch of arcs without a bulge is the Coons patch of its sides, whose label v is the same.
   const bool has_arcs = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
   return has_arcs ? ArcMotion(moved).displacements(lines) : coons_displacements(moved, lines);

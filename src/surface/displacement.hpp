@@ -3,8 +3,8 @@
 // In: the patch now and before, the lines of its grid. Out: the displacement of every grid point.
 #pragma once
 
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
@@ -23,13 +23,13 @@ struct MovedPatch {
   const PatchSet &now, &before;
   std::size_t patch;
   const PatchSides &sides;           // of the patch now
-  const std::vector<Vec3> *offsets;  // O on each u line now; null for a Coons patch
+  const Vector<Vec3> *offsets;  // O on each u line now; null for a Coons patch
 };
 
 // Returns S_now(u,v) - S_before(u,v) for every point of the grid, in the order of QuadGrid::points. Both are points of the
 // smooth patches on their sides and the same combination of these inside, so the label (u,v) is the only thing that the two
 // states share: a change of the triangles does not matter. Exactly 0 where neither the sides nor the bulge changed.
-std::vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines);
+Vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines);
 
 // The motion of one image of a patch in space: that of the patch, of the image and of the placement together.
 class ImageMotion {

@@ -26,8 +26,8 @@ constexpr int most_parts = 8;
 const Curve &curve_of(const PatchSet &set, const Side &side) { return set.curves[side.curve]; }
 
 // Returns the joints of a side, by the patch's parameter.
-std::vector<double> joints_of(const PatchSet &set, const Side &side) {
-  std::vector<double> joints = curve_of(set, side).joints();
+Vector<double> joints_of(const PatchSet &set, const Side &side) {
+  Vector<double> joints = curve_of(set, side).joints();
   if (!side.reversed) return joints;
   std::reverse(joints.begin(), joints.end());
   for (double &joint : joints) joint = 1 - joint;
@@ -35,9 +35,9 @@ std::vector<double> joints_of(const PatchSet &set, const Side &side) {
 }
 
 // Moves lines with the joints between them. Other numbers of joints leave the lines in place.
-std::vector<double> moved(const std::vector<double> &lines, const std::vector<double> &from,
-                          const std::vector<double> &to) {
-  std::vector<double> made = lines;
+Vector<double> moved(const Vector<double> &lines, const Vector<double> &from,
+                          const Vector<double> &to) {
+  Vector<double> made = lines;
   if (from.empty() || from.size() != to.size()) return made;
   std::size_t k = 0;
   for (double &u : made) {
@@ -77,21 +77,21 @@ class PlannedArcs {
       offsets_.push_back(arc_offset(edge_.point(i) - base_.point(i), base_.tangent(i), patch.bulge));
   }
 
-  std::vector<ColumnErrors> errors() {
-    std::vector<ColumnErrors> made;
+  Vector<ColumnErrors> errors() {
+    Vector<ColumnErrors> made;
     for (std::size_t i = 0; i + 1 < at_.size(); ++i) made.push_back(column(at_[i], at_[i + 1]));
     return made;
   }
 
-  Polyline base_polyline(const std::vector<ColumnErrors> &errors) const {
+  Polyline base_polyline(const Vector<ColumnErrors> &errors) const {
     return polyline(base_, curve_of(set_, patch_.v0), errors, &ColumnErrors::base);
   }
-  Polyline edge_polyline(const std::vector<ColumnErrors> &errors) const {
+  Polyline edge_polyline(const Vector<ColumnErrors> &errors) const {
     return polyline(edge_, curve_of(set_, patch_.v1), errors, &ColumnErrors::edge);
   }
 
   // The neighbours have the same offsets at the ends, to the last bit.
-  ArcLines arc_lines(const std::vector<ColumnErrors> &errors, const std::vector<int> &n_parts) const {
+  ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
@@ -106,8 +106,8 @@ class PlannedArcs {
   Vec3 offset_of(const Side &side) const { return arc_offset(curve_of(set_, side).pieces().front()); }
 
   // Returns the lines and the shares between them; at_ tells where the lines are.
-  std::vector<double> shares_for(const std::vector<int> &n_parts) {
-    std::vector<double> shares;
+  Vector<double> shares_for(const Vector<int> &n_parts) {
+    Vector<double> shares;
     for (std::size_t i = 0; i + 1 < lines_.size(); ++i) {
       at_.push_back(shares.size());
       for (int k = 0; k < n_parts[i]; ++k)
@@ -122,7 +122,7 @@ class PlannedArcs {
     const double enough = arc_curve_share * max_error_;
     ColumnErrors made{base_.chord_error(i, j, enough), edge_.chord_error(i, j, enough), 0, 0, 0,
                       shares_[j] - shares_[i]};
-    const std::vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
+    const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = curve_of(set_, patch_.v0), &edge = curve_of(set_, patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
       // O' may jump inside, which the other bound counts.
@@ -141,7 +141,7 @@ class PlannedArcs {
     return made;
   }
 
-  Polyline polyline(const CurvePoints &points, const Curve &curve, const std::vector<ColumnErrors> &errors,
+  Polyline polyline(const CurvePoints &points, const Curve &curve, const Vector<ColumnErrors> &errors,
                     double ColumnErrors::*error) const {
     Polyline made{{}, lines_, {}, curve.length()};
     for (const std::size_t at : at_) made.points.push_back(points.point(at));
@@ -152,15 +152,15 @@ class PlannedArcs {
   const PatchSet &set_;
   const Patch &patch_;
   double max_error_;
-  std::vector<double> lines_;
-  std::vector<std::size_t> at_;
-  std::vector<double> shares_;
+  Vector<double> lines_;
+  Vector<std::size_t> at_;
+  Vector<double> shares_;
   CurvePoints base_, edge_;
-  std::vector<Vec3> offsets_;
+  Vector<Vec3> offsets_;
 };
 
 // Returns the polyline of a curve with vertices at these shares.
-Polyline polyline_at(const Curve &curve, const std::vector<double> &shares, double enough) {
+Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double enough) {
   CurvePoints points(curve, false, shares);
   Polyline made{{}, shares, {}, curve.length()};
   for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -171,8 +171,8 @@ Polyline polyline_at(const Curve &curve, const std::vector<double> &shares, doub
 }
 
 // Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
-std::vector<double> halved(const std::vector<double> &values, const std::vector<bool> &is_too_large) {
-  std::vector<double> made;
+Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_large) {
+  Vector<double> made;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     made.push_back(values[i]);
     if (is_too_large[i]) made.push_back(0.5 * (values[i] + values[i + 1]));
@@ -188,7 +188,7 @@ std::vector<double> halved(const std::vector<double> &values, const std::vector<
 
 class Planner {
  public:
-  Planner(const std::vector<PatchSet> &states, double max_error, const std::vector<double> &tightness)
+  Planner(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness)
       : states_(states), set_(states.front()), max_error_(max_error), tightness_(tightness) {}
 
   GridPlan plan() {
@@ -217,11 +217,11 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
-  std::vector<double> vertices(const Patch &patch, const Side &side) const {
+  Vector<double> vertices(const Patch &patch, const Side &side) const {
     const double enough = curve_share * max_error_ * tightness(side);
-    std::vector<double> shares{0, 1};
+    Vector<double> shares{0, 1};
     for (int round = 0;; ++round) {
-      std::vector<bool> is_too_large(shares.size() - 1, false);
+      Vector<bool> is_too_large(shares.size() - 1, false);
       for (const PatchSet &state : states_) {
         const Polyline polyline = polyline_at(curve_of(state, side), shares, enough);
         for (std::size_t i = 0; i < polyline.errors.size(); ++i)
@@ -235,11 +235,11 @@ class Planner {
   }
 
   // Returns the shares by the patch's parameter. A side that is always collapsed has lines at its ends only.
-  std::vector<double> along(const Side &side) const {
+  Vector<double> along(const Side &side) const {
     const bool is_collapsed = std::none_of(states_.begin(), states_.end(),
                                            [&](const PatchSet &set) { return curve_of(set, side).length() > 0; });
     if (is_collapsed) return {0, 1};
-    std::vector<double> shares = plan_.shares[side.curve];
+    Vector<double> shares = plan_.shares[side.curve];
     if (!side.reversed) return shares;
     std::reverse(shares.begin(), shares.end());
     for (double &share : shares) share = 1 - share;
@@ -247,22 +247,22 @@ class Planner {
   }
 
   // The shares are binary fractions, so they are equal to the last bit or far apart.
-  std::vector<GridLine> lines(const Side &a, const Side &b) const {
-    const std::vector<double> on_a = along(a), on_b = along(b);
-    std::vector<double> both;
+  Vector<GridLine> lines(const Side &a, const Side &b) const {
+    const Vector<double> on_a = along(a), on_b = along(b);
+    Vector<double> both;
     std::set_union(on_a.begin(), on_a.end(), on_b.begin(), on_b.end(), std::back_inserter(both));
-    std::vector<GridLine> made;
+    Vector<GridLine> made;
     for (const double t : both) made.push_back({t, t, t});
     return made;
   }
 
   // Returns the joints at the first opening, if the lines can move with them: the base has the same number at every
   // opening, none near an end.
-  std::vector<double> joints(std::size_t patch) const {
+  Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
-    const std::vector<double> first = joints_of(set_, set_.patches[patch].v0);
+    const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
     for (const PatchSet &state : states_) {
-      const std::vector<double> here = joints_of(state, state.patches[patch].v0);
+      const Vector<double> here = joints_of(state, state.patches[patch].v0);
       if (here.size() != first.size() || joints_of(state, state.patches[patch].v1).size() != 0) return {};
       if (!here.empty() && (here.front() < near_end || here.back() > 1 - near_end)) return {};
     }
@@ -278,8 +278,8 @@ class Planner {
     plan.u.insert(plan.u.end(), plan.joints.begin(), plan.joints.end());
     plan.u.push_back(1);
     for (int round = 0;; ++round) {
-      const std::vector<int> wanted = parts_wanted(patch, plan);
-      std::vector<bool> is_too_large;
+      const Vector<int> wanted = parts_wanted(patch, plan);
+      Vector<bool> is_too_large;
       for (const int n : wanted) is_too_large.push_back(n > most_parts);
       if (std::find(is_too_large.begin(), is_too_large.end(), true) == is_too_large.end()) {
         plan.n_parts = wanted;
@@ -298,14 +298,14 @@ class Planner {
   }
 
   // Returns for each two lines the least number of parts that is enough at every opening; more than most_parts if none is.
-  std::vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
+  Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
     const double of_curves = (arc_curve_share + merge_share) * max_error_ * std::min(tightness(first.v0), tightness(first.v1));
     const double of_offset = offset_share * max_error_;
     plan.n_parts.assign(plan.u.size() - 1, most_parts);
-    std::vector<int> wanted(plan.u.size() - 1, 1);
+    Vector<int> wanted(plan.u.size() - 1, 1);
     for (const PatchSet &state : states_) {
-      const std::vector<ColumnErrors> errors = PlannedArcs(state, state.patches[patch], plan, max_error_).errors();
+      const Vector<ColumnErrors> errors = PlannedArcs(state, state.patches[patch], plan, max_error_).errors();
       for (std::size_t i = 0; i < errors.size(); ++i) {
         const bool are_chords_near = std::max(errors[i].base, errors[i].edge) <= of_curves;
         while (wanted[i] <= most_parts && !(are_chords_near && errors[i].offset(wanted[i]) <= of_offset)) wanted[i] *= 2;
@@ -322,10 +322,10 @@ class Planner {
     check_count(n_triangles_ += 2 * static_cast<double>(n_u) * static_cast<double>(n_v) * n_images, max_error_);
   }
 
-  const std::vector<PatchSet> &states_;
+  const Vector<PatchSet> &states_;
   const PatchSet &set_;
   double max_error_;
-  const std::vector<double> &tightness_;
+  const Vector<double> &tightness_;
   GridPlan plan_;
   double n_triangles_ = 0;
 };
@@ -336,16 +336,16 @@ class PlannedGrids {
   PlannedGrids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads, const PatchSet *before)
       : set_(set), plan_(plan), max_error_(max_error), n_threads_(n_threads), before_(before) {}
 
-  std::vector<QuadGrid> make() {
+  Vector<QuadGrid> make() {
     polylines_.resize(set_.curves.size());
     reversed_.resize(set_.curves.size());
     parallel_for(view(plan_.shares).size(), n_threads_, [&](std::int64_t i, int) {
-      const std::vector<double> &shares = view(plan_.shares)[i];
+      const Vector<double> &shares = view(plan_.shares)[i];
       if (shares.empty()) return;
       view(polylines_)[i] = polyline_at(view(set_.curves)[i], shares, curve_share * max_error_);
       view(reversed_)[i] = reversed(view(polylines_)[i]);
     });
-    std::vector<QuadGrid> grids(set_.patches.size());
+    Vector<QuadGrid> grids(set_.patches.size());
     parallel_for(view(grids).size(), n_threads_, [&](std::int64_t i, int) {
       const auto patch = static_cast<std::size_t>(i);
       grids[patch] = plan_.patches[patch].has_arcs ? arcs(patch) : coons(patch);
@@ -370,7 +370,7 @@ class PlannedGrids {
   QuadGrid arcs(std::size_t i) const {
     const PatchPlan &plan = plan_.patches[i];
     PlannedArcs planned(set_, set_.patches[i], plan, max_error_);
-    const std::vector<ColumnErrors> errors = planned.errors();
+    const Vector<ColumnErrors> errors = planned.errors();
     const Polyline base = planned.base_polyline(errors), edge = planned.edge_polyline(errors);
     const PatchSides sides{&base, &edge, nullptr, nullptr};
     const ArcLines lines = planned.arc_lines(errors, plan.n_parts);
@@ -386,16 +386,16 @@ class PlannedGrids {
   double max_error_;
   int n_threads_;
   const PatchSet *before_;
-  std::vector<Polyline> polylines_, reversed_;
+  Vector<Polyline> polylines_, reversed_;
 };
 
 }  // namespace
 
-GridPlan plan_grids(const std::vector<PatchSet> &states, double max_error, const std::vector<double> &tightness) {
+GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness) {
   return Planner(states, max_error, tightness).plan();
 }
 
-std::vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
+Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
                                  const PatchSet *before) {
   return PlannedGrids(set, plan, max_error, n_threads, before).make();
 }

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "valve/patches.hpp"
 
@@ -19,24 +19,24 @@ struct PatchPlan {
 
   // Of a patch of arcs: the lines in u and the joints of the base that they move with, both at one of the openings. Between two
   // joints a line keeps its share of the way. Without joints the lines stay.
-  std::vector<double> u, joints;
-  std::vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error
+  Vector<double> u, joints;
+  Vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error
 };
 
 struct GridPlan {
-  std::vector<std::vector<double>> shares;  // of each curve's length, at its vertices; empty if only arcs end there
-  std::vector<PatchPlan> patches;
+  Vector<Vector<double>> shares;  // of each curve's length, at its vertices; empty if only arcs end there
+  Vector<PatchPlan> patches;
   std::size_t n_rows = 1;  // of patches of arcs
 };
 
 // Makes the plan for patches of the same build (check_same_build) at each of the openings. Keeps each curve within its share of
 // max_error times its tightness. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
 // RIIS_INVALID_PARAMETER if no lines are enough.
-GridPlan plan_grids(const std::vector<PatchSet> &states, double max_error, const std::vector<double> &tightness);
+GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness);
 
 // Makes one grid for each patch on the plan's lines, as the other make_grids does on its own lines. Bounds errors no
 // closer than max_error needs.
-std::vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
+Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
                                  const PatchSet *before);
 
 }  // namespace riis

@@ -17,7 +17,7 @@ namespace {
 
 class GridMaker {
  public:
-  GridMaker(const PatchSet &set, double max_error, const std::vector<double> &tightness, int n_threads,
+  GridMaker(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
             const PatchSet *before)
       : set_(set),
         before_(before),
@@ -37,7 +37,7 @@ class GridMaker {
   }
 
   // Counts the triangles at each step, before anything large is made.
-  std::vector<QuadGrid> make() {
+  Vector<QuadGrid> make() {
     const std::size_t n_patches = set_.patches.size();
     lines_.resize(n_patches);
     double n_at_least = 0;
@@ -56,7 +56,7 @@ class GridMaker {
     double n = 0;
     for (std::size_t i = 0; i < n_patches; ++i) n += n_triangles(i, n_rows);
     check_count(n, max_error_);
-    std::vector<QuadGrid> grids(n_patches);
+    Vector<QuadGrid> grids(n_patches);
     for_each_patch(0, n_patches, [&](std::size_t i) { grids[i] = grid(i, static_cast<std::size_t>(n_rows)); });
     return grids;
   }
@@ -90,7 +90,7 @@ class GridMaker {
 
   // Makes the polylines that these patches need and that do not exist yet.
   void make_polylines(std::size_t first, std::size_t end) {
-    std::vector<std::size_t> curves;
+    Vector<std::size_t> curves;
     for (std::size_t i = first; i < end; ++i) {
       const Patch &patch = set_.patches[i];
       for (const Side &side : {patch.v0, patch.v1, patch.u0, patch.u1})
@@ -167,15 +167,15 @@ class GridMaker {
   const PatchSet *before_;  // an earlier state, or null
   double max_error_;
   int n_threads_;
-  std::vector<double> errors_;  // allowed error of each curve; infinity: needs no polyline
-  std::vector<Polyline> polylines_, reversed_;
-  std::vector<PatchSides> sides_;
-  std::vector<ArcLines> lines_;
+  Vector<double> errors_;  // allowed error of each curve; infinity: needs no polyline
+  Vector<Polyline> polylines_, reversed_;
+  Vector<PatchSides> sides_;
+  Vector<ArcLines> lines_;
 };
 
 }  // namespace
 
-std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness,
+Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
                                  int n_threads, const PatchSet *before) {
   return GridMaker(set, max_error, tightness, n_threads, before).make();
 }

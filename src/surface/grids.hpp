@@ -4,8 +4,8 @@
 // for the split of quads into triangles.
 #pragma once
 
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "valve/patches.hpp"
 
@@ -26,7 +26,7 @@ double rows_for(double offset, double max_error);
 // share of max_error times its tightness; an empty `tightness` means 1 for all. Fails with RIIS_LIMIT_EXCEEDED if the
 // surface would take more than max_triangles triangles.
 // With an earlier state of the same build, the grids also have the displacements of their points since.
-std::vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const std::vector<double> &tightness = {},
+Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
                                  int n_threads = 1, const PatchSet *before = nullptr);
 
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.

@@ -25,14 +25,14 @@ std::uint64_t hash(Vec3 p) {
 }
 
 // Numbers all vertices; vertices with equal coordinates get the same number.
-std::vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
+Vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
   // A table of vertices that is at most half full. Each vertex is at the first place from its hash on that was free.
   constexpr std::int32_t none = -1;
-  std::vector<std::int64_t> position;
+  Vector<std::int64_t> position;
   resize(position, set.n_vertices());
   std::size_t size = 16;
   while (size < 2 * position.size()) size *= 2;
-  std::vector<std::int32_t> table(size, none);
+  Vector<std::int32_t> table(size, none);
   n_positions = 0;
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
     const Vec3 p = set.vertex(i);
@@ -63,7 +63,7 @@ Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
 Pseudonormals::Pseudonormals(const TriangleSet &set) {
   const std::int64_t n = set.n_triangles();
   std::int64_t n_positions = 0;
-  const std::vector<std::int64_t> position_of_vertex = distinct_positions(set, n_positions);
+  const Vector<std::int64_t> position_of_vertex = distinct_positions(set, n_positions);
   resize(face_, n);
   resize(edge_, 3 * n);
   resize(corner_, n_positions);
@@ -71,7 +71,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(edge_is_rim_, 3 * n);
   resize(corner_is_rim_, n_positions);
   // Edges are listed by their lower end. Each list is short, and equal edges follow each other once it is sorted.
-  std::vector<std::int64_t> first_edge;
+  Vector<std::int64_t> first_edge;
   resize(first_edge, n_positions + 1);
   for (std::int64_t i = 0; i < n; ++i) {
     const std::array<Vec3, 3> corners = set.corners(i);
@@ -90,9 +90,9 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   struct Edge {
     std::int64_t upper, slot;  // position of its upper end, place in edge_
   };
-  std::vector<Edge> edges;
+  Vector<Edge> edges;
   resize(edges, 3 * n);
-  std::vector<std::int64_t> next(first_edge.begin(), first_edge.end() - 1);
+  Vector<std::int64_t> next(first_edge.begin(), first_edge.end() - 1);
   for (std::int64_t slot = 0; slot < 3 * n; ++slot) {
     const auto [lower, upper] = ends_of(slot);
     view(edges)[view(next)[lower]++] = {upper, slot};

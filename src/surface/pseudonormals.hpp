@@ -8,9 +8,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "base/array_view.hpp"
+#include "base/recycled.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -59,11 +59,11 @@ class Pseudonormals {
   };
   Ends ends_of(std::int64_t slot) const;
 
-  std::vector<Vec3> face_;              // one for each triangle
-  std::vector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
-  std::vector<Vec3> corner_;            // one for each distinct position
-  std::vector<std::int64_t> position_;  // three for each triangle: position of each corner
-  std::vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
+  Vector<Vec3> face_;              // one for each triangle
+  Vector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
+  Vector<Vec3> corner_;            // one for each distinct position
+  Vector<std::int64_t> position_;  // three for each triangle: position of each corner
+  Vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
 };
 
 }  // namespace riis

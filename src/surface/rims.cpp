@@ -39,8 +39,8 @@ bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
 
 }  // namespace
 
-std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
-  std::vector<Use> uses;
+Vector<std::uint8_t> rim_sides(const PatchSet &set) {
+  Vector<Use> uses;
   std::int64_t n_ids = 0;
   for (const Patch &patch : set.patches)
     for (const PatchImage &image : patch.images) {
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> rim_sides(const PatchSet &set) {
       uses.push_back({patch.u1.curve, &image, rim_u1});
     }
   std::sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
-  std::vector<std::uint8_t> sides;
+  Vector<std::uint8_t> sides;
   resize(sides, n_ids);
   for (auto first = uses.begin(); first != uses.end();) {
     const auto last = std::find_if(first, uses.end(), [&](const Use &use) { return use.curve != first->curve; });

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "surface/triangle_set.hpp"
 #include "valve/patches.hpp"
 
@@ -18,7 +18,7 @@ enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8 };
 // same place. A patch shares a side with its own mirror image if the curve lies in the mirror's plane, and with itself if two
 // of its sides are one curve. Where patches only meet inside a side, as along the bending curve, nothing depends on vertices:
 // a T-junction is no rim.
-std::vector<std::uint8_t> rim_sides(const PatchSet &set);
+Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // Returns whether edge k, from corner k to the next, of a triangle lies on a side on the rim.
 bool is_on_rim_side(const TriangleSet &set, std::int64_t triangle, std::int64_t k);

@@ -62,7 +62,7 @@ float round_up(double x) { return -round_down(-x); }
 Bounds bounds_of(const TriangleSet &set, int n_threads) {
   const auto n = view(set.vertex_id).size();
   constexpr std::int64_t corners_per_block = 12288;
-  std::vector<Bounds> blocks;
+  Vector<Bounds> blocks;
   resize(blocks, (n + corners_per_block - 1) / corners_per_block);
   parallel_for_ranges(n, corners_per_block, n_threads, [&](const Range &range, int) {
     Bounds bounds;
@@ -75,7 +75,7 @@ Bounds bounds_of(const TriangleSet &set, int n_threads) {
 }
 
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping) {
-  std::vector<Centroid> centroids;
+  Vector<Centroid> centroids;
   centroids.reserve(static_cast<std::size_t>(end - begin));
   const Vec3 origin = set.corners(begin)[0];
   double largest = 0;
@@ -134,7 +134,7 @@ double TriangleGroups::size() const {
 }
 
 void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
-  const std::vector<std::int32_t> &order = grouping_.order, &end = grouping_.end;
+  const Vector<std::int32_t> &order = grouping_.order, &end = grouping_.end;
   groups.resize(end.size());
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());

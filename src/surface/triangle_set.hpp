@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "base/array_view.hpp"
+#include "base/recycled.hpp"
 #include "geometry/strided.hpp"
 
 namespace riis {
 
 // Groups of neighbouring triangles, for searches: positions in the set, group after group, and the end of each group.
 struct Grouping {
-  std::vector<std::int32_t> order, end;
+  Vector<std::int32_t> order, end;
 
   bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
 };
@@ -29,14 +30,15 @@ struct TriangleSet {
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // triangles that were left out
   double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
-  std::vector<std::uint8_t> rim_sides;    // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
+  Vector<std::uint8_t> rim_sides;    // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
   Grouping grouping;                      // empty if the maker of the triangles knows no groups
 
   // Empties the set and keeps its memory.
   void clear() {
     for (auto *numbers : {&xyz, &uv, &velocity}) numbers->clear();
     for (auto *ids : {&vertex_id, &triangle_id}) ids->clear();
-    for (auto *ids : {&leaflet_id, &patch_id, &grouping.order, &grouping.end}) ids->clear();
+    for (auto *ids : {&leaflet_id, &patch_id}) ids->clear();
+    for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
     n_zero_area = 0;
     error_bound = 0;

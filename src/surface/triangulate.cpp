@@ -97,14 +97,14 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
 // The quads of a patch, with the level of subdivision of each in the order of for_each_quad.
 struct LevelledGrid {
   QuadGrid grid;
-  std::vector<int> levels;
+  Vector<int> levels;
   std::int64_t n_triangles = 0;  // of one image, including triangles that turn out to have no area
   std::int64_t n_vertices = 0;
   double error_bound = 0;  // of the distance between the triangles and the smooth patch
 };
 
 // Takes the levels of a plan, if there is one.
-LevelledGrid with_levels(QuadGrid grid, double max_error, const std::vector<int> *planned) {
+LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned) {
   LevelledGrid made{std::move(grid), {}};
   made.n_vertices = view(made.grid.u).size() * view(made.grid.v).size();
   if (planned) made.levels.reserve(planned->size());
@@ -285,7 +285,7 @@ class PieceBuilder {
   const ImageMotion *motion_;
   TriangleSet &set_;
   std::int64_t n_vertices_ = 0;
-  std::vector<std::int32_t> first_of_quad_;
+  Vector<std::int32_t> first_of_quad_;
 };
 
 // Makes room for all pieces. The old contents may stay: the pieces write everything.
@@ -301,7 +301,7 @@ void make_room(std::int64_t n_vertices, std::int64_t n_triangles, bool has_veloc
 }
 
 // Moves the triangles of all pieces together. Pieces may have fewer triangles than there was room for.
-void close_gaps(const std::vector<Piece> &pieces, bool has_planned_ids, TriangleSet &set) {
+void close_gaps(const Vector<Piece> &pieces, bool has_planned_ids, TriangleSet &set) {
   set.grouping.order.clear();
   set.grouping.end.clear();
   std::int64_t n = 0;
@@ -330,20 +330,20 @@ void close_gaps(const std::vector<Piece> &pieces, bool has_planned_ids, Triangle
 }
 
 // The same image of the same patch in an earlier state.
-const PatchImage &image_before(const Piece &piece, const std::vector<LevelledGrid> &grids, const PatchSet &now,
+const PatchImage &image_before(const Piece &piece, const Vector<LevelledGrid> &grids, const PatchSet &now,
                                const PatchSet &before) {
   const auto patch = static_cast<std::size_t>(piece.levelled - grids.data());
   const std::ptrdiff_t image = piece.image - now.patches[patch].images.data();
   return before.patches[patch].images[static_cast<std::size_t>(image)];
 }
 
-std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
-                                              const std::vector<double> &tightness) {
+Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
+                                              const Vector<double> &tightness) {
   const PatchSet *before = how.motion ? &how.motion->patches_before : nullptr;
   const TriangulationPlan *plan = how.plan;
-  std::vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, how.max_error, how.n_threads, before)
+  Vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, how.max_error, how.n_threads, before)
                                      : make_grids(set, how.max_error, tightness, how.n_threads, before);
-  std::vector<LevelledGrid> levelled(grids.size());
+  Vector<LevelledGrid> levelled(grids.size());
   parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
     view(levelled)[i] =
         with_levels(std::move(view(grids)[i]), how.max_error, plan ? &view(plan->levels)[i] : nullptr);
@@ -352,8 +352,8 @@ std::vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangu
 }
 
 // Returns the patches of which triangles without area are missed.
-std::vector<std::size_t> vanished_patches(const std::vector<Piece> &pieces, const std::vector<LevelledGrid> &grids) {
-  std::vector<std::size_t> vanished;
+Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces, const Vector<LevelledGrid> &grids) {
+  Vector<std::size_t> vanished;
   for (const Piece &piece : pieces) {
     const auto i = static_cast<std::size_t>(piece.levelled - grids.data());
     if (!piece.is_whole && (vanished.empty() || vanished.back() != i)) vanished.push_back(i);
@@ -363,9 +363,9 @@ std::vector<std::size_t> vanished_patches(const std::vector<Piece> &pieces, cons
 
 // Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
 // there are none.
-std::vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const std::vector<LevelledGrid> &grids,
+Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                                TriangleSet &triangles) {
-  std::vector<Piece> pieces;
+  Vector<Piece> pieces;
   std::int64_t n_triangles = 0, n_vertices = 0;
   double error_bound = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -386,7 +386,7 @@ std::vector<std::size_t> build(const PatchSet &set, const Triangulation &how, co
                            *how.motion);
     PieceBuilder(piece, how, image_motion ? &*image_motion : nullptr, triangles).build();
   });
-  std::vector<std::size_t> vanished = vanished_patches(pieces, grids);
+  Vector<std::size_t> vanished = vanished_patches(pieces, grids);
   if (!vanished.empty()) return vanished;
   close_gaps(pieces, how.plan != nullptr, triangles);
   triangles.error_bound = error_bound * how.placement.scale;
@@ -399,7 +399,7 @@ std::vector<std::size_t> build(const PatchSet &set, const Triangulation &how, co
        ", at least in part: a surface is no curve");
 }
 
-void make_finer(const PatchSet &set, const std::vector<std::size_t> &patches, std::vector<double> &tightness) {
+void make_finer(const PatchSet &set, const Vector<std::size_t> &patches, Vector<double> &tightness) {
   for (const std::size_t i : patches)
     for (const Side &side : {set.patches[i].v0, set.patches[i].v1, set.patches[i].u0, set.patches[i].u1})
       tightness[side.curve] *= 0.1;
@@ -410,13 +410,13 @@ constexpr int max_attempts = 12;
 
 // Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
 TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
-  const std::vector<LevelledGrid> grids = make_levelled_grids(set, how, {});
+  const Vector<LevelledGrid> grids = make_levelled_grids(set, how, {});
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (!(grids[i].error_bound <= how.max_error))
       fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
-  const std::vector<std::size_t> vanished = build(set, how, grids, triangles);
+  const Vector<std::size_t> vanished = build(set, how, grids, triangles);
   if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
   if (triangles.triangle_id == how.plan->triangle_id)
     triangles.grouping = how.plan->grouping;
@@ -444,10 +444,10 @@ double split_error(const Quad &q) {
 TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory) {
   if (how.motion) check_same_build(set, how.motion->patches_before);
   if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
-  std::vector<double> tightness(set.curves.size(), 1);
+  Vector<double> tightness(set.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
-    const std::vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
-    const std::vector<std::size_t> vanished = build(set, how, grids, memory);
+    const Vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
+    const Vector<std::size_t> vanished = build(set, how, grids, memory);
     if (vanished.empty()) return memory;
     if (attempt == max_attempts) fail_for_vanished(set, vanished.front(), "");
     make_finer(set, vanished, tightness);
@@ -456,7 +456,7 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleS
 
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error) {
   const Placement in_place{1, no_rotation, {0, 0, 0}};
-  const std::vector<LevelledGrid> grids =
+  const Vector<LevelledGrid> grids =
       make_levelled_grids(state, {max_error, in_place, false, 1, nullptr, &plan}, {});
   return std::all_of(grids.begin(), grids.end(),
                      [&](const LevelledGrid &grid) { return grid.error_bound <= max_error; });
@@ -466,11 +466,11 @@ namespace {
 
 // Lifts the levels to those that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
-  const std::vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
+  const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
   plan.levels.resize(grids.size());
   for (std::size_t patch = 0; patch < grids.size(); ++patch) {
     const QuadGrid &grid = grids[patch];
-    std::vector<int> &levels = plan.levels[patch];
+    Vector<int> &levels = plan.levels[patch];
     levels.resize(grid.errors.size(), 0);
     std::size_t at = 0;
     for_each_quad(grid, [&](std::size_t i, std::size_t j) {
@@ -481,10 +481,10 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
 }
 
 // Returns the patches of which triangles are missed at one of the openings.
-std::vector<std::size_t> vanished_anywhere(const std::vector<PatchSet> &states, const Triangulation &how,
+Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Triangulation &how,
                                            TriangleSet &triangles) {
   for (const PatchSet &state : states) {
-    const std::vector<std::size_t> vanished = build(state, how, make_levelled_grids(state, how, {}), triangles);
+    const Vector<std::size_t> vanished = build(state, how, make_levelled_grids(state, how, {}), triangles);
     if (!vanished.empty()) return vanished;
   }
   return {};
@@ -492,18 +492,18 @@ std::vector<std::size_t> vanished_anywhere(const std::vector<PatchSet> &states, 
 
 }  // namespace
 
-TriangulationPlan plan_triangulation(const std::vector<PatchSet> &states, double max_error, int n_threads) {
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &states, double max_error, int n_threads) {
   // The rest is for openings between these.
   constexpr double share = 0.95;
   const PatchSet &middle = states[states.size() / 2];
   for (const PatchSet &state : states) check_same_build(middle, state);
   const Placement in_place{1, no_rotation, {0, 0, 0}};
-  std::vector<double> tightness(middle.curves.size(), 1);
+  Vector<double> tightness(middle.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
     TriangulationPlan plan{plan_grids(states, share * max_error, tightness), {}, {}, {}};
     for (const PatchSet &state : states) raise_levels(state, share * max_error, plan);
     TriangleSet triangles;
-    const std::vector<std::size_t> vanished =
+    const Vector<std::size_t> vanished =
         vanished_anywhere(states, {max_error, in_place, false, n_threads, nullptr, &plan}, triangles);
     if (vanished.empty()) {
       const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};

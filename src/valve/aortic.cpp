@@ -201,7 +201,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
     const Vec3 shift = vector_of(translation);
     const auto images = [&](std::int32_t part) {
       const auto leaflet_id = static_cast<std::int32_t>(cusp);
-      return std::vector<PatchImage>{{Mirror::none, turn, shift, leaflet_id, 4 * leaflet_id + part},
+      return Vector<PatchImage>{{Mirror::none, turn, shift, leaflet_id, 4 * leaflet_id + part},
                                      {Mirror::in_y, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
     };
     // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face: downstream.

@@ -182,7 +182,7 @@ HalfValve blend(const HalfValve &closed, const HalfValve &open, double opening) 
 
 // Checks lengths against the depth of the annulus.
 void check_values(const ParameterValues &values) {
-  const std::vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
+  const Vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
   const Measure depth{"AP_diameter", values[AP_diameter][0]};
   const auto check = [&](Parameter parameter, double least, double most) {
     check_ratio(specs[parameter], values[parameter], depth, least, most);

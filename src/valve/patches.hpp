@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "geometry/curve.hpp"
 #include "geometry/placement.hpp"
 
@@ -40,15 +40,15 @@ struct Side {
 // mirror images are turned over to keep it so.
 struct Patch {
   Side v0, v1, u0, u1;
-  std::vector<PatchImage> images;
+  Vector<PatchImage> images;
   // 0 means the Coons patch of the sides. Any other factor means the patch of the arcs that it makes from v0 to v1
   // (geometry/bulge.hpp); u0 and u1 are then such arcs themselves.
   double bulge = 0;
 };
 
 struct PatchSet {
-  std::vector<Curve> curves;
-  std::vector<Patch> patches;
+  Vector<Curve> curves;
+  Vector<Patch> patches;
 };
 
 }  // namespace riis

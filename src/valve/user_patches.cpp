@@ -20,10 +20,10 @@ void check_n(const char *field, std::int64_t n, std::int64_t most) {
   if (n < 1 || n > most) fail(RIIS_INVALID_ARGUMENT, "patches.", field, " is ", n, "; it must be from 1 to ", most);
 }
 
-std::vector<Bezier> curves_of(const riis_patches &arrays) {
+Vector<Bezier> curves_of(const riis_patches &arrays) {
   const std::int32_t *degrees = require(arrays.degree, "patches.degree");
   const double *control = require(arrays.control, "patches.control");
-  std::vector<Bezier> curves;
+  Vector<Bezier> curves;
   for (std::int64_t i = 0; i < arrays.n_curves; ++i) {
     const std::int32_t degree = degrees[i];
     if (degree < 1 || degree > 3)
@@ -44,7 +44,7 @@ std::vector<Bezier> curves_of(const riis_patches &arrays) {
 }
 
 // Returns the diagonal of the box of all control points.
-double size_of(const std::vector<Bezier> &curves) {
+double size_of(const Vector<Bezier> &curves) {
   Vec3 lower = curves.front().first(), upper = lower;
   for (const Bezier &curve : curves)
     for (int k = 0; k <= curve.degree; ++k) {
@@ -57,7 +57,7 @@ double size_of(const std::vector<Bezier> &curves) {
 
 class PatchReader {
  public:
-  PatchReader(const riis_patches &arrays, const std::vector<Bezier> &curves)
+  PatchReader(const riis_patches &arrays, const Vector<Bezier> &curves)
       : arrays_(arrays), curves_(curves), max_gap_(1e-9 * size_of(curves)) {}
 
   Patch read(std::int64_t patch) const {
@@ -108,7 +108,7 @@ class PatchReader {
   }
 
   const riis_patches &arrays_;
-  const std::vector<Bezier> &curves_;
+  const Vector<Bezier> &curves_;
   double max_gap_;
 };
 
@@ -148,10 +148,10 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
   require(arrays.curve_id, "patches.curve_id");
   check_base("patches.index_base", arrays.index_base);
   check_reserved("patches.reserved", arrays.reserved);
-  const std::vector<Bezier> curves = curves_of(arrays);
+  const Vector<Bezier> curves = curves_of(arrays);
   PatchSet set{{curves.begin(), curves.end()}, {}};
   const PatchReader reader(arrays, curves);
-  std::vector<bool> is_used(curves.size());
+  Vector<bool> is_used(curves.size());
   for (std::int64_t i = 0; i < arrays.n_patches; ++i) {
     set.patches.push_back(reader.read(i));
     const Patch &patch = set.patches.back();

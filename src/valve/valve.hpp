@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "base/recycled.hpp"
 #include "valve/patches.hpp"
 
 namespace riis {
@@ -24,7 +24,7 @@ struct ParameterSpec {
   double minimum, maximum;
 };
 
-using ParameterValues = std::vector<std::array<double, 3>>;  // one entry for each spec
+using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
 
 // A valve's shape: parameters, or patches for valves that are given by patches.
 struct ValveState {
@@ -35,7 +35,7 @@ struct ValveState {
 // A kind of valve: its parameters and the way from them to patches.
 struct ValveKind {
   const char *name;
-  std::vector<ParameterSpec> parameters;
+  Vector<ParameterSpec> parameters;
   std::size_t opening;   // position of the parameter of that name
   bool opens_by_itself;  // one set of parameters makes the valve both closed and open
   // Refuses values that do not go together. NULL: all values go together.

@@ -44,8 +44,8 @@ Bezier curve(int degree, const double *control) {
   return made;
 }
 
-std::vector<Vec3> list(std::int64_t n, const double *points) {
-  std::vector<Vec3> made;
+Vector<Vec3> list(std::int64_t n, const double *points) {
+  Vector<Vec3> made;
   for (std::int64_t i = 0; i < n; ++i) made.push_back(vec(points + 3 * i));
   return made;
 }
@@ -57,7 +57,7 @@ T *room(std::size_t n) {
 
 // A curve of n cubics, 12 numbers each.
 Curve chain(std::int64_t n_pieces, const double *control) {
-  std::vector<Bezier> pieces;
+  Vector<Bezier> pieces;
   for (std::int64_t i = 0; i < n_pieces; ++i) pieces.push_back(curve(3, control + 12 * i));
   return Curve(std::move(pieces));
 }
@@ -250,7 +250,7 @@ riis_status bounded_quads(const char *kind, int n_parameters, const char *const 
     Valve valve(find_valve_kind(kind));
     for (int i = 0; i < n_parameters; ++i) valve.set(names[i], 1, values + i);
     const PatchSet set = valve.make_patches();
-    const std::vector<QuadGrid> grids = make_grids(set, max_error);
+    const Vector<QuadGrid> grids = make_grids(set, max_error);
     std::vector<bounded_quad> made;
     for (std::size_t patch = 0; patch < grids.size(); ++patch) {
       const QuadGrid &grid = grids[patch];

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays whose memory is kept for later arrays. An update of a surface makes a thousand short arrays and drops them again. In a
+// time loop their memory comes from the update before, not from the system.
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+namespace riis {
+
+// Returns memory for so many bytes, aligned for any fundamental type. Throws std::bad_alloc. Any thread may give it back.
+void *take_memory(std::size_t n_bytes);
+void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
+
+// Memory is kept while one of these lives. The last one frees it.
+class KeepsMemory {
+ public:
+  KeepsMemory() noexcept;
+  ~KeepsMemory();
+  KeepsMemory(const KeepsMemory &) = delete;
+  KeepsMemory &operator=(const KeepsMemory &) = delete;
+};
+
+template <class T>
+struct RecyclingAllocator {
+  using value_type = T;
+  using is_always_equal = std::true_type;
+
+  RecyclingAllocator() = default;
+  template <class U>
+  RecyclingAllocator(const RecyclingAllocator<U> &) noexcept {}  // NOLINT(google-explicit-constructor): as std::allocator
+
+  T *allocate(std::size_t n) {
+    static_assert(alignof(T) <= alignof(std::max_align_t));
+    if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_alloc();
+    return static_cast<T *>(take_memory(n * sizeof(T)));
+  }
+  void deallocate(T *memory, std::size_t n) noexcept { give_memory_back(memory, n * sizeof(T)); }
+
+  template <class U>
+  bool operator==(const RecyclingAllocator<U> &) const noexcept {
+    return true;
+  }
+  template <class U>
+  bool operator!=(const RecyclingAllocator<U> &) const noexcept {
+    return false;
+  }
+};
+
+template <class T>
+using Vector = std::vector<T, RecyclingAllocator<T>>;
+
+}  // namespace riis
