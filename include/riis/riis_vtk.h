@@ -73,6 +73,14 @@ RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mar
  * Errors: as riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
                                                    double far_distance, const char *prefix);
+/* Adds, or replaces, point arrays of the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric,
+ * PREFIX_uv, PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit they
+ * are 0, and PREFIX_patch is -1.
+ *   fields  a sum of RIIS_FIELD_* of the marking's fields
+ *   prefix  as in riis_vtk_mesh_set_named_marks
+ * Errors: RIIS_INVALID_ARGUMENT for a field that the result lacks, and as riis_vtk_mesh_set_marks. */
+RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_mark_result *result,
+                                              int32_t fields, const char *prefix);
 /* Sets a point array of the caller's numbers, such as a resistance; an array of that name is replaced.
  *   name          as a prefix of riis_vtk_mesh_set_named_marks
  *   n_nodes       of the mesh
@@ -86,6 +94,17 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
  * hexahedron, voxel), 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells,
  * evenly spaced in their order, are looked at. */
 RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
+
+/* Makes a mesh of some nodes and of all cells that have one of them, with the cells' other nodes. Nodes and
+ * cells keep their order and their data. Two arrays tell their ids in the whole mesh: riis_node_id of points
+ * and riis_cell_id of cells (Int64). The part borrows nothing.
+ *   n_ids     >= 0
+ *   node_ids  (n_ids), 0 to n_nodes - 1, in any order
+ * Errors: RIIS_INVALID_ARGUMENT naming the id. */
+RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
+                                           riis_vtk_mesh **part);
+/* Tells how many bytes the file of riis_vtk_mesh_write takes, without its few kilobytes of text. */
+RIIS_API riis_status riis_vtk_mesh_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a .vtu file, points as Float64. */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
@@ -238,6 +257,25 @@ RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_m
 RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                          const riis_vtk_picture_options *options, int64_t n_views,
                                          const int32_t *views, const char *const *paths);
+
+/* Pictures of a valve that moves in one mesh, by one camera, such as the frames of a movie. */
+typedef struct riis_vtk_film riis_vtk_film;
+/* Makes the window and the outline of the mesh, which all pictures share.
+ *   mesh          its nodes and cells stay as they are, its marks change; NULL draws the surface alone. The
+ *                 film shares it, so it may be destroyed first
+ *   lower, upper  (3), bounds of the surface at all times, for the camera
+ *   options       the view, the size and the leaflets' names; title and leaking edges do not count
+ * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
+ * bounds that are not finite or do not ascend. */
+RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
+                                          const riis_vtk_picture_options *options, riis_vtk_film **film);
+/* Draws the surface and the marks that the mesh has now, as riis_vtk_draw does, into a .png file.
+ *   title  as in riis_vtk_picture_options
+ * Errors: as riis_vtk_draw. */
+RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface *surface, const char *title,
+                                        const char *path);
+/* Destroys the film. The pictures stay. */
+RIIS_API void riis_vtk_film_destroy(riis_vtk_film **film);
 
 #ifdef __cplusplus
 }

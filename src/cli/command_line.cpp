@@ -9,103 +9,17 @@
 #include <utility>
 
 #include "base/nearest_name.hpp"
+#include "cli/help.hpp"
 #include "cli/motion.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
+#include "cli/series_options.hpp"
 #include "cli/valve_file.hpp"
 
 namespace riis::cli {
 namespace {
 
-constexpr const char *description =
-    "Marks the nodes of a mesh whose distance to the surface of a heart valve is at most the half thickness.";
-
-constexpr const char *footer = R"(Examples:
-  riis-mark mesh.vtu --output marked.vtu --picture valve.png
-  riis-mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
-  riis-mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
-  riis-mark --print-params > valve.json
-  riis-mark --describe-params --valve mitral
-  riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
-  riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
-  riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
-  riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
-
-Marked mesh
-  The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
-  1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
-  can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
-
-Units
-  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of
-  the mitral valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
-  own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
-  program knows no units, and --scale is the factor from the surface's unit to the mesh's.
-
-Warnings
-  A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
-  are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
-  wrong marks look like right ones. --allow-none is for valves that are near no node at times.
-
-Parameters
-  A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
-  cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
-  left to right. --opening comes last, and excludes --set opening.
-
-Opening
-  The mitral valve's parameters make it closed and open. It is open unless --opening says otherwise. The aortic valve stays at
-  opening 0 without --params-open. With --params-open, the options above make the closed state. The defaults with that file's
-  parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
-  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open.
-
-Leaks
-  The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
-  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
-  between leaflets.
-
-Valve from patches
-  --valve FILE.json is a valve from patches, by the curves that bound them:
-  {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
-               "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
-   "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
-  2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
-  way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
-  beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
-
-Motion
-  --surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
-  points move. --time T takes them there, linearly between two files. --surface-output then has the velocities of the points,
-  riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep their order.
-
-Searches
-  exhaustive  queries the distance of every node near the valve
-  neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
-  clusters    takes nodes that are near each other together
-  paper       the published search, for comparison: from one start, through marked nodes only
-  The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
-  Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
-  connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
-  tetrahedron, pyramid, wedge, hexahedron or voxel.
-
-Distances
-  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for.
-  --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
-  and here for comparison.
-
-While it runs
-  On a terminal, a line on stderr announces a stage that takes longer than a second, unless --quiet is given. While a file is
-  written, the first Ctrl-C waits until the file is whole; the second does not wait.
-
-Exit status; one line on stderr says what was wrong:
-  0  fine
-  1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
-     value (in a file or by --set), no display for a picture, no memory
-  2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
-     that would replace an input, another output, or arrays of the mesh
-  3  no node is marked, without --allow-none; the outputs are written all the same)";
-
-const std::vector<std::string> view_names = {"side", "top", "oblique"};  // at the position of their RIIS_VTK_VIEW_*
 // At the position of their RIIS_SEARCH_*.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 
@@ -117,7 +31,9 @@ struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
   std::string distance_tolerance, unit, surface_unit, steps, time, period;
+  SeriesTexts series;
   std::string search = search_names[RIIS_SEARCH_AUTO];
+  std::string triangulation = triangulation_names()[RIIS_TRIANGULATION_ADAPTED];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
   std::vector<std::string> pictures, views;
   bool skip_zero_area = false;
@@ -130,15 +46,14 @@ int32_t position_of(const std::string &name, const std::vector<std::string> &nam
 
 void declare_motion(CLI::App &app, Texts &texts, CLI::Option *surface) {
   const char *group = "Surface";
-  CLI::Option *time = app.add_option("--time", texts.time, "Time at which to take a motion, --surface FILE.pvd")
+  app.add_option("--time", texts.time, "Time at which to take a motion, --surface FILE.pvd")
                           ->type_name("T")
                           ->group(group)
                           ->needs(surface);
   app.add_option("--period", texts.period,
-                 "Period of that motion; without one it rests before its first and behind its last time")
+                 "Period of that motion or of --cycle; without one it rests before its first and behind its last time")
       ->type_name("P")
-      ->group(group)
-      ->needs(time);
+      ->group(group);
 }
 
 void declare_surface(CLI::App &app, Options &options, Texts &texts) {
@@ -187,6 +102,12 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
   app.add_option("--tolerance", texts.tolerance,
                  "Largest deviation of triangles from the smooth valve, in half thicknesses (default 0.05)")
       ->type_name("F")
+      ->group(group)
+      ->excludes(surface);
+  app.add_option("--triangulation", texts.triangulation,
+                 "Triangles of a valve that moves: adapted to each opening (default), or fixed, the same at every opening")
+      ->type_name("HOW")
+      ->check(CLI::IsMember(triangulation_names()))
       ->group(group)
       ->excludes(surface);
   app.add_flag("--skip-zero-area", texts.skip_zero_area,
@@ -288,7 +209,7 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
   app.add_option("--view", texts.views, "View of a --picture, side, top or oblique (default); one for each, in their order")
       ->type_name("VIEW")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(view_names))
+      ->check(CLI::IsMember(view_names()))
       ->group(group);
   app.add_option("--stats", options.stats, "Write counts and seconds as JSON; - is stdout, which then holds nothing else")
       ->type_name("FILE.json|-")
@@ -336,6 +257,7 @@ void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   }
   options.zero_area = texts.skip_zero_area ? RIIS_ZERO_AREA_SKIP : RIIS_ZERO_AREA_REFUSE;
   options.flip_normals = texts.flip_normals;
+  options.triangulation = position_of(texts.triangulation, triangulation_names());
   options.distance = position_of(texts.distance, distance_names);
   if (!texts.distance_tolerance.empty()) {
     if (options.distance == RIIS_DISTANCE_TRIANGLES)
@@ -361,13 +283,11 @@ void parse_units(const Texts &texts, Options &options) {
   if (is_file && !options.surface_unit) {
     refuse("--unit needs --surface-unit, the unit of " + (options.surface.empty() ? options.valve : options.surface));
   }
-  options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
-  if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
+  apply_units(options);
 }
 
 void check_prefix(const std::string &prefix) {
-  const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
-  if (prefix.size() <= 64 && std::all_of(prefix.begin(), prefix.end(), is_good)) return;
+  if (is_prefix(prefix)) return;
   throw Refusal{exit_wrong_usage,
                 "--prefix: '" + prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and ."};
 }
@@ -385,7 +305,7 @@ std::vector<Picture> pair_pictures(const Texts &texts) {
   }
   std::vector<Picture> pictures;
   for (const std::string &path : texts.pictures) pictures.push_back({path, RIIS_VTK_VIEW_OBLIQUE});
-  for (std::size_t i = 0; i < texts.views.size(); ++i) pictures[i].view = position_of(texts.views[i], view_names);
+  for (std::size_t i = 0; i < texts.views.size(); ++i) pictures[i].view = position_of(texts.views[i], view_names());
   return pictures;
 }
 
@@ -414,6 +334,7 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 
 // Refuses options without effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
+  check_series_purpose(options, given);
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
   static const std::set<std::string> of_mesh = {
@@ -427,20 +348,21 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     if (prints && of_parameters.count(name) == 0) {
       refuse(name + " has no effect with " + (options.print_params ? "--print-params" : "--describe-params"));
     }
-    if (options.mesh.empty() && of_mesh.count(name) != 0) refuse(name + " needs a MESH");
+    if (options.mesh.empty() && options.series.case_file.empty() && of_mesh.count(name) != 0)
+      refuse(name + " needs a MESH");
   }
   if (!options.params_open.empty() && is_valve_file(options.valve)) {
     refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
   }
   // At the default opening of most valves the file would have no effect, and nobody would see it.
-  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings)) {
-    refuse("--params-open needs --opening");
+  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings) && options.series.cycle.empty()) {
+    refuse("--params-open needs --opening or --cycle");
   }
-  if (prints) return;
+  if (prints || !options.series.case_file.empty()) return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
-             options.stats.empty()) {
+             options.stats.empty() && options.series.movie.empty() && options.series.table.empty()) {
     refuse("nothing to do: --quiet is given and no output is named");
   }
 }
@@ -495,13 +417,24 @@ std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
 
 }  // namespace
 
-std::string short_help() {
-  return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
-  riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
-  riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
-  riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
-riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
-)";
+const std::vector<std::string> &triangulation_names() {
+  static const std::vector<std::string> names = {"adapted", "fixed"};
+  return names;
+}
+
+const std::vector<std::string> &view_names() {
+  static const std::vector<std::string> names = {"side", "top", "oblique"};
+  return names;
+}
+
+void apply_units(Options &options) {
+  options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
+  if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
+}
+
+bool is_prefix(const std::string &name) {
+  const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), is_good);
 }
 
 std::optional<Options> parse_command_line(int argc, char **argv) {
@@ -519,6 +452,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   declare_marking(app, texts);
   declare_steps(app, texts);
   declare_output(app, options, texts);
+  declare_series(app, options.series, texts.series);
   check_equals_signs(argc, argv);
   try {
     app.parse(argc, argv);
@@ -540,6 +474,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
   options.opening = parse_opening(texts, options.settings);
   parse_surface_options(texts, options.surface_options);
+  parse_series(texts.series, options.series);
   parse_motion(texts.time, texts.period, options);
   parse_units(texts, options);
   check_prefix(options.prefix);

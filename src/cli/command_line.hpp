@@ -18,12 +18,29 @@ struct Picture {
   int32_t view;
 };
 
+// A series in time, and cases of several valves.
+struct SeriesOptions {
+  std::string case_file;      // "": the command line describes the only valve
+  std::vector<double> times;  // ascending; empty: no series
+  std::string cycle;          // file
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+  std::string movie, table;  // "": not wanted
+  double frame_rate = 10;    // frames a second
+  std::int32_t movie_view = RIIS_VTK_VIEW_OBLIQUE;
+  bool all_cells = false;
+};
+
+// At the position of their RIIS_TRIANGULATION_*.
+const std::vector<std::string> &triangulation_names();
+// The views, at the position of their RIIS_VTK_VIEW_*.
+const std::vector<std::string> &view_names();
+
 struct Options {
   std::string mesh;                   // "": none
   std::string valve;                  // kind, or a file that ends in .json; used without surface
   std::string surface;                // file; "": the valve
   std::optional<double> time;         // of a surface that moves
-  double period = 0;                  // of its motion; 0: none
+  double period = 0;                  // of its motion, or of the cycle; 0: none
   std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in order
   std::optional<double> opening;      // from 0 to 1
@@ -41,12 +58,16 @@ struct Options {
   std::string prefix = "riis";  // of the arrays in the output
   bool replace = false;         // arrays of these names
   bool allow_none = false;
+  SeriesOptions series;
   bool print_params = false, describe_params = false;
   bool quiet = false;
 };
 
-// For a command line without arguments: the purpose of the program, in five lines.
-std::string short_help();
+// Derives the scale from the units, and the half thickness unless the user gave one.
+void apply_units(Options &options);
+
+// Whether arrays can be named so.
+bool is_prefix(const std::string &name);
 
 // Returns nothing if the command line requested only the help or the version, which it has then printed.
 // Throws a Refusal for wrong usage.

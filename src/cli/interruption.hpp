@@ -8,14 +8,17 @@
 namespace riis::cli {
 
 // While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object ends. A
-// second signal, from a user who will not wait, acts at once. Signals that were ignored stay ignored. Only one object may live
-// at a time.
+// second signal, from a user who will not wait, acts at once. Signals that were ignored stay ignored. Of several objects the
+// first counts: those made while it lives do nothing. All are made on one thread.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
   ~UnbrokenWrite();
   UnbrokenWrite(const UnbrokenWrite &) = delete;
   UnbrokenWrite &operator=(const UnbrokenWrite &) = delete;
+
+  // Whether a signal waits. Work in several parts ends after the part.
+  static bool has_signal();
 
  private:
   static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP};

@@ -2,28 +2,13 @@
 #include "cli/json_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <set>
-#include <sstream>
-#include <system_error>
 #include <vector>
 
-#include "cli/refusal.hpp"
+#include "base/nearest_name.hpp"
 
 namespace riis::cli {
 namespace {
-
-std::string text_of(const std::string &path) {
-  errno = 0;
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  // A folder can be opened, but not read.
-  if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + std::generic_category().message(errno));
-  if (text.str().empty()) refuse_file(path, "is empty");
-  return text.str();
-}
 
 // Refuses what the parser would let pass.
 class Guard {
@@ -58,11 +43,6 @@ class Guard {
 
 }  // namespace
 
-void refuse_file(const std::string &path, const std::string &reason) {
-  constexpr std::size_t longest = 300;
-  throw Refusal{exit_bad_data, path + ": " + (reason.size() > longest ? reason.substr(0, longest) + " ..." : reason)};
-}
-
 Json parse_json_file(const std::string &path, const std::string &content) {
   Guard guard(path, content);
   const auto observe = [&](int depth, Json::parse_event_t event, Json &parsed) {
@@ -70,12 +50,28 @@ Json parse_json_file(const std::string &path, const std::string &content) {
     return true;
   };
   try {
-    return Json::parse(text_of(path), observe);
+    return Json::parse(text_of_file(path), observe);
   } catch (const Json::exception &error) {
     const std::string text = error.what();
     // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
     const std::size_t end = text.find("] ");
     refuse_file(path, "is not JSON: " + (end == std::string::npos ? text : text.substr(end + 2)));
+  }
+}
+
+void check_keys(const std::string &path, const std::string &subject, const Json &value,
+                const std::vector<std::string> &keys) {
+  std::string known;
+  for (const std::string &key : keys) known += (known.empty() ? "" : ", ") + key;
+  if (!value.is_object())
+    refuse_file(path, subject + " must be an object with " + known + ", not of type " + value.type_name());
+  for (const auto &item : value.items()) {
+    if (std::find(keys.begin(), keys.end(), item.key()) != keys.end()) continue;
+    NearestName nearest(item.key());
+    for (const std::string &key : keys) nearest.consider(key);
+    const std::string meant(nearest.nearest());
+    refuse_file(path, subject + ": \"" + item.key() + "\" is unknown" +
+                          (meant.empty() ? "" : ", did you mean \"" + meant + "\"?") + "; there are: " + known);
   }
 }
 

@@ -5,15 +5,19 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
+
+#include "cli/text_file.hpp"
 
 namespace riis::cli {
 
 using Json = nlohmann::ordered_json;
 
-// Refuses the file. The reason may hold pieces of the file, of any length.
-[[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
-
 // content, such as "parameters", names what the file should hold. The refusal of a file that is nested too deep uses it.
 Json parse_json_file(const std::string &path, const std::string &content);
+
+// Refuses a value that is not an object, and a key that is not among these, with the nearest of them. subject names the value.
+void check_keys(const std::string &path, const std::string &subject, const Json &value,
+                const std::vector<std::string> &keys);
 
 }  // namespace riis::cli

@@ -58,7 +58,7 @@ riis_leaks leaks_with(const Options &options, const MarkedMesh &marked, double h
   mark_options.distance_limit = RIIS_AUTO;
   check(riis_mark_nodes(surface.get(), marked.mesh, &mark_options, result.get()));
   const bool is_by_triangles = options.surface_options.distance == RIIS_DISTANCE_TRIANGLES;
-  return leaks_of({surface.get(), marked.valve, marked.file, marked.mesh, result.get()}, mark_options,
+  return leaks_of({surface.get(), marked.valve, marked.file, marked.mesh, result.get(), ""}, mark_options,
                   is_by_triangles ? 2 * half_thickness : 0, nullptr);
 }
 
@@ -80,17 +80,16 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
 }
 
 // Not even --quiet silences this: the valve does not hold.
-void warn_of_leaks(const LeakReport &report, double half_thickness) {
+void warn_of_leaks(const LeakReport &report, const std::string &surface, double half_thickness) {
   const riis_leaks &leaks = report.found;
   const double *at = leaks.longest_middle;
   const bool is_one = leaks.n_edges == 1;
   if (is_one)
-    std::fprintf(stderr, "riis-mark: the surface leaks: 1 edge of length %g crosses it between two unmarked nodes",
-                 leaks.longest_length);
+    std::fprintf(stderr, "riis-mark: %s leaks: 1 edge of length %g crosses it between two unmarked nodes",
+                 surface.c_str(), leaks.longest_length);
   else
-    std::fprintf(stderr,
-                 "riis-mark: the surface leaks: %lld edges cross it between two unmarked nodes, the longest (%g)",
-                 static_cast<long long>(leaks.n_edges), leaks.longest_length);
+    std::fprintf(stderr, "riis-mark: %s leaks: %lld edges cross it between two unmarked nodes, the longest (%g)",
+                 surface.c_str(), static_cast<long long>(leaks.n_edges), leaks.longest_length);
   std::fprintf(stderr, " at %g %g %g; ", at[0], at[1], at[2]);
   if (report.closing_half_thickness > 0)
     std::fprintf(stderr, "--half-thickness %g closes %s; ", report.closing_half_thickness, is_one ? "it" : "them");
@@ -109,7 +108,7 @@ void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &re
   leaks.found = leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
   if (leaks.found.n_edges > 0) {
     if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
-    warn_of_leaks(leaks, half_thickness);
+    warn_of_leaks(leaks, marked.surface_name, half_thickness);
   }
   report.seconds.leaks = stage.seconds();
 }

@@ -5,6 +5,8 @@
 
 #include <riis/riis_vtk.h>
 
+#include <string>
+
 #include "cli/command_line.hpp"
 #include "cli/report.hpp"
 
@@ -16,6 +18,7 @@ struct MarkedMesh {
   const riis_vtk_mesh *file;
   riis_mesh *mesh;  // loses its adjacency
   riis_mark_result *result;
+  std::string surface_name = "the surface";  // in the warning
 };
 
 // Writes report.leaks and report.seconds.leaks, and warns on stderr if flow passes.

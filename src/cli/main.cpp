@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cli/command_line.hpp"
+#include "cli/help.hpp"
 #include "cli/refusal.hpp"
 #include "cli/run.hpp"
 

@@ -12,9 +12,6 @@
 namespace riis::cli {
 namespace {
 
-using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
-using Keyframes = Handle<riis_keyframes, riis_keyframes_destroy>;
-
 Motion read_motion(const Options &options) {
   const bool by_pieces = options.leaflets == "connected";
   const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
@@ -25,12 +22,11 @@ Motion read_motion(const Options &options) {
   return motion;
 }
 
-// Outputs are written when all frames have been read, and would replace them unnoticed.
-void check_frames_stay(const Options &options, const riis_vtk_motion *motion) {
+std::vector<std::string> files_of(const riis_vtk_motion *motion) {
   int64_t n_files = 0;
   const char *const *paths = nullptr;
   check(riis_vtk_motion_files(motion, &n_files, &paths));
-  check_no_output_is("a frame of --surface " + options.surface, {paths, paths + n_files}, options);
+  return {paths, paths + n_files};
 }
 
 Keyframes keyframes_of(const Options &options, const riis_vtk_motion *motion) {
@@ -54,26 +50,34 @@ bool is_motion_file(const std::string &surface) {
 
 void parse_motion(const std::string &time, const std::string &period, Options &options) {
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
-  const bool is_motion = is_motion_file(options.surface);
-  if (is_motion && time.empty()) refuse("--surface " + options.surface + " is a motion: it needs --time T");
+  const bool is_motion = is_motion_file(options.surface), is_series = !options.series.times.empty();
+  if (is_motion && time.empty() && !is_series) refuse("--surface " + options.surface + " is a motion: it needs --time T");
+  if (is_series && !time.empty()) refuse("--time has no effect with --times");
   if (!is_motion && !time.empty())
     refuse("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+  if (!period.empty() && !is_motion && options.series.cycle.empty())
+    refuse("--period needs a motion, --surface FILE.pvd, or --cycle");
   if (!time.empty()) options.time = parse_number(time, "--time");
   if (!period.empty()) options.period = parse_number(period, "--period");
   if (!period.empty() && !(options.period > 0)) refuse("--period: " + period + " is not above 0");
 }
 
-MovedSurface surface_of_motion(const Options &options) {
+KeyframeFiles read_keyframes(const Options &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
   const Motion motion = read_motion(options);
-  const double seconds = stage.seconds();
-  check_frames_stay(options, motion.get());
-  const Keyframes keyframes = keyframes_of(options, motion.get());
+  seconds.read += stage.seconds();
+  KeyframeFiles read{nullptr, files_of(motion.get())};
+  // Outputs are written when all frames have been read, and would replace them unnoticed.
+  check_no_output_is("a frame of --surface " + options.surface, read.files, options);
+  read.keyframes = keyframes_of(options, motion.get());
+  return read;
+}
+
+Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes) {
   riis_surface *surface = nullptr;
-  check(riis_surface_create_from_keyframes(keyframes.get(), *options.time, *options.time, &options.surface_options,
-                                           &surface),
+  check(riis_surface_create_from_keyframes(keyframes, *options.time, *options.time, &options.surface_options, &surface),
         options.surface);
-  return {Surface(surface), seconds};
+  return Surface(surface);
 }
 
 }  // namespace riis::cli

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// --time: the surface of a motion by frames, at one time.
+// --surface FILE.pvd: the surface of a motion by frames.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/command_line.hpp"
 #include "cli/handles.hpp"
+#include "cli/report.hpp"
 
 namespace riis::cli {
 
@@ -15,11 +17,14 @@ bool is_motion_file(const std::string &surface);
 // Reads --time and --period. Fails if a motion lacks its time, and for either without a motion.
 void parse_motion(const std::string &time, const std::string &period, Options &options);
 
-// Reads the motion and makes its surface at options.time, with velocities.
-struct MovedSurface {
-  Surface surface;
-  double seconds;  // for reading
+// --surface FILE.pvd, and the files that hold its frames.
+struct KeyframeFiles {
+  Keyframes keyframes;
+  std::vector<std::string> files;
 };
-MovedSurface surface_of_motion(const Options &options);
+KeyframeFiles read_keyframes(const Options &options, Seconds &seconds);
+
+// The surface at options.time, with velocities.
+Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes);
 
 }  // namespace riis::cli

@@ -51,4 +51,10 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
   return numbers;
 }
 
+std::string shortest(double number) {
+  char text[32];
+  const char *end = std::to_chars(text, text + sizeof text, number).ptr;
+  return {text, static_cast<std::size_t>(end - text)};
+}
+
 }  // namespace riis::cli

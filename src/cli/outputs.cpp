@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "cli/interruption.hpp"
+#include "cli/movie.hpp"
 #include "cli/refusal.hpp"
+#include "cli/series_files.hpp"
 #include "cli/valve_file.hpp"
 
 namespace riis::cli {
@@ -21,9 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_ending(const std::string &path, const std::string &ending, const std::string &option) {
-  std::string found = fs::path(path).extension().string();
-  for (char &c : found) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (found != ending) throw Refusal{exit_wrong_usage, option + ": " + path + " must end in " + ending};
+  if (!has_ending(path, ending)) throw Refusal{exit_wrong_usage, option + ": " + path + " must end in " + ending};
 }
 
 std::string system_text(int error) { return std::generic_category().message(error); }
@@ -31,15 +31,6 @@ std::string system_text(int error) { return std::generic_category().message(erro
 [[noreturn]] void cannot_be_written(const std::string &path, const std::string &reason) {
   throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
 }
-
-// The place of the file itself: links to existing files are followed.
-fs::path place_of(const std::string &path) {
-  std::error_code error;
-  const fs::path place = fs::canonical(path, error);
-  return error ? fs::path(path) : place;
-}
-
-fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
 
 // A device or a pipe is written into; any other file is replaced as a whole.
 bool is_special(const std::string &path) {
@@ -68,13 +59,17 @@ std::vector<NamedFile> inputs_of(const Options &options) {
           {"--surface", options.surface},
           {"--params", options.params},
           {"--params-open", options.params_open},
-          {"--valve", is_valve_file(options.valve) ? options.valve : ""}};
+          {"--valve", is_valve_file(options.valve) ? options.valve : ""},
+          {"--cycle", options.series.cycle},
+          {"--case", options.series.case_file}};
 }
 
 std::vector<NamedFile> outputs_of(const Options &options) {
   std::vector<NamedFile> outputs = {{"--output", options.output}, {"--surface-output", options.surface_output}};
   for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
+  outputs.push_back({"--movie", options.series.movie});
+  outputs.push_back({"--series-table", options.series.table});
   return outputs;
 }
 
@@ -93,8 +88,30 @@ bool may_replace(const NamedFile &output, const NamedFile &input) {
          (output.option == "--surface-output" && input.option == "--surface");
 }
 
-void check_distinct(const Options &options) {
+// The folders of a series' files.
+std::vector<NamedFile> folders_of(const Options &options) {
+  if (options.series.times.empty()) return {};
+  std::vector<NamedFile> folders;
+  for (const NamedFile &list : {NamedFile{"--output", options.output}, {"--surface-output", options.surface_output}})
+    if (!list.path.empty()) folders.push_back({list.option, SeriesFiles(list.path, "", 1).folder()});
+  return folders;
+}
+
+// A step's file must not replace an input, whatever its number.
+void check_folders(const Options &options, const std::vector<NamedFile> &inputs) {
+  for (const NamedFile &folder : folders_of(options)) {
+    for (const NamedFile &input : inputs) {
+      if (input.path.empty() || !is_same_file(folder.path, folder_of(input.path).string())) continue;
+      throw Refusal{exit_wrong_usage, folder.option + ": the folder of its files, " + folder.path +
+                                          ", holds the file of " + input.option};
+    }
+  }
+}
+
+void check_distinct(const Options &options, const std::vector<std::string> &more_inputs) {
   std::vector<NamedFile> others = inputs_of(options);
+  for (const std::string &path : more_inputs) others.push_back({"--case", path});
+  check_folders(options, others);
   for (const NamedFile &output : outputs_of(options)) {
     for (const NamedFile &other : others) {
       if (is_same_file(output.path, other.path) && !may_replace(output, other)) {
@@ -136,18 +153,38 @@ int replace_file(const std::string &path, const std::string &text) {
 
 }  // namespace
 
-void check_outputs(const Options &options) {
-  check_distinct(options);
+bool has_ending(const std::string &path, const std::string &ending) {
+  std::string found = fs::path(path).extension().string();
+  for (char &c : found) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return found == ending;
+}
+
+fs::path place_of(const std::string &path) {
+  std::error_code error;
+  const fs::path place = fs::canonical(path, error);
+  return error ? fs::path(path) : place;
+}
+
+fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
+
+void check_outputs(const Options &options, const std::vector<std::string> &more_inputs) {
+  check_distinct(options, more_inputs);
   const auto check_file = [](const std::string &path, const char *ending, const char *option) {
     if (path.empty()) return;
     check_ending(path, ending, option);
     check_place(path);
   };
-  check_file(options.output, ".vtu", "--output");
-  check_file(options.surface_output, ".vtp", "--surface-output");
+  const bool is_series = !options.series.times.empty();
+  check_file(options.output, is_series ? ".pvd" : ".vtu", "--output");
+  check_file(options.surface_output, is_series ? ".pvd" : ".vtp", "--surface-output");
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
-  if (!options.pictures.empty()) check_display();
+  if (!options.series.table.empty()) check_place(options.series.table);
+  for (const std::string &list : {options.output, options.surface_output})
+    if (is_series && !list.empty()) SeriesFiles(list, "", 1).check_folder();
+  check_movie(options.series.movie);
+  if (!options.series.movie.empty()) check_place(options.series.movie);
+  if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
 }
 
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options) {

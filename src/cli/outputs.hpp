@@ -2,6 +2,7 @@
 // The program's outputs. Before any long work the program checks that it can write them. Text goes out whole or fails.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,14 @@ namespace riis::cli {
 
 // Throws a Refusal for an output that would replace an input or another output, that has a wrong ending, or whose folder is
 // missing or not writable. Throws one also for a picture without a display.
-void check_outputs(const Options &options);
+// more_inputs are further files that were read.
+void check_outputs(const Options &options, const std::vector<std::string> &more_inputs = {});
+
+// Whether the path ends so, in capitals or not.
+bool has_ending(const std::string &path, const std::string &ending);
+// The place of the file itself: links to existing files are followed. Its folder, or "." if it names none.
+std::filesystem::path place_of(const std::string &path);
+std::filesystem::path folder_of(const std::filesystem::path &place);
 
 // Throws a Refusal for an output that is one of these files, and says what they are.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options);

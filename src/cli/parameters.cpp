@@ -68,7 +68,11 @@ bool belongs_to_cusp(const std::string &name) { return name.find('.') != std::st
 }  // namespace
 
 void set_from_json_file(riis_valve *valve, const std::string &path) {
-  const Settings settings = settings_of(path, valve, parse_json_file(path, "parameters"));
+  set_from_json(valve, parse_json_file(path, "parameters"), path);
+}
+
+void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path) {
+  const Settings settings = settings_of(path, valve, parameters);
   for (const bool cusps : {false, true}) {
     for (const auto &[name, values] : settings) {
       if (belongs_to_cusp(name) == cusps) set_parameter(valve, name, values, path);

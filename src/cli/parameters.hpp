@@ -7,11 +7,16 @@
 
 #include <string>
 
+#include "cli/json_file.hpp"
+
 namespace riis::cli {
 
 // {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}: names without a cusp are set
 // first, so the order in the file does not matter. A name given twice is refused.
 void set_from_json_file(riis_valve *valve, const std::string &path);
+
+// The same from a value. path, a file or a place in one, goes before refusals.
+void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path);
 
 // Applies one --set.
 void set_from_text(riis_valve *valve, const std::string &setting);

@@ -31,4 +31,31 @@ double Stage::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
+StepProgress::StepProgress(const std::string &what, std::size_t n_steps, bool quiet)
+    : what_(what),
+      n_steps_(n_steps),
+      is_shown_(!quiet && isatty(STDERR_FILENO)),
+      begin_(std::chrono::steady_clock::now()),
+      last_(begin_) {}
+
+StepProgress::~StepProgress() {
+  if (has_line_) std::cerr << std::endl;
+}
+
+void StepProgress::begin(std::size_t step) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_shown_ || now - begin_ < std::chrono::seconds(1)) return;
+  if (has_line_ && now - last_ < std::chrono::milliseconds(200) && step + 1 < n_steps_) return;
+  last_ = now;
+  has_line_ = true;
+  const double left = seconds() / static_cast<double>(step) * static_cast<double>(n_steps_ - step);
+  // The blanks cover the end of a longer line before.
+  std::cerr << "\rriis-mark: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
+            << static_cast<long long>(left + 0.5) << " s left   " << std::flush;
+}
+
+double StepProgress::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
 }  // namespace riis::cli

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -26,6 +27,25 @@ class Stage {
   std::condition_variable ended_;
   bool has_ended_ = false;
   std::thread watcher_;
+};
+
+// Counts the steps of a long stage on one line of the terminal, from its second second on.
+class StepProgress {
+ public:
+  // what, such as "writing", stands before "step 12 of 81". Shows nothing if stderr is no terminal, or quiet.
+  StepProgress(const std::string &what, std::size_t n_steps, bool quiet);
+  ~StepProgress();
+  StepProgress(const StepProgress &) = delete;
+  StepProgress &operator=(const StepProgress &) = delete;
+
+  void begin(std::size_t step);
+  double seconds() const;
+
+ private:
+  std::string what_;
+  std::size_t n_steps_;
+  bool is_shown_, has_line_ = false;
+  std::chrono::steady_clock::time_point begin_, last_;
 };
 
 }  // namespace riis::cli

@@ -96,14 +96,7 @@ class Reader {
   }
 
   void check_object(const Json &value, const std::string &subject, const std::vector<std::string> &keys) const {
-    std::string known;
-    for (const std::string &key : keys) known += (known.empty() ? "" : ", ") + key;
-    if (!value.is_object()) refuse(subject + " must be an object with " + known + ", not of type " + value.type_name());
-    for (const auto &item : value.items()) {
-      if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) {
-        refuse(subject + ": " + quoted(item.key()) + " is unknown; there are: " + known);
-      }
-    }
+    check_keys(path_, subject, value, keys);
   }
 
   [[noreturn]] void refuse(const std::string &reason) const { refuse_file(path_, reason); }

@@ -17,6 +17,8 @@ inline constexpr const char *patch_array = "riis_patch";
 inline constexpr const char *triangle_array = "riis_triangle";
 inline constexpr const char *uv_array = "riis_uv";
 inline constexpr const char *velocity_array = "riis_velocity";
+inline constexpr const char *node_id_array = "riis_node_id";
+inline constexpr const char *cell_id_array = "riis_cell_id";
 // The field array in which VTK's filters put times.
 inline constexpr const char *time_array = "TimeValue";
 

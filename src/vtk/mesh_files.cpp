@@ -4,7 +4,6 @@
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -12,8 +11,6 @@
 #include <vtkDoubleArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "base/array_view.hpp"
@@ -22,6 +19,8 @@
 #include "vtk/files.hpp"
 #include "vtk/grid_files.hpp"
 #include "vtk/mesh.hpp"
+#include "vtk/point_arrays.hpp"
+#include "vtk/text.hpp"
 #include "vtk/volume_cells.hpp"
 #include "vtk/vtk_errors.hpp"
 #include "vtk/xml_writing.hpp"
@@ -35,67 +34,6 @@ void make_points_double(vtkUnstructuredGrid *grid) {
   points->SetDataTypeToDouble();
   points->DeepCopy(grid->GetPoints());
   grid->SetPoints(points);
-}
-
-template <class Array>
-vtkSmartPointer<Array> point_array(const std::string &name, vtkIdType n_points, int n_components = 1) {
-  const auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfComponents(n_components);
-  array->SetNumberOfTuples(n_points);
-  return array;
-}
-
-void check_is_of_mesh(const riis_mark_result *result, vtkIdType n_nodes) {
-  riis_mark_stats stats{};
-  check_core(riis_mark_result_stats(result, &stats, sizeof stats));
-  if (stats.n_nodes != n_nodes) {
-    fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with " + std::to_string(stats.n_nodes) + " nodes, this mesh has " +
-                                    std::to_string(n_nodes));
-  }
-}
-
-// Refuses a name that some file format or some reader does not take.
-void check_name(const char *argument, const std::string &name) {
-  constexpr std::size_t longest = 64;
-  const auto is_good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  };
-  if (name.empty() || name.size() > longest || !std::all_of(name.begin(), name.end(), is_good)) {
-    fail(RIIS_INVALID_ARGUMENT, std::string(argument) + " is \"" + name.substr(0, longest) + "\"; it must be 1 to " +
-                                    std::to_string(longest) + " letters, digits, _, - and .");
-  }
-}
-
-void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance,
-               const std::string &prefix) {
-  check_name("prefix", prefix);
-  const vtkIdType n = grid->GetNumberOfPoints();
-  check_is_of_mesh(result, n);
-  const auto marked = point_array<vtkUnsignedCharArray>(prefix + "_marked", n);
-  const auto distance = point_array<vtkDoubleArray>(prefix + "_distance", n);
-  const auto leaflet = point_array<vtkTypeInt32Array>(prefix + "_leaflet", n);
-  check_core(riis_mark_result_dense(result, n, far_distance, marked->GetPointer(0), distance->GetPointer(0), nullptr,
-                                    leaflet->GetPointer(0)));
-  for (vtkDataArray *array : {static_cast<vtkDataArray *>(marked), static_cast<vtkDataArray *>(distance),
-                              static_cast<vtkDataArray *>(leaflet)}) {
-    grid->GetPointData()->AddArray(array);
-  }
-}
-
-void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::int64_t n_nodes,
-                     std::int64_t n_components, const double *values) {
-  check_name("name", name);
-  const vtkIdType n = grid->GetNumberOfPoints();
-  if (n_nodes != n)
-    fail(RIIS_INVALID_ARGUMENT,
-         "n_nodes is " + std::to_string(n_nodes) + "; the mesh has " + std::to_string(n) + " nodes");
-  if (n_components < 1 || n_components > 9)
-    fail(RIIS_INVALID_ARGUMENT, "n_components is " + std::to_string(n_components) + "; it must be from 1 to 9");
-  const auto array = point_array<vtkDoubleArray>(name, n, static_cast<int>(n_components));
-  std::copy_n(values, n * n_components, array->GetPointer(0));
-  grid->GetPointData()->AddArray(array);
 }
 
 // The core's message names a field of its own struct, but the caller gave a plain argument.
@@ -142,9 +80,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
 
 void check_length(double longer_than) {
   if (longer_than >= 0 && std::isfinite(longer_than)) return;
-  char text[32] = {};
-  std::to_chars(text, text + sizeof text - 1, longer_than);
-  fail(RIIS_INVALID_ARGUMENT, std::string("longer_than is ") + text + "; it must be finite and at least 0");
+  fail(RIIS_INVALID_ARGUMENT, "longer_than is " + shortest(longer_than) + "; it must be finite and at least 0");
 }
 
 const double *points_of(vtkUnstructuredGrid *grid) {
@@ -219,6 +155,13 @@ RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const ri
                                                    double far_distance, const char *prefix) {
   return guarded([&](const CaughtOutput &) {
     set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance, require(prefix, "prefix"));
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_mark_result *result, int32_t fields,
+                                              const char *prefix) {
+  return guarded([&](const CaughtOutput &) {
+    set_fields(require(mesh, "mesh")->grid, require(result, "result"), fields, require(prefix, "prefix"));
   });
 }
 

@@ -2,43 +2,28 @@
 // Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files.
 #include <riis/riis_vtk.h>
 
-#include <array>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <vtkCamera.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "vtk/array_names.hpp"
 #include "vtk/display.hpp"
 #include "vtk/drawing.hpp"
 #include "vtk/files.hpp"
 #include "vtk/mesh.hpp"
 #include "vtk/picture_options.hpp"
-#include "vtk/picture_panels.hpp"
+#include "vtk/picture_scene.hpp"
 #include "vtk/picture_texts.hpp"
-#include "vtk/picture_view.hpp"
-#include "vtk/surface_polydata.hpp"
+#include "vtk/text.hpp"
 #include "vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
 namespace {
-
-void check_has_marks(const riis_vtk_mesh *mesh) {
-  for (const char *name : {marked_array, distance_array, leaflet_array}) {
-    if (!mesh->grid->GetPointData()->GetArray(name)) {
-      fail(RIIS_INVALID_ARGUMENT, "mesh has no marks: call riis_vtk_mesh_set_marks before riis_vtk_draw");
-    }
-  }
-}
 
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
   ReplacingFile file(path);
@@ -48,87 +33,6 @@ void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOut
   file.write(bytes->GetPointer(0), bytes->GetNumberOfValues());
   file.commit("IEND");
 }
-
-// The texts of a picture that do not change with its view.
-std::vector<PanelTexts> texts_of(const riis_vtk_picture_options &options, const SurfacePanel &surface,
-                                 vtkIdType n_triangles, const MarkCounts *marks) {
-  const std::string title = options.title ? drawable(options.title) : "Surface";
-  std::vector<PanelTexts> panels = {{{title + ": " + counted(n_triangles, "triangle")}, {}}};
-  for (const vtkIdType leaflet : surface.leaflets) {
-    const bool named = leaflet >= 0 && leaflet < options.n_leaflet_names;
-    panels[0].key.push_back({named ? drawable(options.leaflet_names[leaflet]) : "leaflet " + std::to_string(leaflet),
-                             colour_of_leaflet(leaflet)});
-  }
-  if (!marks) return panels;
-  std::string cells = grouped(marks->n_whole_cells) + " whole, " + grouped(marks->n_partly_cells) + " partly marked " +
-                      (marks->n_partly_cells == 1 ? "cell" : "cells");
-  std::vector<KeyEntry> key = {{"pale: partly marked", grey}};
-  if (options.leaking_edges) {
-    cells += ", " + counted(options.n_leaking_edges, "leaking edge");
-    if (options.n_leaking_edges > 0) key.push_back({"leaking edges", leak_colour});
-  }
-  panels.push_back(
-      {{"Marked: " + grouped(marks->n_marked_nodes) + " of " + counted(marks->n_nodes, "node"), cells}, key});
-  return panels;
-}
-
-// The parts that all views of one picture share.
-class Scene {
- public:
-  Scene(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk_picture_options &options)
-      : layout_(options.width, options.height, mesh ? 2 : 1),
-        triangles_(polydata_of(surface)),
-        mesh_(mesh ? mesh->grid : nullptr),
-        surface_(surface_panel(triangles_)) {
-    if (mesh_) marks_.emplace(mesh_, options.n_leaking_edges, options.leaking_edges, layout_.line_width());
-    texts_ = texts_of(options, surface_, triangles_->GetNumberOfCells(), marks_ ? &marks_->counts() : nullptr);
-    window_->SetOffScreenRendering(1);
-    window_->SetMultiSamples(4);
-    window_->SetSize(options.width, options.height);
-    window_->SetNumberOfLayers(2);
-    add_panel(surface_.renderer, 0);
-    if (marks_) add_panel(marks_->renderer(), 1);
-  }
-
-  vtkRenderWindow *render(std::int32_t of) {
-    const View view(of);
-    const Extents surface = view.extents_of(triangles_);
-    const Extents mesh = mesh_ ? view.extents_of(mesh_) : surface;
-    const Sight sight = sight_of(surface, mesh_ ? &mesh : nullptr, layout_.panel_width() / layout_.panel_height());
-    aim_camera(camera_, view, sight);
-    std::vector<PanelTexts> texts = texts_;
-    if (marks_) {
-      marks_->look(view, sight);
-      if (sight.is_cut()) texts[1].key.push_back({"dashed: the mesh goes on", grey});
-    }
-    if (behind_) window_->RemoveRenderer(behind_);
-    behind_ = texts_of_picture(layout_, texts, view, sight, mesh_ ? "mesh unit" : "unit");
-    window_->AddRenderer(behind_);
-    surface_.renderer->ResetCameraClippingRange();
-    if (marks_) marks_->renderer()->ResetCameraClippingRange();
-    window_->Render();
-    return window_;
-  }
-
- private:
-  void add_panel(vtkRenderer *renderer, int panel) {
-    const std::array<double, 4> part = layout_.viewport(panel);
-    renderer->SetViewport(part[0], part[1], part[2], part[3]);
-    renderer->SetLayer(1);
-    renderer->SetActiveCamera(camera_);
-    window_->AddRenderer(renderer);
-  }
-
-  Layout layout_;
-  vtkSmartPointer<vtkPolyData> triangles_;
-  vtkUnstructuredGrid *mesh_;
-  SurfacePanel surface_;
-  std::optional<MarksPanel> marks_;
-  std::vector<PanelTexts> texts_;
-  vtkNew<vtkCamera> camera_;
-  vtkNew<vtkRenderWindow> window_;
-  vtkSmartPointer<vtkRenderer> behind_;
-};
 
 struct Shot {
   std::int32_t view;
@@ -144,16 +48,37 @@ void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk
   if (mesh) check_has_marks(mesh);
   if (shots.empty()) return;
   const HeldDisplay display;
-  Scene scene(surface, mesh, options);
+  Scene scene(mesh ? mesh->grid : nullptr, options);
+  scene.show(surface, title_of(options), {options.n_leaking_edges, options.leaking_edges});
   for (const Shot &shot : shots) {
-    vtkRenderWindow *window = scene.render(shot.view);
+    vtkRenderWindow *window = scene.render(shot.view, std::nullopt);
     caught.check(shot.path);
     write_png(window, shot.path, caught);
   }
 }
 
+Bounds bounds_of(const double *lower, const double *upper) {
+  Bounds bounds;
+  for (std::size_t k = 0; k < 3; ++k) {
+    bounds[k] = {lower[k], upper[k]};
+    if (std::isfinite(lower[k]) && std::isfinite(upper[k]) && lower[k] <= upper[k]) continue;
+    const std::string place = "[" + std::to_string(k) + "]";
+    fail(RIIS_INVALID_ARGUMENT, "lower" + place + " is " + shortest(lower[k]) + ", upper" + place + " is " +
+                                    shortest(upper[k]) + "; they must be finite and ascend");
+  }
+  return bounds;
+}
+
 }  // namespace
 }  // namespace riis::vtk
+
+struct riis_vtk_film {
+  riis::vtk::HeldDisplay display;  // held for as long as the scene's window
+  std::int32_t view;
+  riis::vtk::Bounds bounds;
+  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; NULL without one
+  riis::vtk::Scene scene;
+};
 
 using namespace riis::vtk;
 
@@ -197,6 +122,41 @@ RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis
     }
     draw(surface, mesh, completed_picture_options(options), shots, caught);
   });
+}
+
+RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
+                                          const riis_vtk_picture_options *options, riis_vtk_film **film) {
+  return guarded([&](const CaughtOutput &) {
+    require(lower, "lower");
+    require(upper, "upper");
+    require(film, "film");
+    const riis_vtk_picture_options whole = completed_picture_options(options);
+    check_view(whole.view, "options->view");
+    check_picture_options(whole, mesh);
+    const Bounds bounds = bounds_of(lower, upper);
+    vtkUnstructuredGrid *grid = mesh ? mesh->grid.Get() : nullptr;
+    *film = new riis_vtk_film{{}, whole.view, bounds, {grid}, {grid, whole}};
+  });
+}
+
+RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface *surface, const char *title,
+                                        const char *path) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(film, "film");
+    require(surface, "surface");
+    if (ending_of(require(path, "path")) != "png") fail_file(path, "the file's ending must be .png");
+    if (film->mesh.grid) check_has_marks(&film->mesh);
+    film->scene.show(surface, title ? drawable(title) : "Surface", {});
+    vtkRenderWindow *window = film->scene.render(film->view, film->bounds);
+    caught.check(path);
+    write_png(window, path, caught);
+  });
+}
+
+RIIS_API void riis_vtk_film_destroy(riis_vtk_film **film) {
+  if (!film) return;
+  delete *film;
+  *film = nullptr;
 }
 
 }  // extern "C"

@@ -148,25 +148,30 @@ Colour colour_of_leaflet(vtkIdType leaflet) {
   return {bytes[0] / 255.0, bytes[1] / 255.0, bytes[2] / 255.0};
 }
 
-SurfacePanel surface_panel(vtkPolyData *surface) {
-  SurfacePanel panel{empty_panel(), {}};
+SurfacePanel::SurfacePanel() : renderer_(empty_panel()) {}
+
+void SurfacePanel::show(vtkPolyData *surface) {
+  leaflets_.clear();
   vtkDataArray *leaflet = surface->GetCellData()->GetArray(leaflet_array);
   std::vector<vtkIdType> leaflets;
   for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i) {
     leaflets.push_back(static_cast<vtkIdType>(leaflet->GetComponent(i, 0)));
-    panel.leaflets.insert(leaflets.back());
+    leaflets_.insert(leaflets.back());
   }
   colour_faces(surface, leaflets, 0);
-  panel.renderer->AddActor(coloured_actor(smoothed(surface)));
-  return panel;
+  renderer_->RemoveAllViewProps();
+  renderer_->AddActor(coloured_actor(smoothed(surface)));
 }
 
-MarksPanel::MarksPanel(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges,
-                       double pixels)
-    : renderer_(empty_panel()), pixels_(pixels) {
+MarksPanel::MarksPanel(vtkUnstructuredGrid *grid, double pixels) : renderer_(empty_panel()), pixels_(pixels) {
+  add_outline(grid);
+}
+
+void MarksPanel::show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges) {
+  for (vtkActor *actor : {partly_.Get(), whole_.Get(), leaks_.Get()}) renderer_->RemoveActor(actor);
+  leaks_ = nullptr;
   add_marks(grid);
   add_leaks(grid, n_leaking_edges, leaking_edges);
-  add_outline(grid);
 }
 
 void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
@@ -190,7 +195,8 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == whole_marked; });
   const Outside whole = outside_of(grid, &chosen, nullptr);
   colour_faces(whole.faces, leaflets_of(grid, whole.cell_id), 0);
-  renderer_->AddActor(coloured_actor(whole.faces));
+  whole_ = coloured_actor(whole.faces);
+  renderer_->AddActor(whole_);
 }
 
 void MarksPanel::add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std::int64_t *edges) {

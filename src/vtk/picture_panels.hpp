@@ -2,6 +2,7 @@
 // In: a surface's triangles, a marked mesh. Out: the two panels of a picture, made once for all views.
 #pragma once
 
+#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
@@ -13,7 +14,7 @@
 
 class vtkActor;
 class vtkPolyData;
-class vtkRenderer;
+
 class vtkUnstructuredGrid;
 
 namespace riis::vtk {
@@ -25,13 +26,19 @@ Colour colour_of_leaflet(vtkIdType leaflet);
 constexpr Colour leak_colour = {0.86, 0.0, 0.0};
 constexpr Colour grey = {0.2, 0.2, 0.2};
 
-struct SurfacePanel {
-  vtkSmartPointer<vtkRenderer> renderer;
-  std::set<vtkIdType> leaflets;
-};
-
 // The surface, each leaflet in its colour.
-SurfacePanel surface_panel(vtkPolyData *surface);
+class SurfacePanel {
+ public:
+  SurfacePanel();
+  // Replaces the surface shown before.
+  void show(vtkPolyData *surface);
+  vtkRenderer *renderer() const { return renderer_; }
+  const std::set<vtkIdType> &leaflets() const { return leaflets_; }
+
+ private:
+  vtkSmartPointer<vtkRenderer> renderer_;
+  std::set<vtkIdType> leaflets_;
+};
 
 struct MarkCounts {
   vtkIdType n_nodes = 0, n_marked_nodes = 0;
@@ -43,8 +50,11 @@ struct MarkCounts {
 // cell is paler. Edges that leak are red. Cells of less than the grid's largest dimension are left out.
 class MarksPanel {
  public:
-  // The grid has the marking's point arrays. leaking_edges(2, n_leaking_edges) holds checked node ids.
-  MarksPanel(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges, double pixels);
+  // pixels is the width of a line.
+  MarksPanel(vtkUnstructuredGrid *grid, double pixels);
+  // Replaces the marks shown before by those that the grid's point arrays have now. leaking_edges(2, n_leaking_edges) holds
+  // checked node ids.
+  void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }
   // Turns to a view: cuts a mesh that goes on beyond the panel, and moves leaking edges in front of everything else.
@@ -57,9 +67,9 @@ class MarksPanel {
 
   vtkSmartPointer<vtkRenderer> renderer_;
   MarkCounts counts_;
-  double pixels_;                                                    // the width of a line
-  double partly_length_ = 0;                                         // mean edge length of partly marked cells
-  vtkSmartPointer<vtkActor> partly_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
+  double pixels_;
+  double partly_length_ = 0;                                                 // mean edge length of partly marked cells
+  vtkSmartPointer<vtkActor> partly_, whole_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
 };
 
 }  // namespace riis::vtk

@@ -49,15 +49,41 @@ View::View(std::int32_t view) {
   axes = {right, up, away};
 }
 
-Extents View::extents_of(vtkPointSet *data) const {
+namespace {
+
+Extents no_extents() {
   Extents extents;
   extents.fill({std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()});
+  return extents;
+}
+
+void grow(Extents &extents, const View &view, const double point[3]) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double t = vtkMath::Dot(point, view.axes[k].data());
+    extents[k] = hull(extents[k], {t, t});
+  }
+}
+
+}  // namespace
+
+Extents View::extents_of(vtkPointSet *data) const {
+  Extents extents = no_extents();
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     double point[3];
     data->GetPoint(i, point);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double t = vtkMath::Dot(point, axes[k].data());
-      extents[k] = hull(extents[k], {t, t});
+    grow(extents, *this, point);
+  }
+  return extents;
+}
+
+Extents View::extents_of(const Bounds &bounds) const {
+  Extents extents = no_extents();
+  for (const double x : {bounds[0].lower, bounds[0].upper}) {
+    for (const double y : {bounds[1].lower, bounds[1].upper}) {
+      for (const double z : {bounds[2].lower, bounds[2].upper}) {
+        const double corner[3] = {x, y, z};
+        grow(extents, *this, corner);
+      }
     }
   }
   return extents;

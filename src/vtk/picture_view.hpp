@@ -23,6 +23,8 @@ struct Extent {
 
 // Extents along the axes of a view: to the right, upwards, away from the eye.
 using Extents = std::array<Extent, 3>;
+// Extents along x, y and z.
+using Bounds = std::array<Extent, 3>;
 
 // A view without perspective, so that lengths can be compared: right, up, away are unit vectors, perpendicular to each other.
 struct View {
@@ -33,6 +35,8 @@ struct View {
   const Vector &up() const { return axes[1]; }
   const Vector &away() const { return axes[2]; }
   Extents extents_of(vtkPointSet *data) const;
+  // Those of the whole box.
+  Extents extents_of(const Bounds &bounds) const;
 };
 
 // The part of space that a panel shows, along the axes of its view.

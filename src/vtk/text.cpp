@@ -2,6 +2,7 @@
 #include "vtk/text.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace riis::vtk {
 
@@ -27,6 +28,12 @@ std::string_view take_word(std::string_view &text) {
       text.substr(static_cast<std::size_t>(begin - text.begin()), static_cast<std::size_t>(end - begin));
   text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
   return word;
+}
+
+std::string shortest(double number) {
+  char text[32];
+  const char *end = std::to_chars(text, text + sizeof text, number).ptr;
+  return {text, static_cast<std::size_t>(end - text)};
 }
 
 }  // namespace riis::vtk

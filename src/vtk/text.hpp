@@ -17,4 +17,7 @@ std::string_view take_line(std::string_view &text);
 // Removes the first word and the blanks before it. Returns the word, or "" if there is none.
 std::string_view take_word(std::string_view &text);
 
+// The shortest text that stands for the number, such as "nan" and "0.1".
+std::string shortest(double number);
+
 }  // namespace riis::vtk

@@ -466,6 +466,9 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
   SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
   SIGNATURE(riis_vtk_mesh_set_point_array, int32_t, (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
+  SIGNATURE(riis_vtk_mesh_set_fields, int32_t, (riis_vtk_mesh *, const riis_mark_result *, int32_t, const char *));
+  SIGNATURE(riis_vtk_mesh_extract, int32_t, (const riis_vtk_mesh *, int64_t, const int64_t *, riis_vtk_mesh **));
+  SIGNATURE(riis_vtk_mesh_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));
   SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
   SIGNATURE(riis_vtk_mesh_median_edge, int32_t, (const riis_vtk_mesh *, double *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
@@ -485,6 +488,10 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_motion_destroy, void, (riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, riis_keyframe_arrays *));
   SIGNATURE(riis_vtk_picture_options_init, int32_t, (riis_vtk_picture_options *, int64_t));
+  SIGNATURE(riis_vtk_film_create, int32_t,
+            (const riis_vtk_mesh *, const double *, const double *, const riis_vtk_picture_options *, riis_vtk_film **));
+  SIGNATURE(riis_vtk_film_draw, int32_t, (riis_vtk_film *, const riis_surface *, const char *, const char *));
+  SIGNATURE(riis_vtk_film_destroy, void, (riis_vtk_film **));
   SIGNATURE(riis_vtk_draw, int32_t,
             (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, const char *));
   SIGNATURE(riis_vtk_draw_views, int32_t,

@@ -37,15 +37,15 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* Moves the warning about leaks to a buffer of its own: most meshes of the tests are so coarse that the valve leaks in them. */
+/* Moves the warnings about leaks to a buffer of its own: most meshes of the tests are so coarse that the valve leaks in them. */
 static void take_leaks(void) {
   program_leaks[0] = 0;
   for (char *line = program_err; *line;) {
     char *const end = strchr(line, '\n'), *const next = end ? end + 1 : line + strlen(line);
     const size_t length = (size_t)(next - line);
-    if (strncmp(line, "riis-mark: the surface leaks: ", 30) == 0) {
-      memcpy(program_leaks, line, length);
-      program_leaks[length] = 0;
+    const char *const leaks = strstr(line, " leaks: ");
+    if (strncmp(line, "riis-mark: the surface", 22) == 0 && leaks && leaks < next) {
+      strncat(program_leaks, line, length);
       memmove(line, next, strlen(next) + 1);
     } else {
       line = next;

@@ -95,7 +95,8 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "sheet.pvd is a motion: it needs --time T", "--surface", motion, "--surface-output", moved);
   RUN_REFUSED(2, "--time has no effect with --surface", "--surface", still, "--time", "0", "--surface-output", moved);
   RUN_REFUSED(2, "--time requires --surface", "--valve", "mitral", "--time", "0", "--surface-output", moved);
-  RUN_REFUSED(2, "--period requires --time", "--surface", motion, "--period", "1", "--surface-output", moved);
+  RUN_REFUSED(2, "--period needs a motion, --surface FILE.pvd, or --cycle", "--period", "1", "--surface-output", moved);
+  RUN_REFUSED(2, "it needs --time T", "--surface", motion, "--period", "1", "--surface-output", moved);
   RUN_REFUSED(2, "--time: 'soon' is not a number", "--surface", motion, "--time", "soon", "--surface-output", moved);
   RUN_REFUSED(2, "--time is nan; it must be finite", "--surface", motion, "--time", "nan", "--surface-output", moved);
   RUN_REFUSED(2, "--time is 2e+30; it must be finite", "--surface", motion, "--time", "2e30", "--surface-output", moved);

@@ -13,8 +13,8 @@ seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
 # Each harness has a share of the time.
-declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [json]=3 [stl]=2 [command_line]=2)
-harnesses=(api vtk vtu vtp pvd json stl command_line)
+declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [json]=3 [stl]=2 [command_line]=2 [cycle]=1)
+harnesses=(api vtk vtu vtp pvd json stl command_line cycle)
 
 # options HARNESS SECONDS: prints the options of every run of a harness. No input of its size should reach the limits: seconds for
 # a single input, and memory, most of which the address sanitizer holds back.

@@ -25,6 +25,9 @@ void check(const riis::cli::Options &options) {
          options.surface_options.half_thickness);
   EXPECT(!options.prefix.empty() && options.prefix.find_first_of(" /\n\"<") == std::string::npos, "prefix %s",
          options.prefix.c_str());
+  EXPECT(options.series.times.size() <= 100000, "%zu times", options.series.times.size());
+  for (std::size_t i = 1; i < options.series.times.size(); ++i)
+    EXPECT(options.series.times[i] > options.series.times[i - 1], "time %zu is not above the one before", i);
   riis_valve *handle = nullptr;
   EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",
          riis_last_error());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark's JSON files: each input is read as a valve of patches and as parameters of either kind of valve. It is refused with
-// an exit status and a message, or it is a valve. The valve's parameters, printed and read back, must be unchanged.
+// riis-mark's JSON files: each input is read as a valve of patches, as parameters of either kind of valve, and as the opening of
+// a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. The valve's parameters, printed and read back, must be unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 
+#include "cli/case_opening.hpp"
 #include "cli/json_file.hpp"
 #include "cli/parameters.hpp"
 #include "cli/refusal.hpp"
@@ -61,11 +62,26 @@ void read_valve() {
   });
 }
 
+void read_opening() {
+  is_taken([] {
+    const riis::cli::Json root = riis::cli::parse_json_file(file().path(), "a case");
+    const riis::cli::CaseValues values(file().path(), "valve 0", root, {"opening"});
+    // No input names a file of the machine.
+    const riis::cli::CaseOpening found =
+        riis::cli::case_opening(values, [](const std::string &) { return file().path() + ".none"; });
+    for (const double time : {-1.0, 0.0, 0.37, 1e9}) {
+      const double opening = found.law.at(time);
+      EXPECT(opening >= 0 && opening <= 1, "opening %g at %g", opening, time);
+    }
+  });
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
   file().hold(bytes, size);
   read_valve();
+  read_opening();
   for (const char *kind : {"aortic", "mitral"}) {
     file().hold(bytes, size);
     read_parameters(kind);

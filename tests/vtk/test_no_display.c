@@ -25,6 +25,10 @@ static void expect_unavailable(const char *display, const char *part_of_text) {
   expect_refused(status, RIIS_UNAVAILABLE, part_of_text);
   expect_refused(status, RIIS_UNAVAILABLE, "xvfb-run");
   assert_int_equal(n_printed, 0);
+  riis_vtk_film *film = NULL;
+  const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1};
+  expect_refused(riis_vtk_film_create(NULL, lower, upper, NULL, &film), RIIS_UNAVAILABLE, part_of_text);
+  assert_null(film);
   assert_int_equal(scratch_n_files(), n_before);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

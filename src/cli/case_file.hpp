@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a case file, the valves of a mesh with their placements and motions, in JSON. Out: the case. Paths in the file are relative
+// to it. Refusals name the file, the valve and the key.
+#pragma once
+
+#include "cli/case.hpp"
+
+namespace riis::cli {
+
+// By --case. The mesh, the times and the distance limit of the command line, if given, take the place of the file's.
+Case read_case(const Options &options);
+
+}  // namespace riis::cli

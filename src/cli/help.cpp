@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/help.hpp"
+
+namespace riis::cli {
+
+const char *const description =
+    "Marks the nodes of a mesh whose distance to the surface of a heart valve is at most the half thickness.";
+
+const char *const footer = R"(Examples:
+  riis-mark mesh.vtu --output marked.vtu --picture valve.png
+  riis-mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
+  riis-mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
+  riis-mark --print-params > valve.json
+  riis-mark --describe-params --valve mitral
+  riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
+  riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
+  riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
+  riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
+  riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
+  riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
+
+Marked mesh
+  The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
+  1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
+  can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
+
+Units
+  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of
+  the mitral valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
+  own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
+  program knows no units, and --scale is the factor from the surface's unit to the mesh's.
+
+Warnings
+  A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
+  are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
+  wrong marks look like right ones. --allow-none is for valves that are near no node at times.
+
+Parameters
+  A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
+  cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
+  left to right. --opening comes last, and excludes --set opening.
+
+Opening
+  The mitral valve's parameters make it closed and open. It is open unless --opening says otherwise. The aortic valve stays at
+  opening 0 without --params-open. With --params-open, the options above make the closed state. The defaults with that file's
+  parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
+  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open.
+
+Series in time
+  --times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
+  to 1, ascending in time. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu and so on, and
+  beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed all times have
+  the same triangles, so that K does not jump with them.
+  Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
+  --resistance it has riis_resistance, K, and riis_momentum, K times that velocity. Velocities are means since the time before;
+  the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
+  motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
+  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
+  the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
+  the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
+  and needs the program ffmpeg. Leaks are looked for where the valve is least open.
+
+Cases
+  --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
+  {"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
+   "times": "0:0.8:0.01",
+   "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
+              {"name": "aortic", "valve": "aortic", "open_parameters": {"leaflet_radius_in": 1},
+               "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
+  Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's. A valve
+  has "valve", a kind or a file of patches, or "surface", a file, which stays at rest unless it is a .pvd, with "period". It may have "parameters" and
+  "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate", "half_thickness",
+  "resistance", "tolerance", "triangulation", "flip_normals", "leaflets" and "skip_zero_area", as the options of these names. "opening" is a
+  number or one of
+    {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
+    {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
+    {"opening_start": 0.4, "opening_seconds": 0.05, "closing_start": 0.7, "closing_seconds": 0.05, "closed": 0, "open": 1,
+     "period": 0.8}
+  Of several valves each has its arrays, NAME_marked and so on; riis_resistance and riis_momentum are sums over the valves.
+  Without times there is one mesh, --output marked.vtu.
+
+Leaks
+  The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
+  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
+  between leaflets.
+
+Valve from patches
+  --valve FILE.json is a valve from patches, by the curves that bound them:
+  {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
+               "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
+   "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
+  2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
+  way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
+  beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
+
+Motion
+  --surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
+  points move. --time T takes them there, linearly between two files, and --times to each of its times. --surface-output then
+  has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep
+  their order.
+
+Searches
+  exhaustive  queries the distance of every node near the valve
+  neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
+  clusters    takes nodes that are near each other together
+  paper       the published search, for comparison: from one start, through marked nodes only
+  The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
+  Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
+  connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
+  tetrahedron, pyramid, wedge, hexahedron or voxel.
+
+Distances
+  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for.
+  --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
+  and here for comparison.
+
+While it runs
+  On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
+  --quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
+
+Exit status; one line on stderr says what was wrong:
+  0  fine
+  1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
+     value (in a file or by --set), no display for a picture, no ffmpeg for a movie, no memory
+  2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
+     that would replace an input, another output, or arrays of the mesh
+  3  no node is marked at any time, without --allow-none; the outputs are written all the same)";
+
+std::string short_help() {
+  return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
+  riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
+  riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
+  riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
+riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
+)";
+}
+
+}  // namespace riis::cli

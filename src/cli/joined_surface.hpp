@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the surfaces of several valves. Out: their triangles in one surface, with leaflets numbered on from valve to valve.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "cli/handles.hpp"
+#include "cli/moving_valve.hpp"
+
+namespace riis::cli {
+
+// One more than the largest id.
+int32_t n_leaflets_of(const riis_surface *surface);
+// The first leaflet of each valve among those of all, and the number of all.
+std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
+Surface joined_surface(const std::vector<MovingValve> &valves);
+
+}  // namespace riis::cli

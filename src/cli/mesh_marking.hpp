@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// One valve in one mesh: reading the mesh, marking it, and its arrays. Single runs and series share this.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <string>
+#include <vector>
+
+#include "cli/command_line.hpp"
+#include "cli/handles.hpp"
+#include "cli/report.hpp"
+
+namespace riis::cli {
+
+MeshFile read_mesh(const Options &options, Seconds &seconds);
+// The nodes of the file, which outlives the mesh. path names the file in refusals.
+Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
+MarkResult new_result();
+
+// Marks a single node, so that the library refuses bad options before a large mesh is read and marked.
+void rehearse_marking(const Options &options, const riis_surface *surface);
+bool needs_adjacency(int32_t search);
+// Not even --quiet silences this: some marks may be missing.
+void warn_of_incomplete_marks();
+
+// The program replaces no array of the user's by chance.
+void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
+
+// PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and those of the fields.
+std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
+void set_marks(const Options &options, const riis_mark_result *result, int32_t fields, riis_vtk_mesh *file);
+
+// K and K u_surface of every node, summed over the valves that have a resistance.
+class ResistanceSum {
+ public:
+  enum class Momentum { no, yes };
+  ResistanceSum(int64_t n_nodes, Momentum momentum);
+  void add(const Options &options, const riis_mark_result *result);
+  // PREFIX_resistance and PREFIX_momentum; none if no valve had a resistance.
+  void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
+
+ private:
+  int64_t n_nodes_;
+  std::vector<double> coefficient_, momentum_;
+  bool has_any_ = false;
+};
+
+}  // namespace riis::cli

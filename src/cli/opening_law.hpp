@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the way a user describes how a valve opens. Out: the opening at any time, by the library's laws.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace riis::cli {
+
+// Keys in time. A period of 0 is none.
+struct OpeningTable {
+  std::vector<double> times, openings;
+  double period = 0;
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+};
+
+class OpeningLaw {
+ public:
+  // Stays as it is.
+  explicit OpeningLaw(double opening) : law_(opening) {}
+  // subject, such as a file's name, goes before the library's refusals of a law.
+  OpeningLaw(OpeningTable table, const std::string &subject);
+  OpeningLaw(const riis_opening_times &times, const std::string &subject);
+
+  double at(double time) const;
+  bool is_constant() const { return std::holds_alternative<double>(law_); }
+
+ private:
+  // Asks the law once, so that the library refuses it before any work.
+  void rehearse() const;
+
+  std::variant<double, OpeningTable, riis_opening_times> law_;
+  std::string subject_;
+};
+
+// The largest opening at these times; that at any time if there are none, which only a constant law has.
+double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
+
+// The names of RIIS_INTERPOLATION_*, at their positions.
+const std::vector<std::string> &interpolation_names();
+
+}  // namespace riis::cli

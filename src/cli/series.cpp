@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/series.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/array_view.hpp"
+#include "cli/advice.hpp"
+#include "cli/interruption.hpp"
+#include "cli/mesh_marking.hpp"
+#include "cli/moving_valve.hpp"
+#include "cli/numbers.hpp"
+#include "cli/outputs.hpp"
+#include "cli/progress.hpp"
+#include "cli/series_files.hpp"
+#include "cli/series_pictures.hpp"
+#include "cli/series_table.hpp"
+#include "cli/sweep.hpp"
+#include "cli/warnings.hpp"
+
+namespace riis::cli {
+namespace {
+
+constexpr int32_t series_fields = RIIS_FIELD_NORMAL | RIIS_FIELD_SIDE | RIIS_FIELD_VELOCITY;
+
+int64_t n_nodes_of(const riis_vtk_mesh *file) {
+  int64_t n = 0;
+  check(riis_vtk_mesh_nodes(file, &n, nullptr, nullptr));
+  return n;
+}
+
+// The arrays of a series. The part of a mesh also tells the ids of its nodes in the whole mesh.
+std::vector<std::string> names_of_series(const Case &all) {
+  std::vector<std::string> names;
+  for (const ValveSource &valve : all.valves) {
+    const std::vector<std::string> own = names_of_marks(valve.options.prefix, series_fields);
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  if (all.has_resistance()) {
+    names.push_back(all.options.prefix + "_resistance");
+    names.push_back(all.options.prefix + "_momentum");
+  }
+  if (!all.options.series.all_cells) names.emplace_back("riis_node_id");
+  return names;
+}
+
+// Such as "12.3 MB".
+std::string bytes_text(double n) {
+  const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.3g %s", n, units[unit]);
+  return text;
+}
+
+// The second pass, and the files that it leaves.
+class Writing {
+ public:
+  // pictures may be NULL.
+  Writing(Case &all, std::vector<MovingValve> &valves, riis_vtk_mesh *part, SeriesPictures *pictures)
+      : all_(all),
+        valves_(valves),
+        part_(part),
+        pictures_(pictures),
+        nodes_(borrow_nodes(part, all.options.mesh)),
+        meshes_(all.options.output, ".vtu", times().size()),
+        surfaces_(all.options.surface_output, ".vtp", times().size()),
+        table_(all) {}
+
+  // The size of all files, from those of the first step.
+  void announce(int64_t n_nodes_of_mesh) {
+    if (all_.options.quiet || !meshes_.is_wanted()) return;
+    set_arrays(0);
+    int64_t n_bytes = 0;
+    check(riis_vtk_mesh_file_size(part_, &n_bytes));
+    const auto n = static_cast<double>(times().size());
+    std::fprintf(stderr, "riis-mark: writing %s with %s of %s nodes, %s in all, to %s\n",
+                 counted(view(times()).size(), "file").c_str(), grouped(n_nodes_of(part_)).c_str(),
+                 grouped(n_nodes_of_mesh).c_str(), bytes_text(n * static_cast<double>(n_bytes)).c_str(),
+                 meshes_.folder().c_str());
+  }
+
+  // Ends early, after a whole step, if a signal waits.
+  void run(Report &report) {
+    if (meshes_.is_wanted()) meshes_.make_folder();
+    if (surfaces_.is_wanted()) surfaces_.make_folder();
+    StepProgress progress("writing", times().size(), all_.options.quiet);
+    try {
+      for (std::size_t step = 0; step < times().size() && !UnbrokenWrite::has_signal(); ++step) {
+        progress.begin(step);
+        do_step(step, progress.seconds());
+        if (pictures_) pictures_->draw(step, valves_, report);
+      }
+    } catch (...) {
+      write_lists();
+      throw;
+    }
+    write_lists();
+    if (pictures_ && !UnbrokenWrite::has_signal()) pictures_->encode(report);
+  }
+
+  const SeriesTable &table() const { return table_; }
+  const SeriesFiles &meshes() const { return meshes_; }
+  const SeriesFiles &surfaces() const { return surfaces_; }
+
+ private:
+  const std::vector<double> &times() const { return all_.options.series.times; }
+
+  // The first time has no time before it, and takes the first step's length.
+  double time_before(std::size_t step) const {
+    return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
+  }
+
+  void set_arrays(std::size_t step) {
+    ResistanceSum resistance(n_nodes_of(part_), ResistanceSum::Momentum::yes);
+    for (MovingValve &valve : valves_) {
+      valve.move_to(times()[step], time_before(step));
+      valve.mark(nodes_.get(), series_fields);
+      set_marks(valve.options(), valve.result(), series_fields, part_);
+      resistance.add(valve.options(), valve.result());
+    }
+    resistance.set_arrays(all_.options.prefix, part_);
+  }
+
+  void do_step(std::size_t step, double seconds_so_far) {
+    const Stage marking("", true);
+    set_arrays(step);
+    table_.add(times()[step], valves_, marking.seconds());
+    if (meshes_.is_wanted()) {
+      const std::string path = meshes_.path_of(step, "");
+      check(riis_vtk_mesh_write(part_, path.c_str()));
+      meshes_.add(times()[step], 0, path);
+    }
+    for (std::size_t valve = 0; surfaces_.is_wanted() && valve < valves_.size(); ++valve) {
+      const std::string path = surfaces_.path_of(step, all_.part_of(valve));
+      check(riis_vtk_surface_write(valves_[valve].surface(), path.c_str()));
+      surfaces_.add(times()[step], valve, path);
+    }
+    // A process that is killed leaves lists that are a second old. Long lists would take longer to write than the files.
+    if (step > 0 && seconds_so_far - seconds_listed_ < 1) return;
+    seconds_listed_ = seconds_so_far;
+    write_lists();
+  }
+
+  void write_lists() const {
+    if (meshes_.is_wanted()) meshes_.write_list();
+    if (surfaces_.is_wanted()) surfaces_.write_list();
+    if (!all_.options.series.table.empty()) write_text(all_.options.series.table, table_.text());
+  }
+
+  Case &all_;
+  std::vector<MovingValve> &valves_;
+  riis_vtk_mesh *part_;
+  SeriesPictures *pictures_;
+  Mesh nodes_;
+  SeriesFiles meshes_, surfaces_;
+  SeriesTable table_;
+  double seconds_listed_ = 0;
+};
+
+MeshFile part_of(const riis_vtk_mesh *file, const std::vector<int64_t> &node_ids) {
+  riis_vtk_mesh *part = nullptr;
+  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
+  return MeshFile(part);
+}
+
+MeshFile copy_of(const riis_vtk_mesh *file) {
+  std::vector<int64_t> all(static_cast<std::size_t>(n_nodes_of(file)));
+  std::iota(all.begin(), all.end(), 0);
+  return part_of(file, all);
+}
+
+// The first time at which the valve is least open.
+double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &times) {
+  return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
+}
+
+// Only a valve that is as closed as it will be can stop the flow.
+void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
+                           const riis_vtk_mesh *file) {
+  for (MovingValve &valve : valves) {
+    valve.move_to(time_of_least_opening(valve.source().law, all.options.series.times));
+    valve.mark(mesh, 0);
+  }
+  look_for_leaks_of(all, valves, mesh, file);
+}
+
+// Warns of marks that look wrong, by the times at which each valve marks most nodes.
+void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *file) {
+  riis_mark_stats marks{};
+  for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
+    marks.n_marked = sweep.most_marked[valve];
+    const std::string text = warning_of(situation_of(all.valves[valve].options, sweep.surface[valve], marks, file));
+    const std::string part = all.part_of(valve);
+    if (!text.empty()) warn((part.empty() ? "" : part + ": ") + text);
+  }
+}
+
+// What a user reads at the end.
+void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
+  if (all.options.quiet) return;
+  const std::vector<double> &times = all.options.series.times;
+  std::string text = "times     " + counted(view(times).size(), "time") + " from " + shown(times.front()) + " to " +
+                     shown(times.back()) + "\n";
+  text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
+          (writing.meshes().is_wanted() ? ", " + grouped(n_written) + " written\n" : "\n");
+  text += writing.table().summary();
+  for (const SeriesFiles *files : {&writing.meshes(), &writing.surfaces()}) {
+    if (!files->is_wanted()) continue;
+    report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
+                             files->folder());
+  }
+  if (!all.options.series.table.empty()) report.written.push_back(all.options.series.table);
+  for (const std::string &path : report.written) text += "written   " + path + "\n";
+  write_text("-", text);
+}
+
+}  // namespace
+
+ExitCode run_series(Case &all) {
+  const Options &options = all.options;
+  std::vector<MovingValve> valves = moving_valves(all);
+  Report report;
+  MeshFile file = read_mesh(options, report.seconds);
+  check_new_arrays(options, names_of_series(all), file.get());
+  const int64_t n_nodes = n_nodes_of(file.get());
+  Sweep sweep;
+  {
+    const Mesh mesh = borrow_nodes(file.get(), options.mesh);
+    sweep = sweep_of(valves, options.series.times, mesh.get(), n_nodes, options.quiet);
+    look_for_closed_leaks(all, valves, mesh.get(), file.get());
+  }
+  warn_of_sweep(all, sweep, file.get());
+  // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.
+  const UnbrokenWrite unbroken;
+  const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
+  std::optional<SeriesPictures> pictures;
+  if (SeriesPictures::are_wanted(options)) {
+    // Pictures show the whole mesh and have arrays of their own in it.
+    MeshFile drawn = part ? std::move(file) : copy_of(file.get());
+    pictures.emplace(all, std::move(drawn), sweep.box);
+  } else if (part) {
+    file.reset();
+  }
+  riis_vtk_mesh *const written = part ? part.get() : file.get();
+  Writing writing(all, valves, written, pictures ? &*pictures : nullptr);
+  writing.announce(n_nodes);
+  const int64_t n_written = n_nodes_of(written);
+  writing.run(report);
+  if (!UnbrokenWrite::has_signal()) print_summary(all, writing, n_nodes, n_written, report);
+  return writing.table().most_marked() == 0 && !options.allow_none ? exit_none_marked : exit_fine;
+}
+
+}  // namespace riis::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the description of a valve, from the command line or from a case. Out: the valve or the file with its surface, and the
+// surface.
+#pragma once
+
+#include <string>
+
+#include "cli/command_line.hpp"
+#include "cli/handles.hpp"
+#include "cli/opening_law.hpp"
+#include "cli/report.hpp"
+
+namespace riis::cli {
+
+// One valve of a run.
+struct ValveSource {
+  Options options;   // as the command line of this valve alone would give them
+  Valve valve;       // null if a file holds the surface
+  SurfaceFile file;  // null for a valve, and for a surface that moves
+  OpeningLaw law{0.0};
+  Keyframes keyframes{};  // of a surface that moves
+  std::string subject{};  // goes before refusals, such as the place in a case; "" for the command line
+};
+
+// subject goes before the refusal of a kind.
+Valve make_kind(const std::string &kind, const std::string &subject);
+// By --valve, --params and the options that go with them.
+Valve make_valve(const Options &options);
+double opening_of(const riis_valve *valve);
+
+// Adds to the component's refusal of a mesh the command that makes a readable file of it.
+void check_mesh_read(riis_status status, const std::string &path);
+// By --surface and --leaflets.
+SurfaceFile read_surface(const Options &options, Seconds &seconds);
+
+// Which velocities a surface from a file has.
+enum class FileVelocity { none, zero };
+Surface make_surface(const ValveSource &source, FileVelocity velocity);
+
+int64_t count_leaflets(const riis_surface *surface);
+
+}  // namespace riis::cli

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --case: valves from a file. The example gives the arrays of single runs with the same options, and the sums over the valves. */
+#include <math.h>
+#include <riis/riis.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+enum { n_side = 31, n_nodes = n_side * n_side * n_side };
+static const char *const example = RIIS_EXAMPLES "/beating_valves.json";
+
+static int64_t read_array(const char *path, const char *name, double *values) {
+  int64_t n_components = 0, n_tuples = 0;
+  if (!shim_read_array(path, 'p', name, NULL, &n_components, &n_tuples, NULL)) fail_msg("%s lacks %s", path, name);
+  assert_true(n_components * n_tuples <= 3 * n_nodes);
+  shim_read_array(path, 'p', name, NULL, NULL, NULL, values);
+  return n_components * n_tuples;
+}
+
+static int has_array(const char *path, const char *name) {
+  return shim_read_array(path, 'p', name, NULL, NULL, NULL, NULL);
+}
+
+/* The array of the series' part, and of the single run at the part's nodes. */
+static void expect_same_array(const char *part, const char *single, const char *name) {
+  static double ids[n_nodes], values[3 * n_nodes], whole[3 * n_nodes];
+  const int64_t n = read_array(part, "riis_node_id", ids);
+  const int64_t n_components = read_array(single, name, whole) / n_nodes;
+  assert_int_equal(read_array(part, name, values), n_components * n);
+  for (int64_t i = 0; i < n; ++i)
+    assert_memory_equal(values + n_components * i, whole + n_components * (int64_t)ids[i],
+                        (size_t)n_components * sizeof *values);
+}
+
+/* The example at 0.44: the mitral valve opens while the aortic valve is closed; at 0.3 the aortic valve closes. */
+static void test_example(void **state) {
+  (void)state;
+  static double K[n_nodes], of_mitral[n_nodes], of_aortic[n_nodes], ids[n_nodes], momentum[3 * n_nodes];
+  static double u[2][3 * n_nodes];
+  const char *mesh = scratch_path("heart.vtu");
+  RUN_FINE(mesh, "--case", example, "--times", "0.27,0.3,0.44", "--output", scratch_path("c.pvd"), "--series-table",
+           scratch_path("c.csv"), "--surface-output", scratch_path("cs.pvd"), "--quiet");
+  /* The mesh is too coarse for the closed valves, and the warning names them. */
+  assert_non_null(strstr(program_leaks, "riis-mark: the surface of mitral leaks: "));
+  assert_non_null(strstr(program_leaks, "riis-mark: the surface of aortic leaks: "));
+  char *table = scratch_read(scratch_path("c.csv"), NULL);
+  double row[8];
+  assert_int_equal(strncmp(table,
+                           "time,mitral_opening,mitral_n_marked,mitral_largest_speed,aortic_opening,"
+                           "aortic_n_marked,aortic_largest_speed,seconds\n0.27,0,",
+                           117),
+                   0);
+  const char *line = strstr(table, "\n0.3,");
+  assert_non_null(line);
+  assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", row, row + 1, row + 2, row + 3, row + 4, row + 5,
+                          row + 6, row + 7),
+                   8);
+  assert_true(row[1] == 0 && row[3] == 0 && fabs(row[4] - 0.5) < 1e-12 && row[5] > 20 && row[6] > 1);
+  free(table);
+  /* The same valves one by one, by options. */
+  scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
+  RUN_FINE(mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "mitral", "--opening", "0", "--resistance",
+           "10000", "--prefix", "mitral", "--output", scratch_path("m.vtu"), "--quiet");
+  RUN_FINE(mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "aortic", "--params-open",
+           scratch_path("open.json"), "--opening", "0.5", "--rotate", "1,0,0,-30", "--translate", "0,3.8,1",
+           "--resistance", "20000", "--prefix", "aortic", "--output", scratch_path("a.vtu"), "--quiet");
+  const char *part = scratch_path("c/c_0001.vtu");
+  expect_same_array(part, scratch_path("m.vtu"), "mitral_marked");
+  expect_same_array(part, scratch_path("m.vtu"), "mitral_distance");
+  expect_same_array(part, scratch_path("m.vtu"), "mitral_leaflet");
+  expect_same_array(part, scratch_path("a.vtu"), "aortic_marked");
+  expect_same_array(part, scratch_path("a.vtu"), "aortic_leaflet");
+  assert_false(has_array(part, "mitral_resistance"));
+  /* K is the sum, and the momentum that of K u. */
+  const int64_t n = read_array(part, "riis_node_id", ids);
+  read_array(part, "riis_resistance", K);
+  read_array(part, "riis_momentum", momentum);
+  read_array(scratch_path("m.vtu"), "mitral_resistance", of_mitral);
+  read_array(scratch_path("a.vtu"), "aortic_resistance", of_aortic);
+  read_array(part, "mitral_velocity", u[0]);
+  read_array(part, "aortic_velocity", u[1]);
+  int n_resisting = 0, n_moving = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    const int64_t node = (int64_t)ids[i];
+    /* The cubic table gives 0.5 but for rounding. */
+    assert_true(fabs(K[i] - (of_mitral[node] + of_aortic[node])) <= 1e-9 * K[i]);
+    n_resisting += K[i] > 0;
+    for (int k = 0; k < 3; ++k) {
+      const double expected = of_mitral[node] * u[0][3 * i + k] + of_aortic[node] * u[1][3 * i + k];
+      assert_true(fabs(momentum[3 * i + k] - expected) <= 1e-9 * (1 + fabs(expected)));
+      n_moving += expected != 0;
+    }
+  }
+  assert_true(n_resisting > 50 && n_moving > 50);
+  assert_true(scratch_exists("cs/cs_mitral_0002.vtp") && scratch_exists("cs/cs_aortic_0002.vtp"));
+  char *list = scratch_read(scratch_path("cs.pvd"), NULL);
+  assert_non_null(strstr(list, "<DataSet timestep=\"0.3\" part=\"1\" file=\"cs/cs_aortic_0001.vtp\"/>"));
+  free(list);
+}
+
+/* The mitral valve of the example opens by times, as the library says. */
+static void test_ramps(void **state) {
+  (void)state;
+  riis_opening_times ramps;
+  double opening = 0, time = 0, found = 0;
+  expect_fine(riis_opening_times_init(&ramps, sizeof ramps));
+  ramps.opening_start = 0.4;
+  ramps.opening_seconds = ramps.closing_seconds = 0.06;
+  ramps.closing_start = 0.72;
+  ramps.period = 0.8;
+  expect_fine(riis_opening_from_times(&ramps, 0.44, &opening, NULL));
+  assert_true(opening > 0.5 && opening < 1);
+  RUN_FINE(scratch_path("heart.vtu"), "--case", example, "--times", "0.44,1.24", "--series-table",
+           scratch_path("ramps.csv"), "--quiet");
+  char *table = scratch_read(scratch_path("ramps.csv"), NULL);
+  for (int i = 0; i < 2; ++i) {
+    assert_int_equal(sscanf(strstr(table, i ? "\n1.24," : "\n0.44,"), "\n%lf,%lf", &time, &found), 2);
+    assert_true(fabs(found - opening) < 1e-12);
+  }
+  free(table);
+}
+
+static void write_case(const char *valves, const char *rest) {
+  char text[4096];
+  snprintf(text, sizeof text, "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, %s \"valves\": [%s]}", rest, valves);
+  scratch_write_text("case.json", text);
+}
+
+/* Without times: one mesh with the arrays of all valves, found beside the case. */
+static void test_one_time(void **state) {
+  (void)state;
+  static double K[n_nodes], one[n_nodes], two[n_nodes];
+  const char *out = scratch_path("one.vtu");
+  scratch_write_text("more.json", "{\"leaflet_radius_in\": 0.6}");
+  write_case(
+      "{\"name\": \"a\", \"valve\": \"mitral\", \"opening\": 0.25, \"resistance\": 5},"
+      "{\"name\": \"b\", \"valve\": \"aortic\", \"translate\": [0, 0, 1], \"half_thickness\": 0.4,"
+      "\"parameters\": \"more.json\"}",
+      "\"resistance\": 3,");
+  RUN_FINE("--case", scratch_path("case.json"), "--output", out, "--surface-output", scratch_path("one.vtp"));
+  assert_non_null(strstr(program_out, "valve     a: opening 0.25, "));
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25", "--resistance",
+           "5", "--prefix", "a", "--output", scratch_path("a1.vtu"), "--quiet");
+  RUN_FINE(scratch_path("a1.vtu"), "--valve", "aortic", "--half-thickness", "0.4", "--translate", "0,0,1", "--params",
+           scratch_path("more.json"), "--resistance", "3", "--prefix", "b", "--output", scratch_path("b1.vtu"),
+           "--quiet");
+  static const char *const names[] = {"a_marked", "a_distance", "a_leaflet", "b_marked", "b_distance", "b_leaflet"};
+  for (int k = 0; k < 6; ++k) {
+    read_array(out, names[k], one);
+    assert_int_equal(read_array(scratch_path("b1.vtu"), names[k], two), n_box);
+    assert_memory_equal(one, two, n_box * sizeof *one);
+  }
+  read_array(out, "riis_resistance", K);
+  read_array(scratch_path("b1.vtu"), "a_resistance", one);
+  read_array(scratch_path("b1.vtu"), "b_resistance", two);
+  int n_both = 0;
+  for (int i = 0; i < n_box; ++i) {
+    assert_true(K[i] == one[i] + two[i]);
+    n_both += one[i] > 0 && two[i] > 0;
+  }
+  assert_true(n_both > 0);
+  assert_false(has_array(out, "riis_momentum"));
+}
+
+/* A surface from a file is at rest among valves that move. */
+static void test_surface_at_rest(void **state) {
+  (void)state;
+  static double velocity[3 * n_box], marked[n_box];
+  RUN_FINE("--surface-output", scratch_path("stent.vtp"), "--quiet");
+  write_case(
+      "{\"name\": \"m\", \"valve\": \"mitral\", \"opening\": {\"file\": \"beat.csv\", \"period\": 1}},"
+      "{\"name\": \"stent\", \"surface\": \"stent.vtp\", \"scale\": 1.2}",
+      "\"times\": [0, 0.1, 0.2],");
+  scratch_write_text("beat.csv", "0,0\n0.2,1\n");
+  RUN_FINE("--case", scratch_path("case.json"), "--output", scratch_path("rest.pvd"), "--all-cells", "--quiet");
+  const char *step = scratch_path("rest/rest_0002.vtu");
+  int n_still = 0, n_moving = 0;
+  read_array(step, "stent_marked", marked);
+  read_array(step, "stent_velocity", velocity);
+  for (int i = 0; i < n_box; ++i) n_still += marked[i] != 0 && velocity[3 * i] == 0 && velocity[3 * i + 2] == 0;
+  for (int i = 0; i < n_box; ++i)
+    assert_true(velocity[3 * i] == 0 && velocity[3 * i + 1] == 0 && velocity[3 * i + 2] == 0);
+  read_array(step, "m_velocity", velocity);
+  for (int i = 0; i < n_box; ++i) n_moving += velocity[3 * i + 2] != 0;
+  assert_true(n_still > 20 && n_moving > 20);
+}
+
+static void expect_case_refused(const char *text, const char *valves, const char *rest) {
+  write_case(valves, rest);
+  RUN_REFUSED(1, text, "--case", scratch_path("case.json"), "--output", scratch_path("r.vtu"));
+  assert_non_null(strstr(program_err, "case.json: "));
+}
+
+static void test_refused_cases(void **state) {
+  (void)state;
+  const char *mitral = "{\"valve\": \"mitral\"}";
+  expect_case_refused("\"half_thickness_\" is unknown, did you mean \"half_thickness\"?", mitral,
+                      "\"half_thickness_\": 1,");
+  expect_case_refused("valve 0: \"oppening\" is unknown, did you mean \"opening\"?",
+                      "{\"valve\": \"mitral\", \"oppening\": 1}", "");
+  expect_case_refused("valves: it must be an array of one valve or more", "", "");
+  expect_case_refused("valve 1: name: each of several valves needs one",
+                      "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"valve\": \"mitral\"}", "");
+  expect_case_refused("name: \"a\" is the name of two valves",
+                      "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"a\", \"valve\": \"mitral\"}", "");
+  expect_case_refused("name: \"a b\" must be 1 to 64 letters", "{\"name\": \"a b\", \"valve\": \"mitral\"}", "");
+  expect_case_refused("valve: either it or \"surface\" must be given", "{\"name\": \"a\"}", "");
+  expect_case_refused("valve 0: 'tricuspid' is not a kind of valve", "{\"valve\": \"tricuspid\"}", "");
+  expect_case_refused("opening: 1.5 is not from 0 to 1", "{\"valve\": \"mitral\", \"opening\": 1.5}", "");
+  expect_case_refused("opening: a valve that moves needs times",
+                      "{\"valve\": \"mitral\", \"opening\": {\"times\": [0, 1], \"openings\": [0, 1]}}", "");
+  expect_case_refused("valve 0: opening: \"perod\" is unknown, did you mean \"period\"?",
+                      "{\"valve\": \"mitral\", \"opening\": {\"times\": [0], \"openings\": [0], \"perod\": 1}}", "");
+  expect_case_refused("valve 0: opening: openings: there are 1 for 2 times",
+                      "{\"valve\": \"mitral\", \"opening\": {\"times\": [0, 1], \"openings\": [0]}}", "");
+  expect_case_refused("valve 0: opening: table.time of key 1 is 0",
+                      "{\"valve\": \"mitral\", \"opening\": {\"times\": [0, 0], \"openings\": [0, 1]}}", "");
+  expect_case_refused("opening: closing_start: it is missing",
+                      "{\"valve\": \"mitral\", \"opening\": {\"opening_start\": 0, \"opening_seconds\": 1}}", "");
+  expect_case_refused("opening: it has none of file, times and opening_start",
+                      "{\"valve\": \"mitral\", \"opening\": {}}", "");
+  expect_case_refused(
+      "interpolation: \"spline\" is none of linear, cubic",
+      "{\"valve\": \"mitral\", \"opening\": {\"times\": [0], \"openings\": [0], \"interpolation\": \"spline\"}}", "");
+  expect_case_refused("half_thickness: 0 is not above 0", "{\"valve\": \"mitral\", \"half_thickness\": 0}", "");
+  expect_case_refused("resistance: -1 is below 0", "{\"valve\": \"mitral\", \"resistance\": -1}", "");
+  expect_case_refused("rotate: [1,0,0] has 3 numbers; it takes 4", "{\"valve\": \"mitral\", \"rotate\": [1, 0, 0]}",
+                      "");
+  expect_case_refused("translate: \"x\" is not a number", "{\"valve\": \"mitral\", \"translate\": [0, 0, \"x\"]}", "");
+  expect_case_refused("unit: \"inch\" is none of m, cm, mm", mitral, "\"unit\": \"inch\",");
+  expect_case_refused("scale: it goes with no \"unit\"", "{\"valve\": \"mitral\", \"scale\": 2}", "\"unit\": \"m\",");
+  expect_case_refused("times: the step 0 is not above 0", mitral, "\"times\": \"0:1:0\",");
+  expect_case_refused("times: the time 1 is not above the time before it, 2", mitral, "\"times\": [2, 1],");
+  expect_case_refused("parameters: 'anulus' is not a parameter",
+                      "{\"valve\": \"mitral\", \"parameters\": {\"anulus\": 1}}", "");
+  expect_case_refused("opening is 0.5, but the aortic valve has one state only",
+                      "{\"valve\": \"aortic\", \"opening\": 0.5}", "");
+  expect_case_refused("surface: one that moves needs times", "{\"surface\": \"a.pvd\"}", "");
+  expect_case_refused("period: it needs a \"surface\" that moves", "{\"surface\": \"a.stl\", \"period\": 1}", "");
+  scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"mitral\"}]}");
+  RUN_REFUSED(1, "mesh: it is missing", "--case", scratch_path("case.json"));
+  scratch_write_text("case.json", "[]");
+  RUN_REFUSED(1, "the case must be an object", "--case", scratch_path("case.json"));
+  RUN_REFUSED(1, "missing.json: cannot be read", "--case", "missing.json");
+}
+
+static void test_refused_options(void **state) {
+  (void)state;
+  write_case("{\"valve\": \"mitral\"}", "");
+  const char *file = scratch_path("case.json");
+  RUN_REFUSED(2, "--movie needs times: ", "--case", file, "--movie", "a.avi.mp4");
+  RUN_REFUSED(2, "--series-table needs times: ", "--case", file, "--series-table", scratch_path("a.csv"));
+  RUN_REFUSED(2, "--all-cells needs times: ", "--case", file, "--all-cells");
+  RUN_REFUSED(2, "--valve has no effect with --case, which says it itself", "--case", file, "--valve", "mitral");
+  RUN_REFUSED(2, "--resistance has no effect with --case", "--case", file, "--resistance", "1");
+  RUN_REFUSED(2, "--half-thickness has no effect with --case", "--case", file, "--half-thickness", "1");
+  RUN_REFUSED(2, "--prefix has no effect with --case", "--case", file, "--prefix", "x", "--output", "o.vtu");
+  RUN_REFUSED(2, "--stats has no effect with --case", "--case", file, "--stats", "-");
+  RUN_REFUSED(2, "is also the file of --case", "--case", file, "--output", scratch_path("in.vtu"), "--replace",
+              "--surface-output", scratch_path("case.json"));
+}
+
+static int make_heart(void **state) {
+  const int status = make_box_of(state, (double[3]){-3, -3, -2}, (double[3]){3, 3, 2});
+  return status || !shim_write_box(scratch_path("heart.vtu"), SHIM_RAW, n_side, (double[3]){-2.6, -2.3, -2},
+                                   (double[3]){2.6, 5.7, 2.4}, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_ramps),         cmocka_unit_test(test_example),
+      cmocka_unit_test(test_one_time),      cmocka_unit_test(test_surface_at_rest),
+      cmocka_unit_test(test_refused_cases), cmocka_unit_test(test_refused_options),
+  };
+  return cmocka_run_group_tests(tests, make_heart, scratch_teardown);
+}

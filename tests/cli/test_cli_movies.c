@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --movie: as many frames as times, all by one camera. The frames are read back by ffmpeg; where it is missing, a small program
+ * by its name takes its place, which counts the frames. */
+#include <dirent.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "virtual_display.h"
+#include "vtk_shim.h"
+
+enum { n_frames = 4 };
+
+static void run_movie(const char *movie) {
+  scratch_write_text("cycle.csv", "0,0\n1,1\n");
+  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"),
+           "--times", "0,0.3,0.6,1", "--movie", scratch_path(movie), "--frame-rate", "5", "--movie-view", "side",
+           "--picture", scratch_path("first.png"), "--view", "side", "--quiet");
+}
+
+/* TMPDIR is the scratch folder: nothing of the frames is left there. */
+static void expect_no_frames(void) {
+  const char *place = getenv("TMPDIR");
+  DIR *folder = opendir(place);
+  assert_non_null(folder);
+  for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder))
+    if (strncmp(entry->d_name, "riis-mark-", 10) == 0 || strncmp(entry->d_name, ".riis-", 6) == 0)
+      fail_msg("%s is left", entry->d_name);
+  closedir(folder);
+}
+
+static void use_scratch_for_frames(void) {
+  char place[4096];
+  assert_non_null(realpath(scratch_path("."), place));
+  setenv("TMPDIR", place, 1);
+}
+
+/* A program by the name of ffmpeg that does what the lines say. */
+static char *put_program(const char *lines) {
+  char path[8192], place[4096];
+  mkdir(scratch_path("bin"), 0700);
+  scratch_write_text("bin/ffmpeg", lines);
+  assert_int_equal(chmod(scratch_path("bin/ffmpeg"), 0700), 0);
+  assert_non_null(realpath(scratch_path("bin"), place));
+  char *before = strdup(getenv("PATH"));
+  snprintf(path, sizeof path, "%s:%s", place, before);
+  setenv("PATH", path, 1);
+  return before;
+}
+
+static void restore_path(char *before) {
+  setenv("PATH", before, 1);
+  free(before);
+}
+
+static void expect_whole_picture(const char *name) {
+  int width = 0, height = 0, n_colours = 0, n_coloured[2] = {0, 0};
+  assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_coloured), 1);
+  assert_true(width == 1600 && height == 800);
+  assert_true(n_coloured[0] > 20000 && n_coloured[1] > 20000);
+}
+
+/* The frames that the encoder gets, kept by one that copies them. */
+static void test_frames(void **state) {
+  (void)state;
+  static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",
+                                              "f/frame_000003.png"};
+  use_scratch_for_frames();
+  char *before = put_program(
+      "#!/bin/sh\nfor word; do last=$word; done\nfor word; do case $word in *frame_*) folder=${word%/*};; esac; done\n"
+      "cp -r \"$folder\" \"${last%/*}/f\" && echo \"$*\" > \"$last\"\n");
+  run_movie("a.mp4");
+  restore_path(before);
+  for (int i = 0; i < n_frames; ++i) expect_whole_picture(names[i]);
+  assert_false(scratch_exists("f/frame_000004.png"));
+  char *words = scratch_read(scratch_path("a.mp4"), NULL);
+  assert_non_null(strstr(words, "-framerate 5 "));
+  free(words);
+  expect_no_frames();
+  expect_whole_picture("first.png");
+  /* The outline of the mesh and the scale bar stay where they are: the lowest rows of all frames are the same. */
+  int size[2];
+  unsigned char *first = shim_read_pixels(scratch_path(names[0]), &size[0], &size[1]);
+  for (int i = 1; i < n_frames; ++i) {
+    unsigned char *next = shim_read_pixels(scratch_path(names[i]), &size[0], &size[1]);
+    assert_memory_equal(first, next, (size_t)(3 * 1600) * 60);
+    assert_true(memcmp(first, next, (size_t)(3 * 1600) * 800) != 0);
+    free(next);
+  }
+  free(first);
+}
+
+/* An encoder that fails: its last words, no movie, and nothing left. */
+static void test_failing_encoder(void **state) {
+  (void)state;
+  use_scratch_for_frames();
+  scratch_write_text("kept.gif", "before");
+  char *before = put_program("#!/bin/sh\necho first >&2\necho 'no such encoder' >&2\nexit 7\n");
+  scratch_write_text("cycle.csv", "0,0\n1,1\n");
+  RUN_REFUSED(1, "kept.gif: the movie cannot be made: ffmpeg ends with status 7: no such encoder",
+              scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+              scratch_path("cycle.csv"), "--times", "0,1", "--movie", scratch_path("kept.gif"), "--output",
+              scratch_path("s.pvd"), "--quiet");
+  restore_path(before);
+  expect_no_frames();
+  char *text = scratch_read(scratch_path("kept.gif"), NULL);
+  assert_string_equal(text, "before");
+  free(text);
+  assert_true(scratch_exists("s/s_0001.vtu"));
+}
+
+static int n_frames_there(void) {
+  char command[8192];
+  int n = 0;
+  snprintf(command, sizeof command, "ls '%s'/riis-mark-*/frame_*.png 2>/dev/null | wc -l", getenv("TMPDIR"));
+  FILE *output = popen(command, "r");
+  assert_int_equal(fscanf(output, "%d", &n), 1);
+  pclose(output);
+  return n;
+}
+
+/* Ctrl-C between two frames: no movie, no frames, and the meshes that there are. */
+static void test_interruption(void **state) {
+  (void)state;
+  use_scratch_for_frames();
+  char *before = put_program("#!/bin/sh\nexit 0\n");
+  scratch_write_text("cycle.csv", "0,0\n1,1\n");
+  const pid_t process = start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+                                      scratch_path("cycle.csv"), "--times", "0:1:0.001", "--movie",
+                                      scratch_path("never.mp4"), "--output", scratch_path("cut.pvd"), "--quiet", NULL);
+  for (int n_tries = 0; n_frames_there() < 2 && n_tries < 3000; ++n_tries) usleep(20000);
+  kill(process, SIGINT);
+  finish_program(process);
+  restore_path(before);
+  assert_int_equal(program_exit_code, 128 + SIGINT);
+  assert_int_equal(n_frames_there(), 0);
+  expect_no_frames();
+  assert_false(scratch_exists("never.mp4"));
+  assert_true(scratch_exists("cut.pvd") && scratch_exists("cut/cut_0001.vtu"));
+}
+
+/* The real ffmpeg, if it is there: it decodes as many frames as there are times. */
+static void test_movie(void **state) {
+  (void)state;
+  char command[1024], words[64] = "";
+  if (system("command -v ffmpeg ffprobe >/dev/null") != 0) skip();
+  use_scratch_for_frames();
+  static const char *const movies[] = {"b.mp4", "b.gif"};
+  for (int i = 0; i < 2; ++i) {
+    run_movie(movies[i]);
+    snprintf(command, sizeof command,
+             "ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=nb_read_frames -of csv=p=0 '%s'",
+             scratch_path(movies[i]));
+    FILE *output = popen(command, "r");
+    assert_non_null(fgets(words, sizeof words, output));
+    assert_int_equal(pclose(output), 0);
+    assert_int_equal(atoi(words), n_frames);
+    expect_no_frames();
+  }
+}
+
+static int make_mitral_box(void **state) { return make_box_of(state, (double[3]){-3, -3, -2}, (double[3]){3, 3, 2}); }
+
+int main(int argc, char **argv) {
+  (void)argc;
+  enter_virtual_display(argv);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_frames),
+      cmocka_unit_test(test_failing_encoder),
+      cmocka_unit_test(test_interruption),
+      cmocka_unit_test(test_movie),
+  };
+  return cmocka_run_group_tests(tests, make_mitral_box, scratch_teardown);
+}

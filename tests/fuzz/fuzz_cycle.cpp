@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis-mark's tables of times and openings: each input is refused with an exit status and a message, or its keys make a law
+// whose opening lies from 0 to 1 at every time.
+#include <cstddef>
+#include <cstdint>
+
+#include "cli/cycle_file.hpp"
+#include "cli/opening_law.hpp"
+#include "cli/refusal.hpp"
+#include "expect.hpp"
+#include "scratch_file.hpp"
+
+namespace {
+
+const fuzz::ScratchFile &file() {
+  static const fuzz::ScratchFile scratch("input.csv");
+  return scratch;
+}
+
+void check_law(riis::cli::OpeningTable table, double period, std::int32_t interpolation) {
+  table.period = period;
+  table.interpolation = interpolation;
+  const riis::cli::OpeningLaw law(table, file().path());
+  for (const double time : {table.times.front(), table.times.back(), -1.0, 0.0, 0.37, 1e9}) {
+    const double opening = law.at(time);
+    EXPECT(opening >= 0 && opening <= 1, "opening %g at %g", opening, time);
+  }
+}
+
+void read(double period, std::int32_t interpolation) {
+  try {
+    const riis::cli::OpeningTable table = riis::cli::read_cycle(file().path());
+    EXPECT(!table.times.empty() && table.times.size() == table.openings.size(), "%zu times", table.times.size());
+    check_law(table, period, interpolation);
+  } catch (const riis::cli::Refusal &refusal) {
+    EXPECT(refusal.exit_code == riis::cli::exit_bad_data, "exit code %d", refusal.exit_code);
+    EXPECT(refusal.text.size() > file().path().size() && refusal.text.size() < 2000, "the text '%s'",
+           refusal.text.c_str());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
+  file().hold(bytes, size);
+  for (const std::int32_t interpolation : {RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC}) {
+    for (const double period : {0.0, 0.8, 1e6}) read(period, interpolation);
+  }
+  return 0;
+}
