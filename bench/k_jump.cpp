@@ -56,8 +56,7 @@ double largest_difference(const std::vector<double> &a, const std::vector<double
 KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step, int n_steps) {
   constexpr double tolerance = 0.05, fine = 0.0005;
   Change adapted(valve, nodes, tolerance, RIIS_TRIANGULATION_ADAPTED),
-      fixed(valve, nodes, tolerance, RIIS_TRIANGULATION_FIXED),
-      smooth(valve, nodes, fine, RIIS_TRIANGULATION_FIXED);
+      fixed(valve, nodes, tolerance, RIIS_TRIANGULATION_FIXED), smooth(valve, nodes, fine, RIIS_TRIANGULATION_FIXED);
   KJump made{0, 0, 0};
   double largest_k = 0;
   for (int i = 0; i < n_steps; ++i)

@@ -12,8 +12,8 @@
 namespace bench {
 
 struct KJump {
-  double motion;         // the largest change of K in a step, on triangles so fine that their own change does not matter
-  double with_adapted;   // the largest difference from that change
+  double motion;        // the largest change of K in a step, on triangles so fine that their own change does not matter
+  double with_adapted;  // the largest difference from that change
   double with_fixed;
 };
 

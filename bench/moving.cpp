@@ -149,9 +149,10 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
            Wanted::at_most, 1.5);
   const CylinderNodes fewer(cylinders[valve], about_n_nodes / 10);
   const KJump jump = measure_k_jump(opening_valve(kind).get(), fewer, 0.0005, 100);
-  std::printf("In a step of 0.0005, K changes by up to %.2f %% of its largest value by the motion. The triangles add up to "
-              "%.2f %% if they are adapted, %.2f %% if they are fixed.\n",
-              100 * jump.motion, 100 * jump.with_adapted, 100 * jump.with_fixed);
+  std::printf(
+      "In a step of 0.0005, K changes by up to %.2f %% of its largest value by the motion. The triangles add up to "
+      "%.2f %% if they are adapted, %.2f %% if they are fixed.\n",
+      100 * jump.motion, 100 * jump.with_adapted, 100 * jump.with_fixed);
   ratio("step with all fields", "step", 1.5);
 }
 

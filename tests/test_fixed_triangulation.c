@@ -238,7 +238,8 @@ static void other_changes_are_refused(void **state) {
                 riis_surface_update(surface, other, NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "AP_diameter is 3.25",
                 riis_surface_update_moving(surface, other, valve, 0.1, NULL, NULL));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "kind aortic|one of the kind mitral", riis_surface_update(surface, aortic, NULL));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "kind aortic|one of the kind mitral",
+                riis_surface_update(surface, aortic, NULL));
   CHECK_OK(riis_valve_set_scalar(other, "AP_diameter", 3));
   CHECK_OK(riis_valve_set_open_state(other, valve));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has an open state|fixed for none", riis_surface_update(surface, other, NULL));
@@ -271,8 +272,7 @@ static void other_open_states_and_curves_are_refused(void **state) {
   riis_valve *flat = valve_from(&square);
   square.control[0][0][2] = square.control[2][0][2] = 0.5;
   surface = new_surface(flat, &options);
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "curve 0|fixed for",
-                riis_surface_update(surface, valve_from(&square), NULL));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "curve 0|fixed for", riis_surface_update(surface, valve_from(&square), NULL));
 }
 
 static void bad_options_are_refused(void **state) {

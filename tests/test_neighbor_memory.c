@@ -123,8 +123,7 @@ static int64_t allocations_of_a_cycle(moving_valve *valve) {
     CHECK_OK(riis_valve_set_scalar(valve->before, "opening", fabs(1 - 0.05 * i)));
     CHECK_OK(riis_valve_set_scalar(valve->now, "opening", fabs(1 - 0.05 * (i + 1))));
     begin_to_count();
-    const riis_status moved =
-        riis_surface_update_moving(valve->surface, valve->now, valve->before, 0.02, NULL, NULL);
+    const riis_status moved = riis_surface_update_moving(valve->surface, valve->now, valve->before, 0.02, NULL, NULL);
     const riis_status marked = riis_mark_nodes(valve->surface, valve->mesh, &valve->options, valve->result);
     const riis_status added =
         riis_mark_result_add_resistance(valve->result, &resistance, valve->n_nodes, valve->k, valve->k_u);
@@ -170,7 +169,8 @@ static void a_steady_moving_step_allocates_nothing(void **state) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[2] = {"aortic", "mitral"};
   for (int kind = 0; kind < 2; ++kind)
-    for (int32_t triangulation = RIIS_TRIANGULATION_ADAPTED; triangulation <= RIIS_TRIANGULATION_FIXED; ++triangulation) {
+    for (int32_t triangulation = RIIS_TRIANGULATION_ADAPTED; triangulation <= RIIS_TRIANGULATION_FIXED;
+         ++triangulation) {
       const int owned_before = n_owned();
       moving_valve valve = moving_valve_of(kinds[kind], triangulation, 1);
       assert_true(allocations_of_a_cycle(&valve) > 40);

@@ -237,7 +237,7 @@ enum {
 
 /* How the smooth valve is cut into triangles. */
 enum {
-  RIIS_TRIANGULATION_ADAPTED = 0, /* as few as each state of the valve needs; they change as the valve opens */
+  RIIS_TRIANGULATION_ADAPTED = 0, /* as few as each state needs; they change as the valve opens */
   RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen when the
                                      surface first has this option. Then only opening and placement may move:
                                      RIIS_INVALID_PARAMETER names another parameter that did, and
@@ -325,8 +325,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_valve *valve_before, double seconds,
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
-/* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0 and vertex_ids
- * and leaflet_id NULL the vertices alone move: the surface keeps the faces of its last arrays, checked then.
+/* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0, and
+ * vertex_ids and leaflet_id NULL, the vertices alone move: the surface keeps the faces of its last arrays.
  * Errors: as riis_surface_create_from_arrays; RIIS_INVALID_ARGUMENT for other than the faces' n_vertices, or
  * without such faces. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
@@ -387,8 +387,8 @@ typedef struct riis_surface_info {
   double lower[3], upper[3]; /* bounds of the triangles, placed units */
   double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
   double seconds_scene;      /* Embree scene, and the samples or patches of another distance */
-  double error_bound;        /* at most tolerance * half_thickness: no point's distances to the triangles and to
-                                the smooth valve differ by more. 0 for a surface from arrays */
+  double error_bound;        /* at most tolerance * half_thickness: no point's distances to the triangles and
+                                to the smooth valve differ by more. 0 for a surface from arrays */
 } riis_surface_info;
 /* Tells the size of the surface. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
@@ -501,8 +501,8 @@ RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const do
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They copy
  * the coordinates: 41 bytes a node while the handle lives, 32 more while they are made.
- * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH for a coordinate that became non-finite
- * after it was given. */
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH for a coordinate that became
+ * non-finite after it was given. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* Neighbours of nodes, as compressed sparse rows: those of node i are columns[offsets[i]] to

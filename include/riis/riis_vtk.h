@@ -73,9 +73,9 @@ RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mar
  * Errors: as riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
                                                    double far_distance, const char *prefix);
-/* Adds, or replaces, point arrays of the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric,
- * PREFIX_uv, PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit they
- * are 0, and PREFIX_patch is -1.
+/* Adds, or replaces, point arrays of the fields of a marking: PREFIX_point, PREFIX_normal,
+ * PREFIX_barycentric, PREFIX_uv, PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32).
+ * Beyond the limit they are 0, and PREFIX_patch is -1.
  *   fields  a sum of RIIS_FIELD_* of the marking's fields
  *   prefix  as in riis_vtk_mesh_set_named_marks
  * Errors: RIIS_INVALID_ARGUMENT for a field that the result lacks, and as riis_vtk_mesh_set_marks. */

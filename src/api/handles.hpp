@@ -66,11 +66,11 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsArenas keeps_arenas;
   riis::KeepsMemory keeps_memory;
   std::unique_ptr<riis::Surface> surface;
-  std::unique_ptr<riis::Surface> before;  // the last content, kept to reuse its memory
-  riis_surface_options options;           // completed by defaults
+  std::unique_ptr<riis::Surface> before;                  // the last content, kept to reuse its memory
+  riis_surface_options options;                           // completed by defaults
   std::unique_ptr<const riis::FixedTriangulation> fixed;  // null without RIIS_TRIANGULATION_FIXED
   double seconds_triangles, seconds_scene;
-  riis::UserFaces faces, faces_memory;  // of the last arrays; no faces after a valve or keyframes
+  riis::UserFaces faces, faces_memory;            // of the last arrays; no faces after a valve or keyframes
   std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
   // No earlier surface had this number. An address may be used again, so it does not identify a surface.
   const std::uint64_t number = next_number();

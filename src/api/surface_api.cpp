@@ -24,9 +24,20 @@ namespace {
 // The structs' sizes in the first release.
 constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
 
-const riis_surface_options default_options{
-    sizeof(riis_surface_options), RIIS_AUTO, 0.05,     1.0, {0, 0, 1}, 0, {0, 0, 0}, RIIS_ZERO_AREA_REFUSE, 0,
-    RIIS_DISTANCE_TRIANGLES,      0,         RIIS_AUTO, RIIS_TRIANGULATION_ADAPTED, 0};
+const riis_surface_options default_options{sizeof(riis_surface_options),
+                                           RIIS_AUTO,
+                                           0.05,
+                                           1.0,
+                                           {0, 0, 1},
+                                           0,
+                                           {0, 0, 0},
+                                           RIIS_ZERO_AREA_REFUSE,
+                                           0,
+                                           RIIS_DISTANCE_TRIANGLES,
+                                           0,
+                                           RIIS_AUTO,
+                                           RIIS_TRIANGULATION_ADAPTED,
+                                           0};
 const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          0,
                                          nullptr,
@@ -214,8 +225,7 @@ void update_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays
   if (surface.faces.leaflet_id.empty())
     riis::fail(RIIS_INVALID_ARGUMENT,
                "arrays.vertex_ids is NULL, but the surface was not made from arrays last: it has no faces to keep");
-  if (arrays.leaflet_id)
-    riis::fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
+  if (arrays.leaflet_id) riis::fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
   fill_from_faces(surface, surface.faces, arrays, options);
 }
 
@@ -264,8 +274,9 @@ riis_status riis_surface_create(const riis_valve *valve, const riis_surface_opti
 riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
                                             riis_surface **surface) {
   return guarded([&] {
-    create(options, surface,
-           [&](riis_surface &made, const riis_surface_options &whole) { fill_from_arrays(made, completed(arrays), whole); });
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
+      fill_from_arrays(made, completed(arrays), whole);
+    });
   });
 }
 

@@ -63,7 +63,7 @@ void *take_memory(std::size_t n_bytes) {
       return taken;
     }
   }
-  return ::operator new(std::size_t{1} << k);
+  return ::operator new (std::size_t{1} << k);
 }
 
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept {

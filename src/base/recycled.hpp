@@ -30,7 +30,8 @@ struct RecyclingAllocator {
 
   RecyclingAllocator() = default;
   template <class U>
-  RecyclingAllocator(const RecyclingAllocator<U> &) noexcept {}  // NOLINT(google-explicit-constructor): as std::allocator
+  RecyclingAllocator(const RecyclingAllocator<U> &) noexcept {
+  }  // NOLINT(google-explicit-constructor): as std::allocator
 
   T *allocate(std::size_t n) {
     static_assert(alignof(T) <= alignof(std::max_align_t));

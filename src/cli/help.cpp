@@ -67,11 +67,11 @@ Cases
    "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
               {"name": "aortic", "valve": "aortic", "open_parameters": {"leaflet_radius_in": 1},
                "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
-  Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's. A valve
-  has "valve", a kind or a file of patches, or "surface", a file, which stays at rest unless it is a .pvd, with "period". It may have "parameters" and
-  "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate", "half_thickness",
-  "resistance", "tolerance", "triangulation", "flip_normals", "leaflets" and "skip_zero_area", as the options of these names. "opening" is a
-  number or one of
+  Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
+  A valve has "valve", a kind or a file of patches, or "surface", a file. A surface stays at rest unless the file is a .pvd,
+  with "period". A valve may have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit",
+  "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets" and
+  "skip_zero_area", as the options of these names. "opening" is a number or one of
     {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
     {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
     {"opening_start": 0.4, "opening_seconds": 0.05, "closing_start": 0.7, "closing_seconds": 0.05, "closed": 0, "open": 1,

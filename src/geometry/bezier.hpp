@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "base/recycled.hpp"
 #include "base/array_view.hpp"
+#include "base/recycled.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {

@@ -8,7 +8,6 @@
 // In: two curves and the factor. Out: O(u), and how far it may be from linear between two u.
 #pragma once
 
-
 #include "base/recycled.hpp"
 #include "geometry/curve.hpp"
 #include "geometry/vec3.hpp"

@@ -13,9 +13,7 @@ namespace riis {
 namespace {
 
 // Returns the parameters that a side contributes; only the ends if it is collapsed.
-Vector<double> own_parameters(const Polyline &side) {
-  return side.length > 0 ? side.t : Vector<double>{0.0, 1.0};
-}
+Vector<double> own_parameters(const Polyline &side) { return side.length > 0 ? side.t : Vector<double>{0.0, 1.0}; }
 
 double smallest_step(const Vector<double> &t) {
   double smallest = 1.0;
@@ -128,8 +126,7 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
   return lines;
 }
 
-Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v,
-                                    const SideVectors &sides) {
+Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides) {
   const std::size_t n_u = u.size(), n_v = v.size();
   const Vec3 p00 = sides.v0.front(), p10 = sides.v0.back(), p01 = sides.v1.front(), p11 = sides.v1.back();
   Vector<Vec3> made;

@@ -35,14 +35,12 @@ struct GridLines {
 };
 
 struct QuadGrid {
-  Vector<double> u, v;  // ascending from 0 to 1
-  Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
-  Vector<double>
-      errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
-               // may be, at equal (u,v), from the patch of the curves that the sides stand for
+  Vector<double> u, v;    // ascending from 0 to 1
+  Vector<Vec3> points;    // points[j * u.size() + i] at (u[i], v[j])
+  Vector<double> errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
+                          // may be, at equal (u,v), from the patch of the curves that the sides stand for
 
-  Vector<Vec3>
-      displacements{};  // of the points since an earlier state (surface/displacement.hpp); empty without one
+  Vector<Vec3> displacements{};  // of the points since an earlier state (surface/displacement.hpp); empty without one
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }

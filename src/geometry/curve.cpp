@@ -163,11 +163,11 @@ Curve Curve::through(Vec3 first, Vec3 last) const {
 }
 
 bool are_equal(const Curve &a, const Curve &b) {
-  return std::equal(a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(),
-                    [](const Bezier &p, const Bezier &q) {
-                      const auto n = static_cast<std::ptrdiff_t>(p.degree) + 1;
-                      return p.degree == q.degree && std::equal(p.control.begin(), p.control.begin() + n, q.control.begin());
-                    });
+  return std::equal(
+      a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(), [](const Bezier &p, const Bezier &q) {
+        const auto n = static_cast<std::ptrdiff_t>(p.degree) + 1;
+        return p.degree == q.degree && std::equal(p.control.begin(), p.control.begin() + n, q.control.begin());
+      });
 }
 
 Flattened flatten(const Curve &curve, double max_error) {

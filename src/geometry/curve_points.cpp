@@ -19,9 +19,7 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
   const Vector<Bezier> &pieces = curve.pieces();
   const std::size_t n = shares.size();
   places_.reserve(n);
-  const auto behind = [&](std::size_t i) {
-    return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length();
-  };
+  const auto behind = [&](std::size_t i) { return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length(); };
   Vector<double> in_piece, t;
   double start = 0;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {

@@ -3,7 +3,6 @@
 // In: points or a curve. Out: C(t) for t in [0,1], the share of the length.
 #pragma once
 
-
 #include "base/recycled.hpp"
 #include "geometry/curve.hpp"
 #include "geometry/vec3.hpp"
@@ -14,7 +13,7 @@ struct Polyline {
   Vector<Vec3> points;    // at least 1
   Vector<double> t;       // of every point, ascending from 0 to 1; a single 0 if the length is 0
   Vector<double> errors;  // of every segment: how far it may be, at equal t, from the curve that it stands for
-  double length;               // length of that curve
+  double length;          // length of that curve
 };
 
 // Returns the polyline through the points, parametrised by its own length and standing for itself. Drops repeated

@@ -32,9 +32,8 @@ TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
     (i % (n_between + 1) == 0 ? states : between).push_back(patches_at(valve, static_cast<double>(i) / n_steps));
   TriangulationPlan plan = plan_triangulation(states, max_error, n_threads);
   for (int trial = 0; trial < n_trials; ++trial) {
-    const auto failed = std::stable_partition(between.begin(), between.end(), [&](const PatchSet &state) {
-      return is_within(state, plan, max_error);
-    });
+    const auto failed = std::stable_partition(between.begin(), between.end(),
+                                              [&](const PatchSet &state) { return is_within(state, plan, max_error); });
     if (failed == between.end()) break;
     states.insert(states.end(), std::make_move_iterator(failed), std::make_move_iterator(between.end()));
     between.erase(failed, between.end());

@@ -74,11 +74,11 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   return logged(surface, {seconds_triangles, stopwatch.lap()});
 }
 
-SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request,
-                            Surface &surface) {
+SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
+                            const SurfaceRequest &request, Surface &surface) {
   Stopwatch stopwatch;
-  TriangleSet triangles =
-      triangles_from_arrays(faces, arrays, request.placement, skip_zero_area, request.flip_normals, surface.take_triangles());
+  TriangleSet triangles = triangles_from_arrays(faces, arrays, request.placement, skip_zero_area, request.flip_normals,
+                                                surface.take_triangles());
   const double seconds_triangles = stopwatch.lap();
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   return logged(surface, {seconds_triangles, stopwatch.lap()});

@@ -3,7 +3,6 @@
 // In: the patch now and before, the lines of its grid. Out: the displacement of every grid point.
 #pragma once
 
-
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/placement.hpp"
@@ -22,7 +21,7 @@ struct Motion {
 struct MovedPatch {
   const PatchSet &now, &before;
   std::size_t patch;
-  const PatchSides &sides;           // of the patch now
+  const PatchSides &sides;      // of the patch now
   const Vector<Vec3> *offsets;  // O on each u line now; null for a Coons patch
 };
 

@@ -35,8 +35,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side) {
 }
 
 // Moves lines with the joints between them. Other numbers of joints leave the lines in place.
-Vector<double> moved(const Vector<double> &lines, const Vector<double> &from,
-                          const Vector<double> &to) {
+Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
   Vector<double> made = lines;
   if (from.empty() || from.size() != to.size()) return made;
   std::size_t k = 0;
@@ -51,9 +50,9 @@ Vector<double> moved(const Vector<double> &lines, const Vector<double> &from,
 
 // How far a patch of arcs may be from its grid between two lines.
 struct ColumnErrors {
-  double base, edge;     // of the chords
-  double off_line;       // distance of O from the line at the points between
-  double second;         // bound on |O''|
+  double base, edge;  // of the chords
+  double off_line;    // distance of O from the line at the points between
+  double second;      // bound on |O''|
   double largest, width;
   // Bounds the distance of O from the line, with O evaluated between n parts.
   double offset(int n) const {
@@ -182,8 +181,8 @@ Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_l
 }
 
 [[noreturn]] void fail_for(const Patch &patch, double max_error) {
-  fail(RIIS_INVALID_PARAMETER, "no fixed triangulation of patch ", patch.images.front().patch_id,
-       " is right to ", max_error, ", which is tolerance * half_thickness before scaling, at every opening");
+  fail(RIIS_INVALID_PARAMETER, "no fixed triangulation of patch ", patch.images.front().patch_id, " is right to ",
+       max_error, ", which is tolerance * half_thickness before scaling, at every opening");
 }
 
 class Planner {
@@ -300,7 +299,8 @@ class Planner {
   // Returns for each two lines the least number of parts that is enough at every opening; more than most_parts if none is.
   Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
-    const double of_curves = (arc_curve_share + merge_share) * max_error_ * std::min(tightness(first.v0), tightness(first.v1));
+    const double of_curves =
+        (arc_curve_share + merge_share) * max_error_ * std::min(tightness(first.v0), tightness(first.v1));
     const double of_offset = offset_share * max_error_;
     plan.n_parts.assign(plan.u.size() - 1, most_parts);
     Vector<int> wanted(plan.u.size() - 1, 1);
@@ -308,7 +308,8 @@ class Planner {
       const Vector<ColumnErrors> errors = PlannedArcs(state, state.patches[patch], plan, max_error_).errors();
       for (std::size_t i = 0; i < errors.size(); ++i) {
         const bool are_chords_near = std::max(errors[i].base, errors[i].edge) <= of_curves;
-        while (wanted[i] <= most_parts && !(are_chords_near && errors[i].offset(wanted[i]) <= of_offset)) wanted[i] *= 2;
+        while (wanted[i] <= most_parts && !(are_chords_near && errors[i].offset(wanted[i]) <= of_offset))
+          wanted[i] *= 2;
       }
     }
     return wanted;
@@ -376,8 +377,7 @@ class PlannedGrids {
     const ArcLines lines = planned.arc_lines(errors, plan.n_parts);
     QuadGrid made = make_arc_grid(sides, lines, plan_.n_rows);
     if (before_)
-      made.displacements =
-          displacements({set_, *before_, i, sides, &lines.offsets}, lines_of_arc_grid(lines, made));
+      made.displacements = displacements({set_, *before_, i, sides, &lines.offsets}, lines_of_arc_grid(lines, made));
     return made;
   }
 
@@ -396,7 +396,7 @@ GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vect
 }
 
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
-                                 const PatchSet *before) {
+                            const PatchSet *before) {
   return PlannedGrids(set, plan, max_error, n_threads, before).make();
 }
 

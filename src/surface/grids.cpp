@@ -175,8 +175,8 @@ class GridMaker {
 
 }  // namespace
 
-Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
-                                 int n_threads, const PatchSet *before) {
+Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
+                            const PatchSet *before) {
   return GridMaker(set, max_error, tightness, n_threads, before).make();
 }
 

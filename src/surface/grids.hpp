@@ -4,7 +4,6 @@
 // for the split of quads into triangles.
 #pragma once
 
-
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "valve/patches.hpp"
@@ -27,7 +26,7 @@ double rows_for(double offset, double max_error);
 // surface would take more than max_triangles triangles.
 // With an earlier state of the same build, the grids also have the displacements of their points since.
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
-                                 int n_threads = 1, const PatchSet *before = nullptr);
+                            int n_threads = 1, const PatchSet *before = nullptr);
 
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
 void check_count(double n_triangles, double max_error);

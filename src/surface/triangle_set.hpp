@@ -30,7 +30,7 @@ struct TriangleSet {
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // triangles that were left out
   double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
-  Vector<std::uint8_t> rim_sides;    // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
+  Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
   Grouping grouping;                      // empty if the maker of the triangles knows no groups
 
   // Empties the set and keeps its memory.

@@ -2,9 +2,6 @@
 #include "surface/triangulate.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -18,107 +15,6 @@
 
 namespace riis {
 namespace {
-
-Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {
-  return {grid.point(i, j), grid.point(i + 1, j), grid.point(i + 1, j + 1), grid.point(i, j + 1)};
-}
-
-// Bounds the distance between a quad and its triangles at a level of subdivision. Looks no closer than `enough` needs.
-double split_error_at(const Quad &quad, int level, double enough) {
-  // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
-  constexpr int few = 5;
-  const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
-  if (level >= few || (at_equal_uv <= enough && enough < std::numeric_limits<double>::infinity())) return at_equal_uv;
-  const int n = 1 << level;
-  double largest = 0;
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column) {
-      const double s0 = static_cast<double>(column) / n, s1 = static_cast<double>(column + 1) / n;
-      const double t0 = static_cast<double>(row) / n, t1 = static_cast<double>(row + 1) / n;
-      largest =
-          std::max(largest, split_error({quad.at(s0, t0), quad.at(s1, t0), quad.at(s1, t1), quad.at(s0, t1)}));
-      if (!(largest <= enough)) return at_equal_uv;
-    }
-  return std::min(largest, at_equal_uv);
-}
-
-// How often a quad's sides are halved, and how far its triangles may then be from the smooth patch.
-struct Level {
-  int level;
-  double error;
-};
-
-// No quad that the library accepts needs so many halvings.
-constexpr int most_halvings = 13;
-
-// Halves a quad until its parts are close enough to their triangles. There is an end, because the twist falls by 4 at each level.
-Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
-  const Quad quad = quad_of(grid, i, j);
-  const double left = max_error - grid.error(i, j);
-  for (int level = 0;; ++level) {
-    const double error = split_error_at(quad, level, left);
-    if (error <= left || level == most_halvings) return {level, grid.error(i, j) + error};
-  }
-}
-
-// Returns the quad with the ends of its shortest edge in their middle. No point moves by more than half that edge.
-Quad without_shortest_edge(const Quad &quad, double &shortest) {
-  std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};
-  std::size_t at = 0;
-  const auto edge = [&](std::size_t i) { return distance(corner[i], corner[(i + 1) % 4]); };
-  for (std::size_t i = 1; i < 4; ++i) at = edge(i) < edge(at) ? i : at;
-  shortest = edge(at);
-  corner[at] = corner[(at + 1) % 4] = mix(corner[at], corner[(at + 1) % 4], 0.5);
-  return {corner[0], corner[1], corner[2], corner[3]};
-}
-
-// The level is given. At a collapsed side rounding may make a quad fold, at one opening and not at the next; a bound without that
-// edge does not see it.
-Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
-  const Quad quad = quad_of(grid, i, j);
-  const double left = max_error - grid.error(i, j);
-  double error = split_error_at(quad, level, left);
-  if (!(error <= left)) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double shortest = 0;
-    const Quad merged = without_shortest_edge(quad, shortest);
-    // Quad and triangles are each within half the edge of the merged ones.
-    error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
-  }
-  return {level, grid.error(i, j) + error};
-}
-
-template <class Visit>
-void for_each_quad(const QuadGrid &grid, const Visit &visit) {
-  for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
-    for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
-}
-
-// The quads of a patch, with the level of subdivision of each in the order of for_each_quad.
-struct LevelledGrid {
-  QuadGrid grid;
-  Vector<int> levels;
-  std::int64_t n_triangles = 0;  // of one image, including triangles that turn out to have no area
-  std::int64_t n_vertices = 0;
-  double error_bound = 0;  // of the distance between the triangles and the smooth patch
-};
-
-// Takes the levels of a plan, if there is one.
-LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned) {
-  LevelledGrid made{std::move(grid), {}};
-  made.n_vertices = view(made.grid.u).size() * view(made.grid.v).size();
-  if (planned) made.levels.reserve(planned->size());
-  for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
-    const Level level = planned ? planned_level(made.grid, i, j, max_error, (*planned)[made.levels.size()])
-                                : subdivision_level(made.grid, i, j, max_error);
-    made.levels.push_back(level.level);
-    made.error_bound = std::max(made.error_bound, level.error);
-    const std::int64_t n = std::int64_t{1} << level.level;
-    made.n_triangles += 2 * n * n;
-    if (n > 1) made.n_vertices += (n + 1) * (n + 1);
-  });
-  return made;
-}
 
 // An image of a patch, with its own vertices and triangles in a set. The thread that builds the image writes no others.
 struct Piece {
@@ -338,15 +234,14 @@ const PatchImage &image_before(const Piece &piece, const Vector<LevelledGrid> &g
 }
 
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
-                                              const Vector<double> &tightness) {
+                                         const Vector<double> &tightness) {
   const PatchSet *before = how.motion ? &how.motion->patches_before : nullptr;
   const TriangulationPlan *plan = how.plan;
   Vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, how.max_error, how.n_threads, before)
-                                     : make_grids(set, how.max_error, tightness, how.n_threads, before);
+                                : make_grids(set, how.max_error, tightness, how.n_threads, before);
   Vector<LevelledGrid> levelled(grids.size());
   parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
-    view(levelled)[i] =
-        with_levels(std::move(view(grids)[i]), how.max_error, plan ? &view(plan->levels)[i] : nullptr);
+    view(levelled)[i] = with_levels(std::move(view(grids)[i]), how.max_error, plan ? &view(plan->levels)[i] : nullptr);
   });
   return levelled;
 }
@@ -364,7 +259,7 @@ Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces, const Vector<L
 // Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
 // there are none.
 Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
-                               TriangleSet &triangles) {
+                          TriangleSet &triangles) {
   Vector<Piece> pieces;
   std::int64_t n_triangles = 0, n_vertices = 0;
   double error_bound = 0;
@@ -427,20 +322,6 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
 
 }  // namespace
 
-double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
-
-double split_error(const Quad &q) {
-  const double at_equal_uv = quad_flatness(q);
-  const Vec3 normal = cross(q.p11 - q.p00, q.p01 - q.p10);
-  const double size = length(normal);
-  const auto turns_left = [&](Vec3 a, Vec3 b, Vec3 c) { return dot(cross(b - a, c - b), normal) >= 0; };
-  const bool is_graph = size > 0 && turns_left(q.p00, q.p10, q.p11) && turns_left(q.p10, q.p11, q.p01) &&
-                        turns_left(q.p11, q.p01, q.p00) && turns_left(q.p01, q.p00, q.p10);
-  if (!is_graph) return at_equal_uv;
-  const Vec3 twist = (q.p00 - q.p10) + (q.p11 - q.p01);
-  return std::min(at_equal_uv, 0.5 * std::abs(dot(twist, normal)) / size);
-}
-
 TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory) {
   if (how.motion) check_same_build(set, how.motion->patches_before);
   if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
@@ -456,8 +337,7 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleS
 
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error) {
   const Placement in_place{1, no_rotation, {0, 0, 0}};
-  const Vector<LevelledGrid> grids =
-      make_levelled_grids(state, {max_error, in_place, false, 1, nullptr, &plan}, {});
+  const Vector<LevelledGrid> grids = make_levelled_grids(state, {max_error, in_place, false, 1, nullptr, &plan}, {});
   return std::all_of(grids.begin(), grids.end(),
                      [&](const LevelledGrid &grid) { return grid.error_bound <= max_error; });
 }
@@ -468,21 +348,12 @@ namespace {
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
   plan.levels.resize(grids.size());
-  for (std::size_t patch = 0; patch < grids.size(); ++patch) {
-    const QuadGrid &grid = grids[patch];
-    Vector<int> &levels = plan.levels[patch];
-    levels.resize(grid.errors.size(), 0);
-    std::size_t at = 0;
-    for_each_quad(grid, [&](std::size_t i, std::size_t j) {
-      int &level = levels[at++];
-      while (level < most_halvings && !(planned_level(grid, i, j, max_error, level).error <= max_error)) ++level;
-    });
-  }
+  for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
 // Returns the patches of which triangles are missed at one of the openings.
 Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Triangulation &how,
-                                           TriangleSet &triangles) {
+                                      TriangleSet &triangles) {
   for (const PatchSet &state : states) {
     const Vector<std::size_t> vanished = build(state, how, make_levelled_grids(state, how, {}), triangles);
     if (!vanished.empty()) return vanished;

@@ -10,6 +10,7 @@
 #include "geometry/placement.hpp"
 #include "surface/displacement.hpp"
 #include "surface/grid_plan.hpp"
+#include "surface/quads.hpp"
 #include "surface/triangle_set.hpp"
 #include "valve/patches.hpp"
 
@@ -18,7 +19,7 @@ namespace riis {
 // A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its groups.
 struct TriangulationPlan {
   GridPlan grids;
-  Vector<Vector<int>> levels;   // of each patch's quads
+  Vector<Vector<int>> levels;             // of each patch's quads
   std::vector<std::int64_t> triangle_id;  // at one of the openings
   Grouping grouping;                      // of these triangles
 };
@@ -31,7 +32,8 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &states, double max_
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error);
 
 struct Triangulation {
-  double max_error;  // bounds the distance between triangles and smooth surface, in the patches' units (before placement)
+  double
+      max_error;  // bounds the distance between triangles and smooth surface, in the patches' units (before placement)
   const Placement &placement;
   bool flip_normals;
   int n_threads;
@@ -43,22 +45,5 @@ struct Triangulation {
 // max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area. With a plan, triangles keep their ids if others lose
 // their area. A plan that is not within max_error of this state fails with RIIS_LIMIT_EXCEEDED.
 TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory = {});
-
-// A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into triangles along p00 p11.
-struct Quad {
-  Vec3 p00, p10, p11, p01;
-
-  // Along an edge this mixes only the two ends of the edge, so neighbouring quads agree to the last bit.
-  Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
-};
-
-// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. No
-// point of the quad is farther from the two triangles' point at the same (u,v).
-double quad_flatness(const Quad &quad);
-
-// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad. If both are
-// graphs over a plane along both diagonals, it is at most half the component of the twist across that plane
-// (docs/theory.md, section 2).
-double split_error(const Quad &quad);
 
 }  // namespace riis

@@ -16,9 +16,9 @@ namespace riis {
 // The caller's faces, checked and counted from 0.
 struct UserFaces {
   std::int64_t n_vertices = 0, corners_per_face = 3;
-  std::int64_t index_base = 0;            // for messages
-  std::vector<std::int64_t> vertex_id;    // (corners_per_face, n_faces)
-  std::vector<std::int32_t> leaflet_id;   // (n_faces)
+  std::int64_t index_base = 0;           // for messages
+  std::vector<std::int64_t> vertex_id;   // (corners_per_face, n_faces)
+  std::vector<std::int32_t> leaflet_id;  // (n_faces)
 };
 
 // Copies the faces into the memory of faces that are no longer wanted. Both functions fail with RIIS_INVALID_ARGUMENT,

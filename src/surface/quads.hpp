@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quads of grids, and how often they are halved before they are split into triangles (docs/theory.md, section 2).
+// In: grids, the allowed error. Out: the level of each quad, and a bound on the error of its triangles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/recycled.hpp"
+#include "geometry/coons.hpp"
+
+namespace riis {
+
+// A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into triangles along p00 p11.
+struct Quad {
+  Vec3 p00, p10, p11, p01;
+
+  // Along an edge this mixes only the two ends of the edge, so neighbouring quads agree to the last bit.
+  Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
+};
+
+// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. No
+// point of the quad is farther from the two triangles' point at the same (u,v).
+double quad_flatness(const Quad &quad);
+
+// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad. If both are
+// graphs over a plane along both diagonals, it is at most half the component of the twist across that plane
+// (docs/theory.md, section 2).
+double split_error(const Quad &quad);
+
+inline Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {
+  return {grid.point(i, j), grid.point(i + 1, j), grid.point(i + 1, j + 1), grid.point(i, j + 1)};
+}
+
+template <class Visit>
+void for_each_quad(const QuadGrid &grid, const Visit &visit) {
+  for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
+    for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
+}
+
+// No quad that the library accepts needs so many halvings.
+inline constexpr int most_halvings = 13;
+
+// The quads of a patch, with the level of subdivision of each in the order of for_each_quad.
+struct LevelledGrid {
+  QuadGrid grid;
+  Vector<int> levels;
+  std::int64_t n_triangles = 0;  // of one image, including triangles that turn out to have no area
+  std::int64_t n_vertices = 0;
+  double error_bound = 0;  // of the distance between the triangles and the smooth patch
+};
+
+// Takes the levels of a plan, if there is one.
+LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned);
+
+// Lifts levels to those that the quads of a grid need for max_error. An empty list stands for levels of 0.
+void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
+
+}  // namespace riis
