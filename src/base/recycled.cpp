@@ -2,36 +2,9 @@
 #include "base/recycled.hpp"
 
 #include <array>
+#include <atomic>
 #include <mutex>
 #include <utility>
-
-namespace riis {
-namespace {
-
-// Blocks have 2^k bytes, from 64 bytes to 4 MiB. A block that is kept holds the address of the next one of its size. Larger
-// arrays are rare, and their memory is worth more than the time to allocate it again.
-struct Block {
-  Block *next;
-};
-constexpr int smallest = 6, largest = 22;
-constexpr std::size_t largest_block = std::size_t{1} << largest;
-
-struct Pool {
-  std::mutex mutex;
-  std::array<Block *, largest - smallest + 1> kept{};
-  int n_keepers = 0;
-};
-
-// It needs neither a constructor nor a destructor at run time, so arrays of other static objects may outlive everything.
-Pool pool;
-
-int size_class(std::size_t n_bytes) {
-  int k = smallest;
-  while ((std::size_t{1} << k) < n_bytes) ++k;
-  return k;
-}
-
-}  // namespace
 
 // A sanitizer that watches memory has to see each array come and go.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -42,6 +15,8 @@ int size_class(std::size_t n_bytes) {
 #endif
 #endif
 
+namespace riis {
+
 #if defined(RIIS_OWN_MEMORY)
 
 void *take_memory(std::size_t n_bytes) { return ::operator new(n_bytes); }
@@ -51,26 +26,65 @@ KeepsMemory::~KeepsMemory() = default;
 
 #else
 
+namespace {
+
+// Blocks have 2^k bytes, from 64 bytes to 4 MiB. A block that is kept holds the address of the next one of its size. Larger
+// arrays are rare, and their memory is worth more than the time to allocate it again.
+struct Block {
+  Block *next;
+};
+constexpr int smallest = 6, largest = 22;
+constexpr std::size_t largest_block = std::size_t{1} << largest;
+
+// Each thread takes from a pool of its own first, so that threads seldom wait for each other. A thread may give back what another
+// took; so a thread whose pool is empty looks into the others before it asks the system.
+constexpr unsigned n_pools = 16;
+struct alignas(64) Pool {
+  std::mutex mutex;
+  std::array<Block *, largest - smallest + 1> kept{};
+
+  Block *take(std::size_t size) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    Block *first = kept[size];
+    if (first) kept[size] = first->next;
+    return first;
+  }
+};
+
+// They need neither constructors nor destructors at run time, so arrays of other static objects may outlive everything.
+std::array<Pool, n_pools> pools;
+std::atomic<int> n_keepers{0};
+
+unsigned own_pool() {
+  static std::atomic<unsigned> n_threads{0};
+  thread_local const unsigned own = n_threads.fetch_add(1, std::memory_order_relaxed) % n_pools;
+  return own;
+}
+
+int size_class(std::size_t n_bytes) {
+  int k = smallest;
+  while ((std::size_t{1} << k) < n_bytes) ++k;
+  return k;
+}
+
+}  // namespace
+
 void *take_memory(std::size_t n_bytes) {
   if (n_bytes > largest_block) return ::operator new(n_bytes);
   const int k = size_class(n_bytes);
-  {
-    const std::lock_guard<std::mutex> lock(pool.mutex);
-    Block *&first = pool.kept[static_cast<std::size_t>(k - smallest)];
-    if (first) {
-      Block *taken = first;
-      first = taken->next;
-      return taken;
-    }
-  }
+  if (n_keepers.load(std::memory_order_relaxed) > 0)
+    for (unsigned i = 0, own = own_pool(); i < n_pools; ++i)
+      if (Block *taken = pools[(own + i) % n_pools].take(static_cast<std::size_t>(k - smallest))) return taken;
   return ::operator new (std::size_t{1} << k);
 }
 
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
-    const std::lock_guard<std::mutex> lock(pool.mutex);
-    if (pool.n_keepers > 0) {
-      Block *&first = pool.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
+    Pool &to = pools[own_pool()];
+    const std::lock_guard<std::mutex> lock(to.mutex);
+    // The last keeper empties the pools after it has left, and waits for this lock.
+    if (n_keepers.load(std::memory_order_acquire) > 0) {
+      Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};
       return;
     }
@@ -78,19 +92,19 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   ::operator delete(memory);
 }
 
-KeepsMemory::KeepsMemory() noexcept {
-  const std::lock_guard<std::mutex> lock(pool.mutex);
-  ++pool.n_keepers;
-}
+KeepsMemory::KeepsMemory() noexcept { n_keepers.fetch_add(1, std::memory_order_acq_rel); }
 
 KeepsMemory::~KeepsMemory() {
-  std::array<Block *, largest - smallest + 1> freed{};
-  {
-    const std::lock_guard<std::mutex> lock(pool.mutex);
-    if (--pool.n_keepers == 0) freed.swap(pool.kept);
+  if (n_keepers.fetch_sub(1, std::memory_order_acq_rel) > 1) return;
+  for (Pool &pool : pools) {
+    std::array<Block *, largest - smallest + 1> freed{};
+    {
+      const std::lock_guard<std::mutex> lock(pool.mutex);
+      freed.swap(pool.kept);
+    }
+    for (Block *block : freed)
+      while (block) ::operator delete(std::exchange(block, block->next));
   }
-  for (Block *block : freed)
-    while (block) ::operator delete(std::exchange(block, block->next));
 }
 
 #endif
