@@ -57,6 +57,7 @@ riis_surface_options options_of(Input &in) {
     if (in.one_in(8)) options.distance_tolerance = in.number();
   }
   if (in.one_in(4)) options.n_threads = in.n_threads();
+  if (in.one_in(8)) options.triangulation = in.mostly(in.below(2));
   return options;
 }
 
@@ -213,6 +214,11 @@ void make_surface_of_arrays(Input &in, State &state) {
     arrays.velocity_stride = in.one_in(16) ? -in.below(2) : 3;
   }
   arrays.reserved = in.one_in(64) ? -1 : 0;
+  if (in.one_in(8)) {  // vertices alone
+    arrays.n_faces = 0;
+    arrays.vertex_ids = nullptr;
+    if (!in.one_in(8)) arrays.leaflet_id = nullptr;
+  }
   // Sizes may be below those of the buffers, or impossible.
   if (in.one_in(32)) arrays.n_vertices = in.below(n + 1) - 1;
   if (in.one_in(32)) arrays.n_faces = in.below(n_faces + 1) - 1;
@@ -237,6 +243,7 @@ void read_surface(Input &in, State &state) {
   if (status != RIIS_OK) {
     EXPECT(info->n_triangles == 0x5a5a5a5a5a5a5a5a, "a refused info was written");
   } else {
+    EXPECT(info->error_bound >= 0, "%g", info->error_bound);
     const Triangles t = triangles_of(surface.handle);
     EXPECT(info->n_triangles == t.n && info->n_vertices == t.n_vertices && t.n > 0, "%lld",
            static_cast<long long>(t.n));
