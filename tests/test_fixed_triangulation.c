@@ -214,6 +214,114 @@ static void a_triangle_without_area_keeps_its_id(void **state) {
   check_same_topology(&first, &now);
 }
 
+/* Without a surface angle the leaflets are Coons patches, which share their edges at opening 0 only. */
+static void flat_mitral_leaflets_stay_within_the_bound(void **state) {
+  (void)state;
+  rng = random_start("test_fixed_triangulation");
+  riis_valve *valve = new_valve("mitral");
+  CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 0));
+  check_triangles_stay(valve, "flat mitral");
+  check_distances(valve);
+}
+
+/* Patches with rough sides that differ between both states: the openings that the lines were chosen at are never refused. */
+static void openings_of_the_choice_are_never_refused(void **state) {
+  (void)state;
+  rng = random_start("test_fixed_triangulation");
+  const riis_surface_options defaults = fixed_options();
+  for (int trial = 0; trial < 30; ++trial) {
+    const int owned_before = n_owned();
+    shape made[2] = {{0}, {0}};
+    for (int k = 0; k < 2; ++k) {
+      double q[4][4][3];
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+          for (int c = 0; c < 3; ++c) q[i][j][c] = between(-0.2, 0.2) + (c == 0 ? i / 3.0 : c == 1 ? j / 3.0 : 0);
+      const double sides[4][4][3] = {{{q[0][0][0], q[0][0][1], q[0][0][2]},
+                                      {q[1][0][0], q[1][0][1], q[1][0][2]},
+                                      {q[2][0][0], q[2][0][1], q[2][0][2]},
+                                      {q[3][0][0], q[3][0][1], q[3][0][2]}},
+                                     {{q[0][3][0], q[0][3][1], q[0][3][2]},
+                                      {q[1][3][0], q[1][3][1], q[1][3][2]},
+                                      {q[2][3][0], q[2][3][1], q[2][3][2]},
+                                      {q[3][3][0], q[3][3][1], q[3][3][2]}},
+                                     {{q[0][0][0], q[0][0][1], q[0][0][2]},
+                                      {q[0][1][0], q[0][1][1], q[0][1][2]},
+                                      {q[0][2][0], q[0][2][1], q[0][2][2]},
+                                      {q[0][3][0], q[0][3][1], q[0][3][2]}},
+                                     {{q[3][0][0], q[3][0][1], q[3][0][2]},
+                                      {q[3][1][0], q[3][1][1], q[3][1][2]},
+                                      {q[3][2][0], q[3][2][1], q[3][2][2]},
+                                      {q[3][3][0], q[3][3][1], q[3][3][2]}}};
+      for (int i = 0; i < 4; ++i) add_curve(&made[k], 3, sides[i]);
+      add_patch(&made[k], 0, 1, 2, 3);
+    }
+    riis_valve *valve = valve_from(&made[0]), *open = valve_from(&made[1]);
+    CHECK_OK(riis_valve_set_open_state(valve, open));
+    riis_surface_options options = defaults;
+    options.tolerance = pow(10, between(-2, 0));
+    riis_surface *surface = new_surface(valve, &options);
+    for (int i = 0; i <= 32; ++i) {
+      set_opening(valve, i / 32.0);
+      CHECK_OK(riis_surface_update(surface, valve, NULL));
+      CHECK_AT_MOST(info_of(surface).error_bound, 0.1 * options.tolerance);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+/* Coordinates that round too much are refused as they are without a fixed triangulation. */
+static void coordinates_too_large_are_refused(void **state) {
+  (void)state;
+  shape square = unit_square();
+  for (int64_t i = 0; i < square.n_curves; ++i)
+    for (int k = 0; k <= square.degree[i]; ++k) square.control[i][k][0] += 3.3e6;
+  riis_valve *valve = valve_from(&square);
+  riis_surface_options options = fixed_options();
+  options.half_thickness = options.tolerance = 1e-6;
+  riis_surface *surface = NULL;
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "coordinates up to|round by more", riis_surface_create(valve, &options, &surface));
+  assert_null(surface);
+}
+
+static void a_surface_of_arrays_forgets_the_choice(void **state) {
+  (void)state;
+  const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t ids[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
+  const riis_surface_options fixed = fixed_options(), adapted = surface_options();
+  riis_surface *surface = new_surface(new_valve("mitral"), &fixed);
+  CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, &adapted));
+  CHECK_OK(riis_surface_update(surface, opening_aortic(), &fixed));
+}
+
+/* A patch with a side that nearly stops. All of it moves by 1e-6 in 1e-6 seconds. */
+static void near_cusps_move_with_their_valve(void **state) {
+  (void)state;
+  shape made[2] = {{0}, {0}};
+  for (int k = 0; k < 2; ++k) {
+    const double dx = 1e-6 * k, cusp[4][3] = {{dx, 0, 0}, {1e-6 + dx, 0, 0}, {1 + dx, 0.2, 0}, {2 + dx, 1, 0.3}};
+    add_curve(&made[k], 3, cusp);
+    add_line(&made[k], dx, 2, 0, 2 + dx, 3, 0.3);
+    add_line(&made[k], dx, 0, 0, dx, 2, 0);
+    add_line(&made[k], 2 + dx, 1, 0.3, 2 + dx, 3, 0.3);
+    add_patch(&made[k], 0, 1, 2, 3);
+  }
+  riis_valve *valve = valve_from(&made[0]), *before = valve_from(&made[0]), *open = valve_from(&made[1]);
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  CHECK_OK(riis_valve_set_open_state(before, open));
+  riis_surface_options options = fixed_options();
+  for (options.tolerance = 0.01; options.tolerance > 1e-4; options.tolerance *= 0.5) {
+    set_opening(valve, 0);
+    riis_surface *surface = new_surface(valve, &options);
+    set_opening(valve, 1);
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, 1e-6, NULL, NULL));
+    const double *velocity = velocity_of(surface);
+    for (int64_t i = 0; i < info_of(surface).n_vertices; ++i) CHECK_NEAR(velocity[3 * i], 1, 1e-5);
+    free_one_owned(surface);
+  }
+}
+
 static void a_valve_with_one_state_is_fixed_too(void **state) {
   (void)state;
   const riis_surface_options options = fixed_options();
@@ -298,6 +406,11 @@ int main(void) {
       cmocka_unit_test_teardown(a_restart_has_the_same_bits, free_owned),
       cmocka_unit_test_teardown(velocity_is_that_of_the_vertices, free_owned),
       cmocka_unit_test_teardown(a_triangle_without_area_keeps_its_id, free_owned),
+      cmocka_unit_test_teardown(flat_mitral_leaflets_stay_within_the_bound, free_owned),
+      cmocka_unit_test_teardown(openings_of_the_choice_are_never_refused, free_owned),
+      cmocka_unit_test_teardown(coordinates_too_large_are_refused, free_owned),
+      cmocka_unit_test_teardown(a_surface_of_arrays_forgets_the_choice, free_owned),
+      cmocka_unit_test_teardown(near_cusps_move_with_their_valve, free_owned),
       cmocka_unit_test_teardown(a_valve_with_one_state_is_fixed_too, free_owned),
       cmocka_unit_test_teardown(other_changes_are_refused, free_owned),
       cmocka_unit_test_teardown(other_open_states_and_curves_are_refused, free_owned),

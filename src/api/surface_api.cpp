@@ -212,6 +212,7 @@ void fill_from_faces(riis_surface &surface, const riis::UserFaces &faces, const 
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(faces, arrays, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
   });
+  surface.fixed.reset();
 }
 
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {

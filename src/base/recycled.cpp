@@ -21,6 +21,7 @@ namespace riis {
 
 void *take_memory(std::size_t n_bytes) { return ::operator new(n_bytes); }
 void give_memory_back(void *memory, std::size_t) noexcept { ::operator delete(memory); }
+void free_kept_memory() noexcept {}
 KeepsMemory::KeepsMemory() noexcept = default;
 KeepsMemory::~KeepsMemory() = default;
 
@@ -43,8 +44,10 @@ struct alignas(64) Pool {
   std::mutex mutex;
   std::array<Block *, largest - smallest + 1> kept{};
 
+  // Returns null if there is none, or if another thread is at it. Nobody waits, so a process that was forked meanwhile goes on.
   Block *take(std::size_t size) {
-    const std::lock_guard<std::mutex> lock(mutex);
+    const std::unique_lock<std::mutex> lock(mutex, std::try_to_lock);
+    if (!lock) return nullptr;
     Block *first = kept[size];
     if (first) kept[size] = first->next;
     return first;
@@ -81,9 +84,9 @@ void *take_memory(std::size_t n_bytes) {
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
-    const std::lock_guard<std::mutex> lock(to.mutex);
-    // The last keeper empties the pools after it has left, and waits for this lock.
-    if (n_keepers.load(std::memory_order_acquire) > 0) {
+    const std::unique_lock<std::mutex> lock(to.mutex, std::try_to_lock);
+    // The last keeper empties the pools after it has left.
+    if (lock && n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};
       return;
@@ -92,19 +95,22 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   ::operator delete(memory);
 }
 
-KeepsMemory::KeepsMemory() noexcept { n_keepers.fetch_add(1, std::memory_order_acq_rel); }
-
-KeepsMemory::~KeepsMemory() {
-  if (n_keepers.fetch_sub(1, std::memory_order_acq_rel) > 1) return;
+void free_kept_memory() noexcept {
   for (Pool &pool : pools) {
     std::array<Block *, largest - smallest + 1> freed{};
     {
-      const std::lock_guard<std::mutex> lock(pool.mutex);
-      freed.swap(pool.kept);
+      const std::unique_lock<std::mutex> lock(pool.mutex, std::try_to_lock);
+      if (lock) freed.swap(pool.kept);
     }
     for (Block *block : freed)
       while (block) ::operator delete(std::exchange(block, block->next));
   }
+}
+
+KeepsMemory::KeepsMemory() noexcept { n_keepers.fetch_add(1, std::memory_order_acq_rel); }
+
+KeepsMemory::~KeepsMemory() {
+  if (n_keepers.fetch_sub(1, std::memory_order_acq_rel) == 1) free_kept_memory();
 }
 
 #endif

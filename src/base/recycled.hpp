@@ -14,6 +14,9 @@ namespace riis {
 void *take_memory(std::size_t n_bytes);
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 
+// Frees the memory that is kept now, after work that took much more than a step does.
+void free_kept_memory() noexcept;
+
 // Memory is kept while one of these lives. The last one frees it.
 class KeepsMemory {
  public:

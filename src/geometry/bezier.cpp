@@ -119,6 +119,8 @@ bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<doub
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
+    // At a near-cusp Newton's method may not come close in so few steps.
+    if (!(std::abs(made - wanted) <= 1e-13 * curve_length)) return false;
     at = t[k] = next;
     at_length += made;
   }

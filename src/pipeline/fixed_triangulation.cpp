@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/fixed_triangulation.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "base/errors.hpp"
+#include "base/recycled.hpp"
 
 namespace riis {
 namespace {
@@ -13,7 +13,9 @@ namespace {
 constexpr int n_openings = 33;
 // They are tried at so many openings between each two of these. Lines that fail there are chosen again with the openings at which
 // they failed, at most so often.
-constexpr int n_between = 3, n_trials = 4;
+constexpr int n_between = 7, n_trials = 4;
+// The choice holds the patches of all these openings.
+constexpr std::size_t max_patches = 10'000;
 
 PatchSet patches_at(Valve &valve, double opening) {
   valve.set("opening", 1, &opening);
@@ -25,18 +27,26 @@ PatchSet patches_at(Valve &valve, double opening) {
 }
 
 TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
-  if (!valve.can_open()) return plan_triangulation({valve.make_patches()}, max_error, n_threads);
-  Vector<PatchSet> states, between;
+  Vector<PatchSet> states;
+  if (!valve.can_open()) {
+    states.push_back(valve.make_patches());
+    return plan_triangulation(states, max_error, n_threads);
+  }
+  const std::size_t n_patches = patches_at(valve, 0).patches.size();
+  if (n_patches > max_patches)
+    fail(RIIS_LIMIT_EXCEEDED, "the valve has ", n_patches, " patches; a fixed triangulation takes at most ",
+         max_patches);
   constexpr int n_steps = (n_between + 1) * (n_openings - 1);
-  for (int i = 0; i <= n_steps; ++i)
-    (i % (n_between + 1) == 0 ? states : between).push_back(patches_at(valve, static_cast<double>(i) / n_steps));
+  const auto opening = [](int i) { return static_cast<double>(i) / n_steps; };
+  for (int i = 0; i <= n_steps; i += n_between + 1) states.push_back(patches_at(valve, opening(i)));
   TriangulationPlan plan = plan_triangulation(states, max_error, n_threads);
   for (int trial = 0; trial < n_trials; ++trial) {
-    const auto failed = std::stable_partition(between.begin(), between.end(),
-                                              [&](const PatchSet &state) { return is_within(state, plan, max_error); });
-    if (failed == between.end()) break;
-    states.insert(states.end(), std::make_move_iterator(failed), std::make_move_iterator(between.end()));
-    between.erase(failed, between.end());
+    const std::size_t n_states = states.size();
+    for (int i = 0; i <= n_steps; ++i) {
+      PatchSet state = patches_at(valve, opening(i));
+      if (!is_within(state, plan, max_error)) states.push_back(std::move(state));
+    }
+    if (states.size() == n_states) break;
     plan = plan_triangulation(states, max_error, n_threads);
   }
   return plan;
@@ -45,6 +55,8 @@ TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
 }  // namespace
 
 FixedTriangulation::FixedTriangulation(const Valve &valve, double max_error, int n_threads)
-    : valve_(valve), plan_(plan_for(valve, max_error, n_threads)) {}
+    : valve_(valve), plan_(plan_for(valve, max_error, n_threads)) {
+  free_kept_memory();
+}
 
 }  // namespace riis

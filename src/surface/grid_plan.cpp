@@ -191,6 +191,7 @@ class Planner {
       : states_(states), set_(states.front()), max_error_(max_error), tightness_(tightness) {}
 
   GridPlan plan() {
+    for (const PatchSet &state : states_) check_precision(state, max_error_);
     plan_.shares.resize(set_.curves.size());
     plan_.patches.resize(set_.patches.size());
     for (std::size_t i = 0; i < set_.patches.size(); ++i) {
@@ -200,8 +201,8 @@ class Planner {
         plan_arcs(i);
       else
         plan_sides(set_.patches[i]);
-      count(i);
     }
+    for (std::size_t i = 0; i < set_.patches.size(); ++i) count(i);
     return std::move(plan_);
   }
 
@@ -390,6 +391,20 @@ class PlannedGrids {
 };
 
 }  // namespace
+
+Build::Build(const PatchSet &set) : patches_(set.patches), n_curves_(set.curves.size()) {}
+
+PatchSet Build::counted(const PatchSet &set) const {
+  PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches};
+  for (std::size_t i = 0; i < patches_.size(); ++i)
+    for (const auto side : {&Patch::v0, &Patch::v1, &Patch::u0, &Patch::u1}) {
+      const Side &from = set.patches[i].*side, &to = patches_[i].*side;
+      const Curve &curve = set.curves[from.curve];
+      made.curves[to.curve] = from.reversed == to.reversed ? curve : curve.reversed();
+      made.patches[i].*side = to;
+    }
+  return made;
+}
 
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness) {
   return Planner(states, max_error, tightness).plan();

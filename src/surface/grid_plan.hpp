@@ -23,13 +23,26 @@ struct PatchPlan {
   Vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error
 };
 
+// The sides of patches, by which curves are counted. A valve may share curves at one opening and not at another, as closed
+// mitral leaflets do.
+struct Build {
+  explicit Build(const PatchSet &set);
+  // Returns the patches with curves counted by this build, so that lists by curve fit all openings. The patches have the same
+  // build but for shared curves (check_same_build).
+  PatchSet counted(const PatchSet &set) const;
+
+ private:
+  Vector<Patch> patches_;
+  std::size_t n_curves_;
+};
+
 struct GridPlan {
   Vector<Vector<double>> shares;  // of each curve's length, at its vertices; empty if only arcs end there
   Vector<PatchPlan> patches;
   std::size_t n_rows = 1;  // of patches of arcs
 };
 
-// Makes the plan for patches of the same build (check_same_build) at each of the openings. Keeps each curve within its share of
+// Makes the plan for patches that are counted by one build, at each of the openings. Keeps each curve within its share of
 // max_error times its tightness. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
 // RIIS_INVALID_PARAMETER if no lines are enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness);

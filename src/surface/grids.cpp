@@ -26,7 +26,7 @@ class GridMaker {
         errors_(set.curves.size(), infinity),
         polylines_(set.curves.size()),
         reversed_(set.curves.size()) {
-    check_precision();
+    check_precision(set, max_error);
     // Each curve gets one polyline, as exact as its most demanding patch needs it.
     for (const Patch &patch : set.patches) {
       for (const Side &side : {patch.v0, patch.v1}) allow(side, patch.bulge != 0 ? arc_curve_share : curve_share);
@@ -132,25 +132,6 @@ class GridMaker {
     return lines;
   }
 
-  // Refuses curves whose lengths or coordinates round by too much for max_error.
-  void check_precision() const {
-    double largest = 0, longest = 0;
-    for (const Curve &curve : set_.curves) {
-      longest = std::max(longest, curve.length());
-      for (const Bezier &piece : curve.pieces())
-        for (int k = 0; k <= piece.degree; ++k) {
-          const Vec3 q = view(piece.control)[k];
-          largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-        }
-    }
-    if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * max_error_)
-      fail(RIIS_LIMIT_EXCEEDED, "control points have coordinates up to ", largest,
-           ", which round by more than a thousandth of tolerance * half_thickness before scaling, ", max_error_);
-    if (longest * 1e-12 > 1e-2 * max_error_)
-      fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
-           " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error_);
-  }
-
   // Returns the number of triangles of all images of a patch if no quad is split.
   double n_triangles(std::size_t i, double n_rows) const {
     const auto n_between = [](const Polyline &a, const Polyline &b) {
@@ -178,6 +159,24 @@ class GridMaker {
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
                             const PatchSet *before) {
   return GridMaker(set, max_error, tightness, n_threads, before).make();
+}
+
+void check_precision(const PatchSet &set, double max_error) {
+  double largest = 0, longest = 0;
+  for (const Curve &curve : set.curves) {
+    longest = std::max(longest, curve.length());
+    for (const Bezier &piece : curve.pieces())
+      for (int k = 0; k <= piece.degree; ++k) {
+        const Vec3 q = view(piece.control)[k];
+        largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+      }
+  }
+  if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * max_error)
+    fail(RIIS_LIMIT_EXCEEDED, "control points have coordinates up to ", largest,
+         ", which round by more than a thousandth of tolerance * half_thickness before scaling, ", max_error);
+  if (longest * 1e-12 > 1e-2 * max_error)
+    fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
+         " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error);
 }
 
 double rows_for(double offset, double max_error) {

@@ -28,6 +28,9 @@ double rows_for(double offset, double max_error);
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
                             int n_threads = 1, const PatchSet *before = nullptr);
 
+// Fails with RIIS_LIMIT_EXCEEDED if lengths or coordinates of curves round by too much for max_error.
+void check_precision(const PatchSet &set, double max_error);
+
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
 void check_count(double n_triangles, double max_error);
 

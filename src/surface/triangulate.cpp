@@ -237,7 +237,7 @@ Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulatio
                                          const Vector<double> &tightness) {
   const PatchSet *before = how.motion ? &how.motion->patches_before : nullptr;
   const TriangulationPlan *plan = how.plan;
-  Vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, how.max_error, how.n_threads, before)
+  Vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, plan->max_error, how.n_threads, before)
                                 : make_grids(set, how.max_error, tightness, how.n_threads, before);
   Vector<LevelledGrid> levelled(grids.size());
   parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
@@ -305,14 +305,17 @@ constexpr int max_attempts = 12;
 
 // Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
 TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
-  const Vector<LevelledGrid> grids = make_levelled_grids(set, how, {});
+  check_precision(set, how.max_error);
+  const PatchSet counted = how.plan->build.counted(set);
+  const Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (!(grids[i].error_bound <= how.max_error))
       fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
-  const Vector<std::size_t> vanished = build(set, how, grids, triangles);
+  const Vector<std::size_t> vanished = build(counted, how, grids, triangles);
   if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
+  triangles.rim_sides = rim_sides(set);  // shared curves are no rims
   if (triangles.triangle_id == how.plan->triangle_id)
     triangles.grouping = how.plan->grouping;
   else
@@ -337,7 +340,8 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleS
 
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error) {
   const Placement in_place{1, no_rotation, {0, 0, 0}};
-  const Vector<LevelledGrid> grids = make_levelled_grids(state, {max_error, in_place, false, 1, nullptr, &plan}, {});
+  const Vector<LevelledGrid> grids =
+      make_levelled_grids(plan.build.counted(state), {max_error, in_place, false, 1, nullptr, &plan}, {});
   return std::all_of(grids.begin(), grids.end(),
                      [&](const LevelledGrid &grid) { return grid.error_bound <= max_error; });
 }
@@ -363,21 +367,30 @@ Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Tria
 
 }  // namespace
 
-TriangulationPlan plan_triangulation(const Vector<PatchSet> &states, double max_error, int n_threads) {
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads) {
   // The rest is for openings between these.
   constexpr double share = 0.95;
+  const double planned_error = share * max_error;
+  // Curves that are shared at one opening only are counted apart.
+  const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
+    return a.curves.size() < b.curves.size();
+  });
+  const Build counting(widest);
+  Vector<PatchSet> states;
+  for (const PatchSet &state : given) {
+    check_same_build(widest, state);
+    states.push_back(counting.counted(state));
+  }
   const PatchSet &middle = states[states.size() / 2];
-  for (const PatchSet &state : states) check_same_build(middle, state);
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   Vector<double> tightness(middle.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
-    TriangulationPlan plan{plan_grids(states, share * max_error, tightness), {}, {}, {}};
-    for (const PatchSet &state : states) raise_levels(state, share * max_error, plan);
+    TriangulationPlan plan{plan_grids(states, planned_error, tightness), counting, planned_error, {}, {}, {}};
+    for (const PatchSet &state : states) raise_levels(state, planned_error, plan);
+    const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};
     TriangleSet triangles;
-    const Vector<std::size_t> vanished =
-        vanished_anywhere(states, {max_error, in_place, false, n_threads, nullptr, &plan}, triangles);
+    const Vector<std::size_t> vanished = vanished_anywhere(states, how, triangles);
     if (vanished.empty()) {
-      const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};
       build(middle, how, make_levelled_grids(middle, how, {}), triangles);
       plan.triangle_id = triangles.triangle_id;
       group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), plan.grouping);

@@ -19,6 +19,8 @@ namespace riis {
 // A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its groups.
 struct TriangulationPlan {
   GridPlan grids;
+  Build build;                            // the curves that the grids count by
+  double max_error;                       // that the lines and levels were chosen for
   Vector<Vector<int>> levels;             // of each patch's quads
   std::vector<std::int64_t> triangle_id;  // at one of the openings
   Grouping grouping;                      // of these triangles
@@ -26,7 +28,7 @@ struct TriangulationPlan {
 
 // Makes the plan for a valve's patches at many openings; max_error as below. Keeps a small part of it for openings between
 // these. Fails as triangulate does.
-TriangulationPlan plan_triangulation(const Vector<PatchSet> &states, double max_error, int n_threads);
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads);
 
 // Returns whether the plan's triangles are within max_error of a state.
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error);
