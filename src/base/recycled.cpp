@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/recycled.hpp"
 
+#include <pthread.h>
+
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -44,10 +46,9 @@ struct alignas(64) Pool {
   std::mutex mutex;
   std::array<Block *, largest - smallest + 1> kept{};
 
-  // Returns null if there is none, or if another thread is at it. Nobody waits, so a process that was forked meanwhile goes on.
+  // Returns null if there is none.
   Block *take(std::size_t size) {
-    const std::unique_lock<std::mutex> lock(mutex, std::try_to_lock);
-    if (!lock) return nullptr;
+    const std::lock_guard<std::mutex> lock(mutex);
     Block *first = kept[size];
     if (first) kept[size] = first->next;
     return first;
@@ -62,6 +63,18 @@ unsigned own_pool() {
   static std::atomic<unsigned> n_threads{0};
   thread_local const unsigned own = n_threads.fetch_add(1, std::memory_order_relaxed) % n_pools;
   return own;
+}
+
+// A process may be forked while another thread is at a pool. The child has no such thread, which would never unlock the pool.
+bool prepare_for_forks() noexcept {
+  const auto unlock = [] {
+    for (Pool &pool : pools) pool.mutex.unlock();
+  };
+  return pthread_atfork(
+             [] {
+               for (Pool &pool : pools) pool.mutex.lock();
+             },
+             unlock, unlock) == 0;
 }
 
 int size_class(std::size_t n_bytes) {
@@ -84,9 +97,9 @@ void *take_memory(std::size_t n_bytes) {
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
-    const std::unique_lock<std::mutex> lock(to.mutex, std::try_to_lock);
-    // The last keeper empties the pools after it has left.
-    if (lock && n_keepers.load(std::memory_order_acquire) > 0) {
+    const std::lock_guard<std::mutex> lock(to.mutex);
+    // The last keeper empties the pools after it has left, and waits for this lock.
+    if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};
       return;
@@ -99,15 +112,19 @@ void free_kept_memory() noexcept {
   for (Pool &pool : pools) {
     std::array<Block *, largest - smallest + 1> freed{};
     {
-      const std::unique_lock<std::mutex> lock(pool.mutex, std::try_to_lock);
-      if (lock) freed.swap(pool.kept);
+      const std::lock_guard<std::mutex> lock(pool.mutex);
+      freed.swap(pool.kept);
     }
     for (Block *block : freed)
       while (block) ::operator delete(std::exchange(block, block->next));
   }
 }
 
-KeepsMemory::KeepsMemory() noexcept { n_keepers.fetch_add(1, std::memory_order_acq_rel); }
+KeepsMemory::KeepsMemory() noexcept {
+  static const bool is_ready_for_forks = prepare_for_forks();
+  static_cast<void>(is_ready_for_forks);
+  n_keepers.fetch_add(1, std::memory_order_acq_rel);
+}
 
 KeepsMemory::~KeepsMemory() {
   if (n_keepers.fetch_sub(1, std::memory_order_acq_rel) == 1) free_kept_memory();
