@@ -639,7 +639,14 @@ contains
     end if
     if (code == RIIS_OK .and. n < 0) code = refuse('none of coefficient and momentum is given')
     call get_resistance(resistance, half_thickness, rim, made, code)
-    if (code == RIIS_OK) code = riis_mark_result_add_resistance(this%handle, made, n, coefficient, momentum)
+    ! An absent array of rank 2 is not passed on: gfortran would compute its size for a copy, from bounds that nobody set.
+    if (code == RIIS_OK) then
+      if (present(momentum)) then
+        code = riis_mark_result_add_resistance(this%handle, made, n, coefficient, momentum)
+      else
+        code = riis_mark_result_add_resistance(this%handle, made, n, coefficient)
+      end if
+    end if
     call finish(code, status)
   end subroutine result_add_resistance
 
