@@ -11,11 +11,6 @@
 namespace riis::accuracy {
 namespace {
 
-Curve curve_of(const PatchSet &set, const Side &side) {
-  const Curve &curve = set.curves.at(side.curve);
-  return side.reversed ? curve.reversed() : curve;
-}
-
 // Returns the larger principal curvature, from the fundamental forms.
 double largest_curvature(Vec3 su, Vec3 sv, const std::array<Vec3, 3> &second, Vec3 normal) {
   const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), determinant = e * g - f * f;
@@ -28,12 +23,12 @@ double largest_curvature(Vec3 su, Vec3 sv, const std::array<Vec3, 3> &second, Ve
 
 SmoothSurface::SmoothSurface(const PatchSet &set) {
   for (const Patch &patch : set.patches) {
-    SmoothPatch smooth{curve_of(set, patch.v0), curve_of(set, patch.v1), {}, {}, {}};
+    SmoothPatch smooth{along(set, patch.v0), along(set, patch.v1), {}, {}, {}};
     if (patch.bulge != 0)
       smooth.bulge.emplace(smooth.v0, smooth.v1, patch.bulge);
     else {
-      smooth.u0.emplace(curve_of(set, patch.u0));
-      smooth.u1.emplace(curve_of(set, patch.u1));
+      smooth.u0.emplace(along(set, patch.u0));
+      smooth.u1.emplace(along(set, patch.u1));
     }
     for (const PatchImage &image : patch.images) images_.push_back({patches_.size(), image});
     patches_.push_back(std::move(smooth));

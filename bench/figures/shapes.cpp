@@ -21,8 +21,6 @@ Bezier placed(const Bezier &piece, const PatchImage &image) {
   return made;
 }
 
-const Curve &curve_of(const PatchSet &set, const Side &side) { return set.curves.at(side.curve); }
-
 Pieces concatenated(Pieces a, const Pieces &b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -129,7 +127,7 @@ TriangleEdges triangle_edges_of(const Model &model, std::int32_t leaflet) {
 
 Pieces placed(const PatchSet &set, const Side &side, const PatchImage &image) {
   Pieces pieces;
-  for (const Bezier &piece : curve_of(set, side).pieces()) pieces.push_back(placed(piece, image));
+  for (const Bezier &piece : set.curve_of(side).pieces()) pieces.push_back(placed(piece, image));
   return side.reversed ? reversed(pieces) : pieces;
 }
 
@@ -178,7 +176,7 @@ Points control_points(const Pieces &pieces) {
 std::array<BoundaryPolyline, 4> boundary_polylines(const PatchSet &set, const Patch &patch, const QuadGrid &grid) {
   const std::size_t n_u = grid.u.size(), n_v = grid.v.size();
   const auto vertices = [&](const Side &side, const Vector<double> &t, const auto &point) {
-    const Curve curve = side.reversed ? curve_of(set, side).reversed() : curve_of(set, side);
+    const Curve curve = along(set, side);
     BoundaryPolyline made;
     if (curve.length() == 0) return BoundaryPolyline{{curve.first()}, {0}};
     for (std::size_t i = 0; i < t.size(); ++i) {
@@ -197,7 +195,7 @@ std::array<BoundaryPolyline, 4> boundary_polylines(const PatchSet &set, const Pa
 CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp) {
   const Patch *below = nullptr, *above = nullptr;
   for (const Patch &patch : set.patches)
-    if (patch.images.front().leaflet_id == cusp) (curve_of(set, patch.v0).length() == 0 ? below : above) = &patch;
+    if (patch.images.front().leaflet_id == cusp) (set.curve_of(patch.v0).length() == 0 ? below : above) = &patch;
   if (!below || !above) throw std::runtime_error("a cusp has two patches");
   CuspCurves curves;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -218,7 +216,7 @@ MitralCurves mitral_curves(const PatchSet &set) {
     for (std::size_t k = 0; k < 2; ++k) {
       const PatchImage &image = patch.images.at(k);
       annulus[k] = concatenated(annulus[k], placed(set, patch.v0, image));
-      if (curve_of(set, patch.v1).length() == 0) continue;
+      if (set.curve_of(patch.v1).length() == 0) continue;
       Pieces &edge = (image.leaflet_id == RIIS_LEAFLET_ANTERIOR ? anterior : posterior)[k];
       edge = concatenated(edge, placed(set, patch.v1, image));
     }

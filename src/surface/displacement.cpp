@@ -82,14 +82,12 @@ class ArcMotion {
     if (bulge_before_ == 0) return {0, 0, 0};
     // The neighbours have the same offsets at the ends.
     const Patch &before = moved_.before.patches[moved_.patch];
-    if (i == 0) return offset_before(before.u0);
-    if (i + 1 == lines.size()) return offset_before(before.u1);
+    if (i == 0) return arc_offset(moved_.before, before.u0);
+    if (i + 1 == lines.size()) return arc_offset(moved_.before, before.u1);
     const double u = lines[i].middle;
     const Curve::Frame frame = base_.frame_before(u);
     return arc_offset(edge_.before(u) - frame.point, frame.tangent, bulge_before_);
   }
-
-  Vec3 offset_before(const Side &side) const { return arc_offset(moved_.before.curves[side.curve].pieces().front()); }
 
   const MovedPatch &moved_;
   double bulge_before_;

@@ -23,11 +23,9 @@ constexpr int max_rounds = 24;
 // The bound counts at most so many parts between two lines.
 constexpr int most_parts = 8;
 
-const Curve &curve_of(const PatchSet &set, const Side &side) { return set.curves[side.curve]; }
-
 // Returns the joints of a side, by the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side) {
-  Vector<double> joints = curve_of(set, side).joints();
+  Vector<double> joints = set.curve_of(side).joints();
   if (!side.reversed) return joints;
   std::reverse(joints.begin(), joints.end());
   for (double &joint : joints) joint = 1 - joint;
@@ -70,8 +68,8 @@ class PlannedArcs {
         max_error_(max_error),
         lines_(moved(plan.u, plan.joints, joints_of(set, patch.v0))),
         shares_(shares_for(plan.n_parts)),
-        base_(curve_of(set, patch.v0), patch.v0.reversed, shares_),
-        edge_(curve_of(set, patch.v1), patch.v1.reversed, shares_) {
+        base_(set.curve_of(patch.v0), patch.v0.reversed, shares_),
+        edge_(set.curve_of(patch.v1), patch.v1.reversed, shares_) {
     for (std::size_t i = 0; i < shares_.size(); ++i)
       offsets_.push_back(arc_offset(edge_.point(i) - base_.point(i), base_.tangent(i), patch.bulge));
   }
@@ -83,10 +81,10 @@ class PlannedArcs {
   }
 
   Polyline base_polyline(const Vector<ColumnErrors> &errors) const {
-    return polyline(base_, curve_of(set_, patch_.v0), errors, &ColumnErrors::base);
+    return polyline(base_, set_.curve_of(patch_.v0), errors, &ColumnErrors::base);
   }
   Polyline edge_polyline(const Vector<ColumnErrors> &errors) const {
-    return polyline(edge_, curve_of(set_, patch_.v1), errors, &ColumnErrors::edge);
+    return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
   // The neighbours have the same offsets at the ends, to the last bit.
@@ -96,14 +94,12 @@ class PlannedArcs {
       made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
       made.offsets.push_back(offsets_[at_[i]]);
     }
-    made.offsets.front() = offset_of(patch_.u0), made.offsets.back() = offset_of(patch_.u1);
+    made.offsets.front() = arc_offset(set_, patch_.u0), made.offsets.back() = arc_offset(set_, patch_.u1);
     for (std::size_t i = 0; i < errors.size(); ++i) made.errors.push_back(errors[i].offset(n_parts[i]));
     return made;
   }
 
  private:
-  Vec3 offset_of(const Side &side) const { return arc_offset(curve_of(set_, side).pieces().front()); }
-
   // Returns the lines and the shares between them; at_ tells where the lines are.
   Vector<double> shares_for(const Vector<int> &n_parts) {
     Vector<double> shares;
@@ -122,11 +118,10 @@ class PlannedArcs {
     ColumnErrors made{base_.chord_error(i, j, enough), edge_.chord_error(i, j, enough), 0, 0, 0,
                       shares_[j] - shares_[i]};
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
-    const Curve &base = curve_of(set_, patch_.v0), &edge = curve_of(set_, patch_.v1);
+    const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
       // O' may jump inside, which the other bound counts.
-      const auto along = [](const Curve &curve, const Side &side) { return side.reversed ? curve.reversed() : curve; };
-      made.off_line = made.largest = Bulge(along(base, patch_.v0), along(edge, patch_.v1), patch_.bulge)
+      made.off_line = made.largest = Bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge)
                                          .linear_error(shares_[i], shares_[j], offset_share * max_error_);
       return made;
     }
@@ -207,7 +202,7 @@ class Planner {
   }
 
  private:
-  double tightness(const Side &side) const { return tightness_.empty() ? 1 : tightness_[side.curve]; }
+  double tightness(const Side &side) const { return tightness_[side.curve]; }
 
   // Gives the four curves of a Coons patch their vertices, and the patch its lines.
   void plan_sides(const Patch &patch) {
@@ -223,7 +218,7 @@ class Planner {
     for (int round = 0;; ++round) {
       Vector<bool> is_too_large(shares.size() - 1, false);
       for (const PatchSet &state : states_) {
-        const Polyline polyline = polyline_at(curve_of(state, side), shares, enough);
+        const Polyline polyline = polyline_at(state.curve_of(side), shares, enough);
         for (std::size_t i = 0; i < polyline.errors.size(); ++i)
           if (!(polyline.errors[i] <= enough)) is_too_large[i] = true;
       }
@@ -235,9 +230,9 @@ class Planner {
   }
 
   // Returns the shares by the patch's parameter. A side that is always collapsed has lines at its ends only.
-  Vector<double> along(const Side &side) const {
+  Vector<double> shares_along(const Side &side) const {
     const bool is_collapsed = std::none_of(states_.begin(), states_.end(),
-                                           [&](const PatchSet &set) { return curve_of(set, side).length() > 0; });
+                                           [&](const PatchSet &set) { return set.curve_of(side).length() > 0; });
     if (is_collapsed) return {0, 1};
     Vector<double> shares = plan_.shares[side.curve];
     if (!side.reversed) return shares;
@@ -248,7 +243,7 @@ class Planner {
 
   // The shares are binary fractions, so they are equal to the last bit or far apart.
   Vector<GridLine> lines(const Side &a, const Side &b) const {
-    const Vector<double> on_a = along(a), on_b = along(b);
+    const Vector<double> on_a = shares_along(a), on_b = shares_along(b);
     Vector<double> both;
     std::set_union(on_a.begin(), on_a.end(), on_b.begin(), on_b.end(), std::back_inserter(both));
     Vector<GridLine> made;
@@ -393,6 +388,15 @@ class PlannedGrids {
 }  // namespace
 
 Build::Build(const PatchSet &set) : patches_(set.patches), n_curves_(set.curves.size()) {}
+
+bool Build::counts_as(const PatchSet &set) const {
+  const auto are_equal = [](const Side &a, const Side &b) { return a.curve == b.curve && a.reversed == b.reversed; };
+  return set.curves.size() == n_curves_ && std::equal(patches_.begin(), patches_.end(), set.patches.begin(),
+                                                      set.patches.end(), [&](const Patch &a, const Patch &b) {
+                                                        return are_equal(a.v0, b.v0) && are_equal(a.v1, b.v1) &&
+                                                               are_equal(a.u0, b.u0) && are_equal(a.u1, b.u1);
+                                                      });
+}
 
 PatchSet Build::counted(const PatchSet &set) const {
   PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches};

@@ -27,6 +27,8 @@ struct PatchPlan {
 // mitral leaflets do.
 struct Build {
   explicit Build(const PatchSet &set);
+  // Returns whether the patches count their curves by this build already.
+  bool counts_as(const PatchSet &set) const;
   // Returns the patches with curves counted by this build, so that lists by curve fit all openings. The patches have the same
   // build but for shared curves (check_same_build).
   PatchSet counted(const PatchSet &set) const;

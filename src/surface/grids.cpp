@@ -118,16 +118,12 @@ class GridMaker {
   }
 
   ArcLines arc_lines(const Patch &patch, const PatchSides &sides) const {
-    const auto curve = [&](const Side &side) {
-      return side.reversed ? set_.curves[side.curve].reversed() : set_.curves[side.curve];
-    };
-    const auto offset = [&](const Side &side) { return arc_offset(set_.curves[side.curve].pieces().front()); };
-    const Vec3 at_u0 = offset(patch.u0), at_u1 = offset(patch.u1);
+    const Vec3 at_u0 = arc_offset(set_, patch.u0), at_u1 = arc_offset(set_, patch.u1);
     // More lines than this make too many triangles.
     const double n_rows = rows_for(std::max(length(at_u0), length(at_u1)), max_error_);
     const auto max_lines = static_cast<std::size_t>(static_cast<double>(max_triangles) / n_rows) + 2;
-    ArcLines lines = make_arc_lines(sides, Bulge(curve(patch.v0), curve(patch.v1), patch.bulge), at_u0, at_u1,
-                                    {merge_share * max_error_, offset_share * max_error_, max_lines});
+    ArcLines lines = make_arc_lines(sides, Bulge(along(set_, patch.v0), along(set_, patch.v1), patch.bulge), at_u0,
+                                    at_u1, {merge_share * max_error_, offset_share * max_error_, max_lines});
     if (lines.u_lines.size() > max_lines) check_count(2 * n_rows * static_cast<double>(max_lines), max_error_);
     return lines;
   }

@@ -285,7 +285,6 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   if (!vanished.empty()) return vanished;
   close_gaps(pieces, how.plan != nullptr, triangles);
   triangles.error_bound = error_bound * how.placement.scale;
-  triangles.rim_sides = rim_sides(set);
   return vanished;
 }
 
@@ -306,7 +305,10 @@ constexpr int max_attempts = 12;
 // Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
 TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
   check_precision(set, how.max_error);
-  const PatchSet counted = how.plan->build.counted(set);
+  // Only the states that share curves are counted anew.
+  std::optional<PatchSet> recounted;
+  if (!how.plan->build.counts_as(set)) recounted = how.plan->build.counted(set);
+  const PatchSet &counted = recounted ? *recounted : set;
   const Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (!(grids[i].error_bound <= how.max_error))
@@ -332,7 +334,10 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleS
   for (int attempt = 0;; ++attempt) {
     const Vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
     const Vector<std::size_t> vanished = build(set, how, grids, memory);
-    if (vanished.empty()) return memory;
+    if (vanished.empty()) {
+      memory.rim_sides = rim_sides(set);
+      return memory;
+    }
     if (attempt == max_attempts) fail_for_vanished(set, vanished.front(), "");
     make_finer(set, vanished, tightness);
   }

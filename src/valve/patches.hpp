@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/recycled.hpp"
+#include "geometry/bulge.hpp"
 #include "geometry/curve.hpp"
 #include "geometry/placement.hpp"
 
@@ -49,6 +50,18 @@ struct Patch {
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
+
+  const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };
+
+// Returns the curve of a side in the direction of the side.
+inline Curve along(const PatchSet &set, const Side &side) {
+  return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
+}
+
+// Returns O of a side that is an arc: both patches at the side get the same bits.
+inline Vec3 arc_offset(const PatchSet &set, const Side &side) {
+  return arc_offset(set.curve_of(side).pieces().front());
+}
 
 }  // namespace riis
