@@ -38,7 +38,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
     const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
     if (to.point) riis::put_vector(to.point, i, on.point);
     if (to.barycentric) riis::put_vector(to.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
-    if (to.side) to.side[i] = content.side(p, found.triangle, on);
+    if (to.side) to.side[i] = content.pseudonormals().side(p - on.point, found.triangle, on.barycentric);
   }
 }
 
@@ -173,7 +173,7 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     if (wanted.n() == 0) return;
 
     // If memory runs out here, the arrays are still untouched.
-    if (to.side) content.prepare_sides();
+    if (to.side) content.pseudonormals();
     // write_found(i) returns false where nothing is within the limit.
     const auto for_each_point = [&](const auto &write_found) {
       constexpr std::int64_t points_per_block = 512;

@@ -55,9 +55,4 @@ const Pseudonormals &Surface::make_pseudonormals() const {
   return *pseudonormals_owner_;
 }
 
-int Surface::side(Vec3 p, std::int64_t triangle, const PointOnTriangle &closest) const {
-  const double height = dot(p - closest.point, pseudonormals().at(triangle, closest.barycentric));
-  return (height > 0) - (height < 0);
-}
-
 }  // namespace riis

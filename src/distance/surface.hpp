@@ -35,26 +35,13 @@ class Surface {
   // The distance to the triangles exceeds the distance to any point of the method's patches by at most this.
   double triangle_error() const { return triangle_error_; }
 
-  // Returns +1, -1 or 0: the side of the surface that p is on, seen from its closest point, which lies on that
-  // triangle. Several threads may call this function at once.
-  int side(Vec3 p, std::int64_t triangle, const PointOnTriangle &closest) const;
-
-  // Returns whether the closest point of a triangle lies on the rim of the surface. Several threads may call it at once.
-  bool is_on_rim(std::int64_t triangle, const PointOnTriangle &closest) const {
-    return pseudonormals().is_on_rim(triangle, closest.barycentric);
-  }
-
-  // Returns the unit normal of a triangle, which it has made for the sides.
-  Vec3 normal(std::int64_t triangle) const { return pseudonormals().of_face(triangle); }
-
-  // Makes the normals for sides, once. Otherwise the first query of a side makes them.
-  void prepare_sides() const { pseudonormals(); }
-
- private:
+  // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.
   const Pseudonormals &pseudonormals() const {
     const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire);
     return made ? *made : make_pseudonormals();
   }
+
+ private:
   const Pseudonormals &make_pseudonormals() const;
 
   TriangleSet triangles_;

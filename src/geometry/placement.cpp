@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/placement.hpp"
 
+#include "base/constants.hpp"
+
 namespace riis {
 
 SineCosine sine_cosine_degrees(double degrees) {
   // The reduction to [-45, 45] degrees and a number of quarter turns is exact.
   const double turned = std::remainder(degrees, 360.0);
   const double quarters = std::nearbyint(turned / 90.0);
-  const double radians = (turned - 90.0 * quarters) * (3.14159265358979323846 / 180.0);
+  const double radians = (turned - 90.0 * quarters) * (pi / 180.0);
   const double s = std::sin(radians), c = std::cos(radians);
   switch (static_cast<int>(quarters) & 3) {
     case 0:

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "base/ranges.hpp"
@@ -15,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr double largest = 1e30;
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = pi / 180;
 
 void check_time(double time) { check_range("", "time", time, -largest, largest); }
 

@@ -42,12 +42,11 @@ std::int64_t position_of(const TriangleSet &set, std::int64_t triangle_id) {
 class TriangleFields {
  public:
   TriangleFields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made)
-      : surface_(request.surface),
-        set_(surface_.triangles()),
+      : set_(request.surface.triangles()),
         nodes_(request.mesh.nodes()),
         locate_(kernels(request.instructions).locate),
         fields_(fields),
-        has_normals_(need_normals(surface_, fields, list.size())),
+        normals_(need_normals(request.surface, fields, list.size()) ? &request.surface.pseudonormals() : nullptr),
         list_(list),
         made_(made) {}
 
@@ -73,13 +72,24 @@ class TriangleFields {
       const std::array<Vec3, 3> corners = set_.corners(triangle[lane]);
       for (std::size_t k = 0; k < 3; ++k) set_lane(pairs.corners + 3 * k, lane, corners[k]);
     }
-    PointsOnTriangles located;
-    locate_(pairs, located);
-    for (std::int64_t i = first; i < end; ++i) {
-      const std::int64_t lane = i - first;
-      const Vec3 weights = lane_of(located.barycentric, lane);
-      write(i, triangle[lane], lane_of(pairs.point, lane),
-            {located.distance_sq[lane], lane_of(located.point, lane), {weights.x, weights.y, weights.z}});
+    PointsOnTriangles on;
+    locate_(pairs, on);
+    const std::int64_t n = end - first;
+    const auto has = [&](std::int32_t field) { return (fields_ & field) != 0; };
+    if (has(RIIS_FIELD_POINT)) put_vectors(on.point, n, made_.point.data() + 3 * first);
+    if (has(RIIS_FIELD_BARYCENTRIC)) put_vectors(on.barycentric, n, made_.barycentric.data() + 3 * first);
+    if (has(RIIS_FIELD_VELOCITY)) interpolate<3>(set_.velocity, triangle, on, n, made_.velocity.data() + 3 * first);
+    if (has(RIIS_FIELD_UV)) interpolate<2>(set_.uv, triangle, on, n, made_.uv.data() + 2 * first);
+    for (std::int64_t lane = 0; lane < n; ++lane) {
+      const std::int64_t i = first + lane, at = triangle[lane];
+      if (has(RIIS_FIELD_PATCH)) view(made_.patch_id)[i] = view(set_.patch_id)[at];
+      if (has(RIIS_FIELD_NORMAL)) put_vector(made_.normal.data(), i, normal(at));
+      if (!has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) continue;
+      const Vec3 weights = lane_of(on.barycentric, lane);
+      const std::array<double, 3> barycentric{weights.x, weights.y, weights.z};
+      if (has(RIIS_FIELD_SIDE))
+        view(made_.side)[i] = normals_->side(lane_of(pairs.point, lane) - lane_of(on.point, lane), at, barycentric);
+      if (has(RIIS_FIELD_RIM)) view(made_.rim)[i] = normals_->is_on_rim(at, barycentric) ? 1 : 0;
     }
   }
 
@@ -91,41 +101,33 @@ class TriangleFields {
   static Vec3 lane_of(const double (*from)[pairs_at_once], std::int64_t lane) {
     return {from[0][lane], from[1][lane], from[2][lane]};
   }
-
-  void write(std::int64_t i, std::int64_t triangle, Vec3 p, const PointOnTriangle &on) const {
-    if (has(RIIS_FIELD_POINT)) put_vector(made_.point.data(), i, on.point);
-    if (has(RIIS_FIELD_NORMAL)) put_vector(made_.normal.data(), i, normal(triangle));
-    if (has(RIIS_FIELD_BARYCENTRIC))
-      put_vector(made_.barycentric.data(), i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
-    if (has(RIIS_FIELD_SIDE)) view(made_.side)[i] = surface_.side(p, triangle, on);
-    if (has(RIIS_FIELD_RIM)) view(made_.rim)[i] = surface_.is_on_rim(triangle, on) ? 1 : 0;
-    if (has(RIIS_FIELD_PATCH)) view(made_.patch_id)[i] = view(set_.patch_id)[triangle];
-    if (has(RIIS_FIELD_VELOCITY)) interpolate<3>(set_.velocity, triangle, on, made_.velocity.data() + 3 * i);
-    if (has(RIIS_FIELD_UV)) interpolate<2>(set_.uv, triangle, on, made_.uv.data() + 2 * i);
+  static void put_vectors(const double (*from)[pairs_at_once], std::int64_t n, double *to) {
+    for (std::int64_t lane = 0; lane < n; ++lane) put_vector(to, lane, lane_of(from, lane));
   }
-
-  bool has(std::int32_t field) const { return (fields_ & field) != 0; }
 
   Vec3 normal(std::int64_t triangle) const {
-    return has_normals_ ? surface_.normal(triangle) : triangle_normal(set_.corners(triangle));
+    return normals_ ? normals_->of_face(triangle) : triangle_normal(set_.corners(triangle));
   }
 
-  // Interpolates a field that has n components per vertex.
-  template <int n>
-  void interpolate(const std::vector<double> &field, std::int64_t triangle, const PointOnTriangle &on,
-                   double *to) const {
-    const std::int64_t *id = set_.vertex_id.data() + 3 * triangle;
-    const double *a = field.data() + n * id[0], *b = field.data() + n * id[1], *c = field.data() + n * id[2];
-    for (int k = 0; k < n; ++k)
-      to[k] = on.barycentric[0] * a[k] + on.barycentric[1] * b[k] + on.barycentric[2] * c[k];
+  // Interpolates a field that has n_components per vertex.
+  template <int n_components>
+  void interpolate(const std::vector<double> &field, const std::int64_t *triangle, const PointsOnTriangles &on,
+                   std::int64_t n, double *to) const {
+    for (std::int64_t lane = 0; lane < n; ++lane) {
+      const std::int64_t *id = set_.vertex_id.data() + 3 * triangle[lane];
+      const double *a = field.data() + n_components * id[0], *b = field.data() + n_components * id[1],
+                   *c = field.data() + n_components * id[2];
+      const Vec3 weights = lane_of(on.barycentric, lane);
+      for (int k = 0; k < n_components; ++k)
+        to[n_components * lane + k] = weights.x * a[k] + weights.y * b[k] + weights.z * c[k];
+    }
   }
 
-  const Surface &surface_;
   const TriangleSet &set_;
   const StridedPoints &nodes_;
   void (*locate_)(const PointsAndTriangles &, PointsOnTriangles &);
   std::int32_t fields_;
-  bool has_normals_;  // true if the surface has made them
+  const Pseudonormals *normals_;  // null if no field needs them
   const NodeList &list_;
   NodeFields &made_;
 };

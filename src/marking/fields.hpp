@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/unfilled.hpp"
 #include "marking/node_list.hpp"
 #include "marking/search.hpp"
 
@@ -13,9 +13,9 @@ namespace riis {
 
 // Arrays of the fields of one list of nodes, in the list's order. An array that was not requested is empty.
 struct NodeFields {
-  std::vector<double> point, normal, barycentric, velocity;  // (3, n)
-  std::vector<double> uv;                                    // (2, n)
-  std::vector<std::int32_t> side, rim, patch_id;             // (n)
+  UnfilledVector<double> point, normal, barycentric, velocity;  // (3, n)
+  UnfilledVector<double> uv;                                    // (2, n)
+  UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
   // Reserves memory for n nodes, so that resize(m) with m <= n does not throw.
   void reserve(std::int32_t fields, std::int64_t n);

@@ -84,7 +84,7 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
   if (need_normals(request.surface, fields, result.found.size()))
-    request.surface.prepare_sides();
+    request.surface.pseudonormals();
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                result.order_scratch, result.within, result.marked);
   make_fields(request, fields, result.within, result.fields_within);

@@ -12,8 +12,8 @@ namespace riis {
 
 // Reserves memory for n elements, and then half as much again: a moving valve would otherwise need more memory at every new
 // largest number of nodes.
-template <class T>
-void reserve_amply(std::vector<T> &array, std::int64_t n) {
+template <class Array>
+void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
   if (needed > array.capacity()) array.reserve(needed + needed / 2);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/array_view.hpp"
+#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/ranges.hpp"
 #include "parallel/parallel_for.hpp"
@@ -12,7 +13,6 @@
 namespace riis {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 // Returns K at a distance d: (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps), and 0 from eps on.
 double coefficient_at(const Resistance &resistance, double distance) {

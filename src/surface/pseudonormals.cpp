@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/array_view.hpp"
+#include "base/constants.hpp"
 #include "surface/rims.hpp"
 
 namespace riis {
@@ -48,14 +49,21 @@ Vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_
   return position;
 }
 
-double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+// The third angle follows from the other two, because an arc tangent is dear.
+std::array<double, 3> angles_of(const std::array<Vec3, 3> &corners) {
+  const auto &[a, b, c] = corners;
+  const double twice_area = length(cross(b - a, c - a)), at_a = std::atan2(twice_area, dot(b - a, c - a)),
+               at_b = std::atan2(twice_area, dot(c - b, a - b));
+  return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
+}
 
 }  // namespace
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
   // Edges are scaled first, so that neither small nor large triangles leave the range of doubles.
-  const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
   return (1.0 / length(n)) * n;
 }
@@ -76,13 +84,12 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   for (std::int64_t i = 0; i < n; ++i) {
     const std::array<Vec3, 3> corners = set.corners(i);
     const Vec3 normal = view(face_)[i] = triangle_normal(corners);
-    const auto corner = view(corners);
+    const std::array<double, 3> angles = angles_of(corners);
     for (std::int64_t k = 0; k < 3; ++k) {
-      const Vec3 here = corner[k], next = corner[(k + 1) % 3], previous = corner[(k + 2) % 3];
       const std::int64_t position = view(position_of_vertex)[view(set.vertex_id)[3 * i + k]];
       view(position_)[3 * i + k] = position;
       Vec3 &sum = view(corner_)[position];
-      sum = sum + angle_between(next - here, previous - here) * normal;
+      sum = sum + view(angles)[k] * normal;
     }
     for (std::int64_t k = 0; k < 3; ++k) ++view(first_edge)[ends_of(3 * i + k).lower + 1];
   }
@@ -141,7 +148,7 @@ Vec3 Pseudonormals::at_border(std::int64_t triangle, const std::array<double, 3>
   const std::int64_t slot = 3 * triangle + corner;
   const Vec3 normal = feature == Feature::vertex ? view(corner_)[view(position_)[slot]] : view(edge_)[slot];
   // Faces folded onto each other cancel up to rounding; the triangle's own normal then takes their place.
-  return length(normal) > 1e-9 ? normal : of_face(triangle);
+  return dot(normal, normal) > 1e-18 ? normal : of_face(triangle);
 }
 
 bool Pseudonormals::is_border_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const {

@@ -29,6 +29,12 @@ class Pseudonormals {
     return is_inside(barycentric) ? of_face(triangle) : at_border(triangle, barycentric);
   }
 
+  // Returns +1, -1 or 0: the side of the surface that a point is on, given the way to it from its closest point on that triangle.
+  int side(Vec3 way, std::int64_t triangle, const std::array<double, 3> &barycentric) const {
+    const double height = dot(way, at(triangle, barycentric));
+    return (height > 0) - (height < 0);
+  }
+
   // Returns whether the edge or vertex that the barycentric weights lie on is of the rim. The rim of a valve consists of the
   // sides that only one patch has (surface/rims.hpp). The rim of triangles from arrays consists of the edges that only one
   // triangle has.

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constants of mathematics.
+#pragma once
+
+namespace riis {
+
+constexpr double pi = 3.14159265358979323846;
+
+}  // namespace riis

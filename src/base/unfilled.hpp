@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays whose new elements have no value yet. resize() does not write them, so that a large array goes to memory once: when its
+// owner fills it.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace riis {
+
+template <class T>
+struct UnfilledAllocator : std::allocator<T> {
+  static_assert(std::is_trivially_default_constructible_v<T>);
+  template <class U>
+  struct rebind {
+    using other = UnfilledAllocator<U>;
+  };
+
+  template <class U>
+  void construct(U *) noexcept {}  // the element starts its life without a value
+  template <class U, class... Arguments>
+  void construct(U *at, Arguments &&...arguments) {
+    ::new (static_cast<void *>(at)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
+// Every element must be written after resize().
+template <class T>
+using UnfilledVector = std::vector<T, UnfilledAllocator<T>>;
+
+}  // namespace riis
