@@ -178,7 +178,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_keyframe_arrays
 
-  !> The size of a surface, and the time that it took.
+  !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices     !< length of the array of riis_surface_vertices
     integer(c_int64_t) :: n_triangles    !< triangles that answer queries
@@ -194,8 +194,8 @@ module riis_c
 
   !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance        !< >= 0
-    real(c_double) :: point(3)        !< on the triangle
+    real(c_double) :: distance        !< >= 0, mesh units
+    real(c_double) :: point(3)        !< on the triangle, mesh units
     real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
