@@ -279,7 +279,7 @@ module riis_c
     integer(c_int32_t) :: reserved2
   end type riis_mark_options
 
-  !> c_null_ptr for fields that were not asked for, or with no nodes
+  !> c_null_ptr for fields that were not requested, or with no nodes
   type, bind(c) :: riis_mark_fields
     integer(c_int64_t) :: n_nodes
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
@@ -670,7 +670,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_keyframes
 
-    !>   options  left out: those that the surface has
+    !>   options  left out: the surface's own
     function riis_surface_update_from_keyframes(surface, keyframes, time, since, options) result(status) &
         bind(c, name='riis_surface_update_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options

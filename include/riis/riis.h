@@ -664,7 +664,8 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  * limit. The reported distance decides, in double precision, inclusive.
  *   result  its content is replaced
  * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or
- * less than the half thickness: once for the two, at most eight times for a mesh, never below 1000 nodes.
+ * less than the half thickness. It warns once for the two, at most eight times for a mesh, and never for a
+ * mesh of less than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. A positive status
  * leaves the result's content as it was, but its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,

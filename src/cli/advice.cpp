@@ -12,8 +12,8 @@
 namespace riis::cli {
 namespace {
 
-// A mesh fits the valve in it if it is from half as large to 40 times as large, its edges are up to 0.3 of the valve, and both
-// overlap.
+// A mesh fits its valve under three conditions. It is half as large to 40 times as large, its edges are up to 0.3 of the valve,
+// and both overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
 // Shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;

@@ -13,11 +13,11 @@ namespace riis::cli {
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 
-// If the sizes of a mesh and a surface look like different units: says which, and what to write, such as "the mesh looks as if
+// Says which units the sizes of a mesh and a surface look like, if these differ, and what to write, such as "the mesh looks as if
 // it were in metres, ...: write --unit m".
 std::optional<std::string> advice_on_units(const Situation &situation);
 
-// The same for a half thickness that is too large or too small.
+// Says whether the half thickness is too large or too small, and what to write.
 std::optional<std::string> advice_on_half_thickness(const Situation &situation);
 
 // A number as a user would write it.

@@ -203,7 +203,7 @@ class CaseReader {
       source.file = read_surface(source.options, seconds);
       return;
     }
-    if (!all_.is_series()) values.refuse("surface", "one that moves needs times, in the file or by --times");
+    if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
     source.options.period = values.above_zero("period").value_or(0);
     KeyframeFiles read = read_keyframes(source.options, seconds);
     source.keyframes = std::move(read.keyframes);

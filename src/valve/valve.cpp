@@ -89,7 +89,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec, name))
       fail(RIIS_INVALID_PARAMETER, "parameter '", spec.name.c_str() + (spec.name.size() - name.size()),
-           "' belongs to one leaflet each: ask for '", spec.name, "'");
+           "' belongs to one leaflet each: name one, as in '", spec.name, "'");
   fail_unknown(*kind_, name);
 }
 
