@@ -611,7 +611,7 @@ module riis_c
     end function riis_surface_update
 
     !>   options         left out: the surface's own
-    !!   options_before  left out: those of now
+    !!   options_before  left out: the present ones
     function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options

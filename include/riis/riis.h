@@ -42,7 +42,7 @@
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default: the processors in the calling thread's affinity mask, whatever
  *   OMP_NUM_THREADS and omp_set_num_threads say. With 1 no thread is started, except that Embree builds its
- *   scene on threads of TBB. A child of fork() may use 1 only. Where the system refuses a thread, or its
+ *   scene on threads of TBB. A child of fork() may use 1 only. If the system refuses a thread, or its
  *   memory, the run-times of OpenMP and TBB end the process (docs/building.md).
  * - Environment: each call, including a log function, runs with the default floating-point environment and
  *   restores the caller's. The caller's OpenMP and TBB settings stay.
@@ -321,10 +321,11 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  * vertex, over the time between (docs/theory.md, section 10). A valve at rest is its own state before.
  *   valve_before    the state before: of the same kind; from patches, with the same curves and sides
  *   seconds         from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
- *   options_before  scale, rotation and translation before; its other fields do not count. NULL: those of now
+ *   options_before  scale, rotation and translation before; its other fields do not count. NULL: the present
+ *                   ones
  * The velocity, in mesh units over the unit of seconds, is the mean of the step: that of the step's middle to
- * second order, that of either end to first. Where two leaflets touch, the triangle with the lowest id gives
- * it, and it jumps.
+ * second order, that of either end to first. It jumps where two leaflets touch: there the triangle
+ * with the lowest id gives it.
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
  * whose parameters do not go together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -821,7 +822,7 @@ typedef struct riis_leaks {
 
 /* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
  * Touching counts. The decision is exact for coordinates in double precision; those below 1e-90 count as 0.
- * An edge may stand in one row or in both, and counts once. Edges to ghosts are not looked at.
+ * An edge may stand in one row or in both, and counts once. Edges to ghosts do not count.
  *   surface, mesh  those of the marking. The mesh must have an adjacency
  *   options        those of the marking. An edge to a node that node_mask leaves out is no path
  *   result         of riis_mark_nodes; its edges are replaced, all else stays
@@ -965,7 +966,7 @@ typedef struct riis_opening_angle_state {
 /* Fills *state with an angle of 0 at rest, at time 0. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
- * makes the angle second order in the length of steps; without values before, those of now count for the
+ * makes the angle second order in the length of steps. Without values before, the present ones count for the
  * whole step.
  *   time  at least before->time
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so

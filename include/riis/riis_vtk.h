@@ -93,7 +93,7 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
 /* Gives the median length of the edges of linear cells (triangle, quad, pixel, tetrahedron, pyramid, wedge,
  * hexahedron, voxel), 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells,
- * evenly spaced in their order, are looked at. */
+ * evenly spaced in their order, are measured. */
 RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Makes a mesh of some nodes and of all cells that have one of them, with the cells' other nodes. Nodes and

@@ -11,7 +11,7 @@
 
 namespace riis::cli {
 
-// time, opening, n_marked, largest_speed, seconds. Of several valves each has its columns, NAME_opening and so on.
+// time, opening, n_marked, largest_speed, seconds. Each of several valves has its own columns, NAME_opening and so on.
 class SeriesTable {
  public:
   explicit SeriesTable(const Case &all);

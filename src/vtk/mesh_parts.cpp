@@ -81,7 +81,7 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Numbers the corners anew. Of a polyhedron the stream of faces holds the corners: number of faces, then each face's size and
+// Numbers the corners anew. A polyhedron's stream of faces holds its corners: number of faces, then each face's size and
 // nodes.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {
