@@ -88,7 +88,7 @@ bool may_replace(const NamedFile &output, const NamedFile &input) {
          (output.option == "--surface-output" && input.option == "--surface");
 }
 
-// The folders of a series' files.
+// Returns the folders of a series' files.
 std::vector<NamedFile> folders_of(const Options &options) {
   if (options.series.times.empty()) return {};
   std::vector<NamedFile> folders;

@@ -17,9 +17,9 @@ class SeriesTable {
   explicit SeriesTable(const Case &all);
   void add(double time, const std::vector<MovingValve> &valves, double seconds);
   const std::string &text() const { return text_; }
-  // The most marked nodes of all valves and times.
+  // Returns the most marked nodes of all valves and times.
   int64_t most_marked() const;
-  // A line for each valve: its openings, marked nodes and speed.
+  // Returns a line for each valve: its openings, marked nodes and speed.
   std::string summary() const;
 
  private:

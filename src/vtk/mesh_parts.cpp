@@ -46,7 +46,7 @@ Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::in
   return chosen;
 }
 
-// The cells with a chosen node. Their other nodes are then chosen also.
+// Returns the cells with a chosen node, and also chooses their other nodes.
 std::vector<vtkIdType> cells_around(vtkUnstructuredGrid *grid, Chosen &chosen) {
   const Chosen wanted = chosen;
   std::vector<vtkIdType> cells;
