@@ -17,7 +17,7 @@ namespace {
 // Cuts a name for a message, because it may be anything.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
-// The parameter that may have been meant, with its leaflet's name where the given name has one; "" if none is near.
+// Returns the parameter that may have been meant, or "" if none is near. It has its leaflet's name if the given name has one.
 std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
   const bool names_leaflet = name.find('.') != std::string_view::npos;
   NearestName nearest(name);
