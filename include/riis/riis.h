@@ -672,7 +672,9 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_mark_result *result);
 
-/* Gives the marked nodes, ascending by node_id; arrays (n_marked), valid until the next riis_mark_nodes. */
+/* Gives the marked nodes, ascending by node_id; arrays (n_marked), valid until the next riis_mark_nodes.
+ *   distance                 mesh units
+ *   triangle_id, leaflet_id  of the closest triangle, as in riis_closest */
 RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked,
                                              const int64_t **node_id, const double **distance,
                                              const int64_t **triangle_id, const int32_t **leaflet_id);
@@ -869,6 +871,7 @@ typedef struct riis_opening_table {
 /* Fills *table with the defaults. */
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size);
 /* Tells the opening at a time by a table. opening and rate may be NULL.
+ *   time  magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
@@ -887,8 +890,9 @@ typedef struct riis_opening_times {
 } riis_opening_times;
 /* Fills *times with the defaults. */
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size);
-/* Tells the opening at a time. opening and rate may be NULL. Errors: RIIS_INVALID_ARGUMENT naming the
- * field. */
+/* Tells the opening at a time by the times of opening and closing. opening and rate may be NULL.
+ *   time  magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
                                              double *rate);
 
@@ -929,7 +933,8 @@ typedef struct riis_opening_switch_state {
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
 /* Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening
  * has first order in the length of steps.
- *   time  at least before->time
+ *   time                       at least before->time, magnitude at most 1e30
+ *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now is then as it was. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
@@ -968,7 +973,8 @@ RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *sta
 /* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
  * makes the angle second order in the length of steps. Without values before, the present ones count for the
  * whole step.
- *   time  at least before->time
+ *   time                       at least before->time, magnitude at most 1e30
+ *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so
  * long that the motion would take more than a million steps within it. *now is then as it was. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,

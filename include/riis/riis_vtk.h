@@ -238,7 +238,8 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface, each leaflet in a colour of its own.
+ * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn, and the key
+ *   below names as many leaflets as fit.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
  *   colour of the leaflet nearest to one of them. Only the far side of other cells with a marked node is
  *   drawn, pale.
@@ -247,6 +248,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   Pictures lower than 120 pixels have no texts, axes or bar.
  *
  *   mesh  with marks set; NULL draws the surface alone, in one panel
+ *   path  ends in .png
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
  * leaking_edges without a mesh, or outside of it. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
