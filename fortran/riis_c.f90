@@ -178,7 +178,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_keyframe_arrays
 
-  !> The size of a surface, and the time that it took.
+  !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices     !< length of the array of riis_surface_vertices
     integer(c_int64_t) :: n_triangles    !< triangles that answer queries
@@ -194,8 +194,8 @@ module riis_c
 
   !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance        !< >= 0
-    real(c_double) :: point(3)        !< on the triangle
+    real(c_double) :: distance        !< >= 0, mesh units
+    real(c_double) :: point(3)        !< on the triangle, mesh units
     real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
@@ -279,7 +279,7 @@ module riis_c
     integer(c_int32_t) :: reserved2
   end type riis_mark_options
 
-  !> c_null_ptr for fields that were not asked for, or with no nodes
+  !> c_null_ptr for fields that were not requested, or with no nodes
   type, bind(c) :: riis_mark_fields
     integer(c_int64_t) :: n_nodes
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
@@ -611,7 +611,7 @@ module riis_c
     end function riis_surface_update
 
     !>   options         left out: the surface's own
-    !!   options_before  left out: those of now
+    !!   options_before  left out: the present ones
     function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -670,7 +670,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_keyframes
 
-    !>   options  left out: those that the surface has
+    !>   options  left out: the surface's own
     function riis_surface_update_from_keyframes(surface, keyframes, time, since, options) result(status) &
         bind(c, name='riis_surface_update_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options

@@ -260,7 +260,7 @@ static void closed_leaflets_share_their_edge(void **state) {
         }
     }
   /* At the other corners, a line of one leaflet ends inside a chord of the other. */
-  printf("closed edge: %d of %d corners are the other leaflet's, too\n", n_shared, n_of_edge);
+  printf("closed edge: %d of %d corners are also the other leaflet's\n", n_shared, n_of_edge);
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 

@@ -58,7 +58,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   if (instructions == RIIS_INSTRUCTIONS_AUTO) return riis::best_instruction_set();
   const auto set = static_cast<riis::InstructionSet>(instructions - RIIS_INSTRUCTIONS_BASELINE);
   if (!riis::has(set))
-    riis::fail(RIIS_UNAVAILABLE, "options.instructions is ", instructions, ", which this processor has not");
+    riis::fail(RIIS_UNAVAILABLE, "options.instructions is ", instructions, ", which this processor lacks");
   return set;
 }
 

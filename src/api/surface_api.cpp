@@ -118,7 +118,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Where the options leave the number open, takes as many threads as pay for their start. The last content's size is the guide.
+// Returns the options' number of threads. If they leave it open, it is as many as pay for their start, by the last content's size.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
   if (options.n_threads > 0) return options.n_threads;
   constexpr std::int64_t triangles_per_thread = 4096;

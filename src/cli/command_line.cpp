@@ -20,10 +20,10 @@
 namespace riis::cli {
 namespace {
 
-// At the position of their RIIS_SEARCH_*.
+// Each name stands at the position of its RIIS_SEARCH_*.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 
-// At the position of their RIIS_DISTANCE_*.
+// Each name stands at the position of its RIIS_DISTANCE_*.
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
 // CLI11 collects text; numbers are parsed here, whatever the locale.
@@ -394,8 +394,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// The words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an unknown
-// option is also left over, or passes for the mesh, so only the options are named then.
+// Returns the words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an
+// unknown option is also left over, or passes for the mesh. So only the options are named then.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);

@@ -32,7 +32,7 @@ struct SeriesOptions {
 
 // At the position of their RIIS_TRIANGULATION_*.
 const std::vector<std::string> &triangulation_names();
-// The views, at the position of their RIIS_VTK_VIEW_*.
+// Returns the names of the views, each at the position of its RIIS_VTK_VIEW_*.
 const std::vector<std::string> &view_names();
 
 struct Options {

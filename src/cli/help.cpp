@@ -58,7 +58,7 @@ Series in time
   A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
   the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
   the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
-  and needs the program ffmpeg. Leaks are looked for where the valve is least open.
+  and needs the program ffmpeg. Leaks are searched at the time when the valve is least open.
 
 Cases
   --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
@@ -76,7 +76,7 @@ Cases
     {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
     {"opening_start": 0.4, "opening_seconds": 0.05, "closing_start": 0.7, "closing_seconds": 0.05, "closed": 0, "open": 1,
      "period": 0.8}
-  Of several valves each has its arrays, NAME_marked and so on; riis_resistance and riis_momentum are sums over the valves.
+  Each of several valves has its own arrays, NAME_marked and so on; riis_resistance and riis_momentum are sums over the valves.
   Without times there is one mesh, --output marked.vtu.
 
 Leaks
@@ -110,7 +110,7 @@ Searches
   tetrahedron, pyramid, wedge, hexahedron or voxel.
 
 Distances
-  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for.
+  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
   --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
   and here for comparison.
 

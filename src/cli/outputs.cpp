@@ -43,7 +43,7 @@ void check_place(const std::string &path) {
   if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
   const fs::path folder = folder_of(place_of(path));
   if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
-  // A file is replaced by one that is written beside it.
+  // A new file is written beside the old one and then takes its place.
   if (!is_special(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
     cannot_be_written(path, "the folder " + folder.string() + ": " + system_text(errno));
   }
@@ -88,7 +88,7 @@ bool may_replace(const NamedFile &output, const NamedFile &input) {
          (output.option == "--surface-output" && input.option == "--surface");
 }
 
-// The folders of a series' files.
+// Returns the folders of a series' files.
 std::vector<NamedFile> folders_of(const Options &options) {
   if (options.series.times.empty()) return {};
   std::vector<NamedFile> folders;

@@ -153,7 +153,7 @@ ExitCode run_single(const Options &options) {
 ExitCode run(const Options &options) {
   const bool has_case = !options.series.case_file.empty();
   if (!has_case && options.series.times.empty()) return run_single(options);
-  // Before the case's own files are read, which may be many.
+  // This comes before the case's own files are read, which may be many.
   check_movie(options.series.movie);
   Case all = has_case ? read_case(options) : case_of_command_line(options);
   return run_case(all);

@@ -353,7 +353,7 @@ bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_
 
 namespace {
 
-// Lifts the levels to those that a state needs.
+// Lifts the levels to the levels that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
   plan.levels.resize(grids.size());

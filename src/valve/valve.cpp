@@ -17,7 +17,7 @@ namespace {
 // Cuts a name for a message, because it may be anything.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
-// The parameter that may have been meant, with its leaflet's name where the given name has one; "" if none is near.
+// Returns the parameter that may have been meant, or "" if none is near. It has its leaflet's name if the given name has one.
 std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
   const bool names_leaflet = name.find('.') != std::string_view::npos;
   NearestName nearest(name);
@@ -89,7 +89,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec, name))
       fail(RIIS_INVALID_PARAMETER, "parameter '", spec.name.c_str() + (spec.name.size() - name.size()),
-           "' belongs to one leaflet each: ask for '", spec.name, "'");
+           "' belongs to one leaflet each: name one, as in '", spec.name, "'");
   fail_unknown(*kind_, name);
 }
 

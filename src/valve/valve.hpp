@@ -70,7 +70,7 @@ class Valve {
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Fails unless the other valve is this one, but for its opening. Names the first parameter that differs.
+  // Fails unless the other valve equals this one in all but the opening. Names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
   // Makes the patches at the current opening.

@@ -36,7 +36,7 @@ typedef struct twin_leaks {
   const double *length, *distance;
 } twin_leaks;
 
-/* An aortic valve that opens, and what is computed with its fields. */
+/* An aortic valve that opens, and the results computed with its fields. */
 typedef struct twin_motion {
   twin_surface surface;
   const double *vertex_velocity;

@@ -84,7 +84,7 @@ contains
     write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
     call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
     patch = -1
-    call riis_version(patch=patch) ! what is left out is NULL
+    call riis_version(patch=patch) ! an argument that is left out is NULL
     call check(patch >= 0, 'the patch version alone')
     do i = 1, size(statuses)
       call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
@@ -354,7 +354,7 @@ contains
     call check_ok(riis_surface_update_from_arrays(plate, arrays, options), 'update a surface from triangles')
     call riis_set_log(c_null_funptr, c_null_ptr)
     call check(log%n_warnings == 1 .and. index(last_warning, 'zero area') > 0, 'a warning of the skipped triangle')
-    call check(log%n_messages > log%n_warnings, 'information is logged, too')
+    call check(log%n_messages > log%n_warnings, 'information is also logged')
     n_before = log%n_messages
     call check_ok(riis_surface_update_from_arrays(plate, arrays), 'update with the options that the surface has')
     call check(log%n_messages == n_before, 'silence after the log function is taken away')
@@ -935,7 +935,7 @@ contains
 
   subroutine set_adjacency(adjacency)
     type(c_ptr), intent(in) :: adjacency
-    type(riis_csr) :: csr ! may go: what is borrowed are its arrays
+    type(riis_csr) :: csr ! may go: only its arrays are borrowed
     call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
     call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set an adjacency')
   end subroutine set_adjacency

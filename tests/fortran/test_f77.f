@@ -304,7 +304,7 @@ C     The valve moves, and all goes.
       CALL RIISF_SURFACE_DESTROY(SURF)
       CALL RIISF_VALVE_DESTROY(VALVE)
       IF (RES .NE. 0 .OR. MESH .NE. 0 .OR. SURF .NE. 0) CALL
-     &  FAILED('what is destroyed is 0')
+     &  FAILED('a destroyed handle is 0')
       CALL RIISF_MARKED(RES, NN, N2, NODE2, DIST2, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'result is NULL')
       PRINT *, N, ' nodes marked'
@@ -589,7 +589,7 @@ C     K, K u and the reaction to a flow of 6 upwards.
      &  RIIS_SEARCH_AUTO, 1, RIIS_FIELD_SIDE, RES, STAT)
       CALL OK(STAT)
       CALL RIISF_MARKED_INTEGERS(RES, RIIS_FIELD_RIM, NN, I, RIM, STAT)
-      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'was not asked for')
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'did not keep')
       CALL RIISF_ADD_MOVING_RESISTANCE(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, K2, KU, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'RIIS_FIELD_VELOCITY')
