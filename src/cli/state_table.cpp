@@ -2,6 +2,7 @@
 #include "cli/state_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -104,10 +105,18 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-std::string column_of(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
-  return name;
+// The names in words of letters, digits and _, or numbers if a name has other characters, such as "x > 0".
+std::vector<std::string> columns_of(const States &states) {
+  std::vector<std::string> columns = states.names;
+  bool are_words = true;
+  for (std::string &column : columns)
+    for (char &c : column) {
+      if (c == ' ' || c == '-') c = '_';
+      are_words = are_words && (c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0);
+    }
+  for (std::size_t i = 0; i < columns.size() && !are_words; ++i)
+    columns[i] = "leaflet_" + std::to_string(states.ids[i]);
+  return columns;
 }
 
 std::string cells_of(const LeafletSize &now, const LeafletSize &closed, bool has_edges) {
@@ -120,8 +129,8 @@ std::string cells_of(const LeafletSize &now, const LeafletSize &closed, bool has
 
 std::string csv_of(const States &states) {
   std::string text = "opening";
-  for (const std::string &name : states.names) {
-    const std::string column = "," + column_of(name);
+  for (const std::string &name : columns_of(states)) {
+    const std::string column = "," + name;
     if (states.has_edges()) text += column + "_edge" + column + "_edge_ratio";
     text += column + "_area" + column + "_area_ratio";
   }

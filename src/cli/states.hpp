@@ -23,12 +23,13 @@ struct State {
 };
 
 struct States {
-  std::vector<std::string> names;  // of the leaflets, ascending by id
-  std::string why_no_edges;        // "": the leaflets have free edges
-  std::string disc;                // such as "the disc of root_radius 1.29"; "": the valve has no orifice
-  double disc_area;                // when closed
-  std::vector<State> states;       // ascending by opening; the first is closed
-  std::string why_closed;          // the library's refusal of other openings, "" if the valve opens
+  std::vector<std::int32_t> ids;  // of the leaflets, ascending
+  std::vector<std::string> names;
+  std::string why_no_edges;   // "": the leaflets have free edges
+  std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
+  double disc_area;           // when closed
+  std::vector<State> states;  // ascending by opening; the first is closed
+  std::string why_closed;     // the library's refusal of other openings, "" if the valve opens
 
   bool has_edges() const { return why_no_edges.empty(); }
 };
