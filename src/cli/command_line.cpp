@@ -15,6 +15,7 @@
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
 #include "cli/series_options.hpp"
+#include "cli/state_options.hpp"
 #include "cli/valve_file.hpp"
 
 namespace riis::cli {
@@ -30,7 +31,7 @@ const std::vector<std::string> distance_names = {"triangles", "sampling", "minim
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
-  std::string distance_tolerance, unit, surface_unit, steps, time, period;
+  std::string distance_tolerance, unit, surface_unit, steps, time, period, state_count;
   SeriesTexts series;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string triangulation = triangulation_names()[RIIS_TRIANGULATION_ADAPTED];
@@ -272,6 +273,7 @@ void parse_units(const Texts &texts, Options &options) {
   options.surface_unit = unit_of(texts.surface_unit);
   options.has_scale = !texts.scale.empty();
   options.has_half_thickness = !texts.half_thickness.empty();
+  options.has_tolerance = !texts.tolerance.empty();
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
   if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre) {
@@ -335,6 +337,7 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 // Refuses options without effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
   check_series_purpose(options, given);
+  check_states_purpose(options, given);
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
   static const std::set<std::string> of_mesh = {
@@ -355,10 +358,11 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
   }
   // At the default opening of most valves the file would have no effect, and nobody would see it.
-  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings) && options.series.cycle.empty()) {
-    refuse("--params-open needs --opening or --cycle");
+  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings) && options.series.cycle.empty() &&
+      options.states.empty()) {
+    refuse("--params-open needs --opening, --cycle or --states");
   }
-  if (prints || !options.series.case_file.empty()) return;
+  if (prints || !options.series.case_file.empty() || !options.states.empty()) return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
@@ -453,6 +457,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   declare_steps(app, texts);
   declare_output(app, options, texts);
   declare_series(app, options.series, texts.series);
+  declare_states(app, options, texts.state_count);
   check_equals_signs(argc, argv);
   try {
     app.parse(argc, argv);
@@ -481,6 +486,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   parse_mark_options(texts, options.mark_options);
   options.pictures = pair_pictures(texts);
   options.n_steps = parse_steps(texts.steps);
+  parse_states(texts.state_count, options);
   check_purpose(options, given);
   return options;
 }

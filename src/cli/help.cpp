@@ -15,6 +15,7 @@ const char *const footer = R"(Examples:
   riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
+  riis-mark --valve mitral --states states.csv
   riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
   riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
   riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
@@ -83,6 +84,15 @@ Leaks
   The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
   edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
   between leaflets.
+
+States
+  --states measures the valve in its own frame at 101 openings, or as many as --state-count says, and takes no MESH. The table
+  has a line for each opening: the length of each free edge, the area of each leaflet, both also as a share of their closed
+  values, and the area of the orifice. The summary on stdout names the free edges that leave 10 % of their closed length. Free
+  edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc that the leaflets leave
+  uncovered along the axis z. The disc is that of root_radius when closed, or of the housing's radius. Valves that have neither
+  take the inside of the free sides v = 0, such as the annulus. Columns that a valve has no measure for are left out. The
+  tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
 
 Valve from patches
   --valve FILE.json is a valve from patches, by the curves that bound them:

@@ -70,6 +70,7 @@ std::vector<NamedFile> outputs_of(const Options &options) {
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
   outputs.push_back({"--series-table", options.series.table});
+  if (options.states != "-") outputs.push_back({"--states", options.states});
   return outputs;
 }
 
@@ -180,6 +181,7 @@ void check_outputs(const Options &options, const std::vector<std::string> &more_
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
   if (!options.series.table.empty()) check_place(options.series.table);
+  if (!options.states.empty() && options.states != "-") check_place(options.states);
   for (const std::string &list : {options.output, options.surface_output})
     if (is_series && !list.empty()) SeriesFiles(list, "", 1).check_folder();
   check_movie(options.series.movie);
