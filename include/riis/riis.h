@@ -207,13 +207,16 @@ RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t param
 /* Triangles with their Embree scene and a half thickness. It borrows nothing from the caller. */
 typedef struct riis_surface riis_surface;
 
-/* The leaflets of the aortic and of the mitral valve, as leaflet_id reports them. */
+/* The leaflets of the aortic, mitral and bileaflet valve, as leaflet_id reports them. */
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters */
   RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left" */
   RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary" */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
-  RIIS_LEAFLET_POSTERIOR = 1    /* mitral: the posterior leaflet, all three scallops */
+  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
+  RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
+  RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
+  RIIS_LEAFLET_HOUSING = 2      /* bileaflet: the housing's wall, if ring_height is not 0 */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
