@@ -69,8 +69,10 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
+  // What is the same in both states stays so to the last bit: a housing is at rest.
   const auto both = [&](Parameter parameter) {
-    return blend(closed.values[parameter][0], open.values[parameter][0], at);
+    const double from = closed.values[parameter][0], to = open.values[parameter][0];
+    return from == to ? from : blend(from, to, at);
   };
   return {both(radius),
           both(hinge_offset),
