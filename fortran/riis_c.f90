@@ -63,6 +63,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_ANTERIOR = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSTERIOR = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_POSITIVE = 0
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_NEGATIVE = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_HOUSING = 2
 
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
@@ -455,7 +458,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   kind  riis_c_string('aortic') or riis_c_string('mitral')
+    !>   kind  riis_c_string('aortic'), riis_c_string('mitral') or riis_c_string('bileaflet')
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none

@@ -48,9 +48,9 @@ int32_t position_of(const std::string &name, const std::vector<std::string> &nam
 void declare_motion(CLI::App &app, Texts &texts, CLI::Option *surface) {
   const char *group = "Surface";
   app.add_option("--time", texts.time, "Time at which to take a motion, --surface FILE.pvd")
-                          ->type_name("T")
-                          ->group(group)
-                          ->needs(surface);
+      ->type_name("T")
+      ->group(group)
+      ->needs(surface);
   app.add_option("--period", texts.period,
                  "Period of that motion or of --cycle; without one it rests before its first and behind its last time")
       ->type_name("P")
@@ -64,13 +64,14 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
                      "Surface from a file (.vtp, .vtu, .stl) in place of a valve, or its motion from a .pvd file")
           ->type_name("FILE")
           ->group(group);
-  app.add_option(
-         "--leaflets", options.leaflets,
-         "Leaflets of --surface: its connected pieces, or the values of a cell array (default riis_leaflet, if present)")
+  app.add_option("--leaflets", options.leaflets,
+                 "Leaflets of --surface: its connected pieces, or the values of a cell array (default riis_leaflet, if "
+                 "present)")
       ->type_name("connected|ARRAY")
       ->group(group)
       ->needs(surface);
-  app.add_option("--valve", options.valve, "Kind of the parametric valve, aortic (default) or mitral, or a file of patches")
+  app.add_option("--valve", options.valve,
+                 "Kind of the parametric valve, aortic (default), mitral or bileaflet, or a file of patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);
@@ -78,7 +79,8 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("X")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--params,--params-closed", options.params, "Valve parameters from a JSON file; those of the closed state")
+  app.add_option("--params,--params-closed", options.params,
+                 "Valve parameters from a JSON file; those of the closed state")
       ->type_name("FILE.json")
       ->group(group)
       ->excludes(surface);
@@ -105,8 +107,9 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("F")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--triangulation", texts.triangulation,
-                 "Triangles of a valve that moves: adapted to each opening (default), or fixed, the same at every opening")
+  app.add_option(
+         "--triangulation", texts.triangulation,
+         "Triangles of a valve that moves: adapted to each opening (default), or fixed, the same at every opening")
       ->type_name("HOW")
       ->check(CLI::IsMember(triangulation_names()))
       ->group(group)
@@ -121,9 +124,10 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
 
 void declare_placement(CLI::App &app, Texts &texts) {
   const char *group = "Placement: x -> scale * rotation * x + translation";
-  CLI::Option *scale = app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (default 1)")
-                           ->type_name("S")
-                           ->group(group);
+  CLI::Option *scale =
+      app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (default 1)")
+          ->type_name("S")
+          ->group(group);
   app.add_option("--unit", texts.unit, "Unit of the mesh, in place of --scale")
       ->type_name("UNIT")
       ->check(CLI::IsMember(unit_names()))
@@ -133,8 +137,12 @@ void declare_placement(CLI::App &app, Texts &texts) {
       ->type_name("UNIT")
       ->check(CLI::IsMember(unit_names()))
       ->group(group);
-  app.add_option("--rotate", texts.rotate, "Rotate about an axis by an angle in degrees")->type_name("X,Y,Z,DEG")->group(group);
-  app.add_option("--translate", texts.translate, "Translate by a vector in the mesh's unit")->type_name("X,Y,Z")->group(group);
+  app.add_option("--rotate", texts.rotate, "Rotate about an axis by an angle in degrees")
+      ->type_name("X,Y,Z,DEG")
+      ->group(group);
+  app.add_option("--translate", texts.translate, "Translate by a vector in the mesh's unit")
+      ->type_name("X,Y,Z")
+      ->group(group);
 }
 
 void declare_marking(CLI::App &app, Texts &texts) {
@@ -143,11 +151,13 @@ void declare_marking(CLI::App &app, Texts &texts) {
                  "Mark nodes up to this distance (default 0.1 times the scale; with --unit 0.1 cm)")
       ->type_name("L")
       ->group(group);
-  app.add_option("--distance-limit", texts.distance_limit, "Report distances up to this one (default the half thickness)")
+  app.add_option("--distance-limit", texts.distance_limit,
+                 "Report distances up to this one (default the half thickness)")
       ->type_name("L")
       ->group(group);
-  app.add_option("--resistance", texts.resistance,
-                 "Write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
+  app.add_option(
+         "--resistance", texts.resistance,
+         "Write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
       ->type_name("R")
       ->group(group);
   app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (default 1e30)")
@@ -207,15 +217,18 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("OUT.png")
       ->allow_extra_args(false)
       ->group(group);
-  app.add_option("--view", texts.views, "View of a --picture, side, top or oblique (default); one for each, in their order")
+  app.add_option("--view", texts.views,
+                 "View of a --picture, side, top or oblique (default); one for each, in their order")
       ->type_name("VIEW")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(view_names()))
       ->group(group);
-  app.add_option("--stats", options.stats, "Write counts and seconds as JSON; - is stdout, which then holds nothing else")
+  app.add_option("--stats", options.stats,
+                 "Write counts and seconds as JSON; - is stdout, which then holds nothing else")
       ->type_name("FILE.json|-")
       ->group(group);
-  app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")->group(group);
+  app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")
+      ->group(group);
 }
 
 // RIIS_AUTO is a negative number, and a user's number must not pass for it.
@@ -340,10 +353,10 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   check_states_purpose(options, given);
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
-  static const std::set<std::string> of_mesh = {
-      "--output",         "--stats",        "--search",   "--threads",
-      "--distance-limit", "--resistance", "--far-distance", "--distance", "--distance-tolerance",
-      "--allow-none",     "--steps"};
+  static const std::set<std::string> of_mesh = {"--output",       "--stats",          "--search",
+                                                "--threads",      "--distance-limit", "--resistance",
+                                                "--far-distance", "--distance",       "--distance-tolerance",
+                                                "--allow-none",   "--steps"};
   const bool prints = options.print_params || options.describe_params;
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {

@@ -26,8 +26,8 @@ Marked mesh
   can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
 
 Units
-  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of
-  the mitral valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
+  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic, mitral
+  and bileaflet valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
   own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
   program knows no units, and --scale is the factor from the surface's unit to the mesh's.
 
@@ -42,10 +42,11 @@ Parameters
   left to right. --opening comes last, and excludes --set opening.
 
 Opening
-  The mitral valve's parameters make it closed and open. It is open unless --opening says otherwise. The aortic valve stays at
-  opening 0 without --params-open. With --params-open, the options above make the closed state. The defaults with that file's
-  parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
-  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open.
+  The parameters of the mitral and of the bileaflet valve make it closed and open. The mitral valve is open and the bileaflet
+  valve closed unless --opening says otherwise. The aortic valve stays at opening 0 without --params-open. With --params-open,
+  the options above make the closed state. The defaults with that file's parameters make the open state; an opening in that
+  file does not matter. The paper's aortic valve, at opening 0 with the default parameters, is not closed: along its axis 19 %
+  of a disc of radius 1.2 cm stay open.
 
 Series in time
   --times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
@@ -140,6 +141,7 @@ std::string short_help() {
   return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
   riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
   riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
+  riis-mark MESH.vtu --valve bileaflet --opening 1 --output MARKED.vtu      a mechanical prosthesis, open
   riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
 riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
 )";

@@ -284,7 +284,7 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   Vector<std::size_t> vanished = vanished_patches(pieces, grids);
   if (!vanished.empty()) return vanished;
   close_gaps(pieces, how.plan != nullptr, triangles);
-  triangles.error_bound = error_bound * how.placement.scale;
+  triangles.error_bound = (error_bound + set.deviation) * how.placement.scale;
   return vanished;
 }
 
@@ -327,7 +327,9 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
 
 }  // namespace
 
-TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory) {
+TriangleSet triangulate(const PatchSet &set, const Triangulation &asked, TriangleSet memory) {
+  Triangulation how = asked;
+  how.max_error = error_left(set, asked.max_error);
   if (how.motion) check_same_build(set, how.motion->patches_before);
   if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
   Vector<double> tightness(set.curves.size(), 1);
@@ -343,7 +345,8 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleS
   }
 }
 
-bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error) {
+bool is_within(const PatchSet &state, const TriangulationPlan &plan, double asked_error) {
+  const double max_error = error_left(state, asked_error);
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   const Vector<LevelledGrid> grids =
       make_levelled_grids(plan.build.counted(state), {max_error, in_place, false, 1, nullptr, &plan}, {});
@@ -372,7 +375,9 @@ Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Tria
 
 }  // namespace
 
-TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads) {
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
+  double max_error = asked_error;
+  for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
   // The rest is for openings between these.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;

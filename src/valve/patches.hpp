@@ -50,6 +50,9 @@ struct Patch {
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
+  // Bounds the distance of the patches from the valve's shape, in the Hausdorff sense. It is not 0 for curves that stand
+  // for arcs of circles.
+  double deviation = 0;
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };

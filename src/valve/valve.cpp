@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/nearest_name.hpp"
 #include "valve/aortic.hpp"
+#include "valve/bileaflet.hpp"
 #include "valve/mitral.hpp"
 
 namespace riis {
@@ -57,8 +58,9 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
 
 const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
+  if (name == "bileaflet") return bileaflet_valve_kind();
   if (name == "mitral") return mitral_valve_kind();
-  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a kind of valve; there are: aortic, mitral");
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a kind of valve; there are: aortic, bileaflet, mitral");
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {

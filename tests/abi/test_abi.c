@@ -310,6 +310,9 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LEAFLET_NON_CORONARY, 2);
   assert_int_equal(RIIS_LEAFLET_ANTERIOR, 0);
   assert_int_equal(RIIS_LEAFLET_POSTERIOR, 1);
+  assert_int_equal(RIIS_LEAFLET_POSITIVE, 0);
+  assert_int_equal(RIIS_LEAFLET_NEGATIVE, 1);
+  assert_int_equal(RIIS_LEAFLET_HOUSING, 2);
   assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
   assert_int_equal(RIIS_DISTANCE_TRIANGLES, 0);
