@@ -265,12 +265,144 @@ static void a_hole_is_found_where_it_is(void **state) {
   }
 }
 
+/* --- Valves -------------------------------------------------------------------------------------------------------------- */
+
+static riis_valve *aortic_with_free_edges_at(double radius_in) {
+  riis_valve *valve = new_valve("aortic");
+  if (radius_in > 0) CHECK_OK(riis_valve_set_scalar(valve, "leaflet_radius_in", radius_in));
+  return valve;
+}
+
+/* The paper's set at opening 0 has a hole along its axis that no usual half thickness closes. With inner radii of 0.02 the cusps
+ * nearly meet there. */
+static void the_papers_aortic_valve_leaks_along_its_axis(void **state) {
+  (void)state;
+  const test_mesh nodes = tube(1.2, -1, 1.5, 0.05);
+  riis_mesh *mesh = mesh_from(&nodes);
+  const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
+  static const double half_thicknesses[] = {0.1, 0.15, 0.2};
+  for (int i = 0; i < 3; ++i) {
+    riis_surface_options options = surface_options();
+    options.half_thickness = half_thicknesses[i];
+    const riis_passage open = passage_of(new_surface(aortic_with_free_edges_at(0), &options), mesh, NULL, &e);
+    assert_int_equal(open.state, RIIS_PASSAGE_OPEN);
+    assert_true(open.distance > 0.3 && open.distance < 0.33 && hypot(open.point[0], open.point[1]) < 0.2);
+    const riis_passage closed = passage_of(new_surface(aortic_with_free_edges_at(0.02), &options), mesh, NULL, &e);
+    assert_int_equal(closed.state, RIIS_PASSAGE_CLOSED);
+    CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3); /* of a node on the axis from the corners of three free edges */
+    assert_true(hypot(closed.point[0], closed.point[1]) < 0.01);
+  }
+}
+
+/* The triangles that have a vertex in the ball are left out. */
+static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius) {
+  const surface_content all = surface_content_of(surface);
+  int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
+  int64_t n = 0;
+  for (int64_t t = 0; t < all.n_triangles; ++t) {
+    int is_in = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double *p = all.xyz + 3 * all.vertex_id[3 * t + k];
+      ids[3 * n + k] = (int32_t)all.vertex_id[3 * t + k];
+      is_in |= hypot(hypot(p[0] - centre[0], p[1] - centre[1]), p[2] - centre[2]) < radius;
+    }
+    n += !is_in;
+  }
+  const riis_surface_arrays arrays = triangle_arrays(all.n_vertices, all.xyz, n, ids);
+  riis_surface_options options = surface_options();
+  options.half_thickness = info_of(surface).half_thickness;
+  return surface_from(&arrays, &options);
+}
+
+static void a_pierced_leaflet_is_found_where_it_is(void **state) {
+  (void)state;
+  const test_mesh nodes = tube(1.2, -1, 1.5, 0.05);
+  riis_mesh *mesh = mesh_from(&nodes);
+  const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
+  riis_surface_options options = surface_options();
+  options.tolerance = 0.01; /* small triangles, so that the hole is about the ball */
+  riis_surface *valve = new_surface(aortic_with_free_edges_at(0.02), &options);
+  const surface_content all = surface_content_of(valve);
+  for (int trial = 0; trial < 8; ++trial) {
+    const int owned_before = n_owned();
+    const double radius = random_between(&rng, 0.2, 0.3), *centre;
+    do centre = all.xyz + 3 * random_integer(0, all.n_vertices - 1);
+    while (hypot(centre[0], centre[1]) > 0.8);
+    const riis_passage found = passage_of(without_ball(valve, centre, radius), mesh, NULL, &e);
+    assert_int_equal(found.state, RIIS_PASSAGE_OPEN);
+    const double *p = found.point;
+    CHECK_AT_MOST(hypot(hypot(p[0] - centre[0], p[1] - centre[1]), p[2] - centre[2]), radius);
+    free_owned_after(owned_before);
+  }
+}
+
+/* Distances to points of the patches, by the paper's method. */
+static void other_distances_have_passages(void **state) {
+  (void)state;
+  const test_mesh nodes = tube(1.2, -1, 1.5, 0.15);
+  riis_mesh *mesh = mesh_from(&nodes);
+  const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
+  riis_surface_options options = surface_options();
+  riis_passage by_triangles = {0};
+  for (options.distance = RIIS_DISTANCE_TRIANGLES; options.distance <= RIIS_DISTANCE_MINIMIZATION; ++options.distance) {
+    const riis_passage found = passage_of(new_surface(aortic_with_free_edges_at(0), &options), mesh, NULL, &e);
+    if (options.distance == RIIS_DISTANCE_TRIANGLES) by_triangles = found;
+    assert_int_equal(found.state, RIIS_PASSAGE_OPEN);
+    CHECK_NEAR(found.distance, by_triangles.distance, 0.01); /* twice the tolerance */
+  }
+}
+
+/* --- Refusals ------------------------------------------------------------------------------------------------------------ */
+
+static void what_makes_no_sense_is_refused(void **state) {
+  (void)state;
+  const test_mesh nodes = tube(1.2, -1, 1, 0.2);
+  riis_mesh *mesh = mesh_from(&nodes), *bare = mesh_of(nodes.n, nodes.xyz);
+  static const double place[2] = {0, 0};
+  riis_surface *surface = plate_with_hole(place, 0.5, 0.15);
+  const int64_t below = node_at(&nodes, 0, 0, -1), above = node_at(&nodes, 0, 0, 1);
+  const int64_t good[2] = {below, above}, outside[2] = {above, nodes.n}, negative[1] = {-1};
+  const int64_t in_band[3] = {above, above, node_at(&nodes, 0.8, 0, 0)};
+  riis_passage found;
+  memset(&found, 0x5a, sizeof found);
+#define REFUSED(status, parts, mesh, options, n_from, from, n_to, to) \
+  CHECK_REFUSED(status, parts, riis_find_passage(surface, mesh, options, n_from, from, n_to, to, &found, sizeof found))
+  REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", bare, NULL, 1, good, 1, good + 1);
+  REFUSED(RIIS_INVALID_ARGUMENT, "n_from is 0|at least 1", mesh, NULL, 0, good, 1, good + 1);
+  REFUSED(RIIS_INVALID_ARGUMENT, "n_to is -3|at least 1", mesh, NULL, 1, good, -3, good + 1);
+  REFUSED(RIIS_INVALID_ARGUMENT, "from is NULL", mesh, NULL, 1, NULL, 1, good + 1);
+  REFUSED(RIIS_INVALID_ARGUMENT, "to is NULL", mesh, NULL, 1, good, 1, NULL);
+  REFUSED(RIIS_INVALID_ARGUMENT, "from[0] is -1", mesh, NULL, 1, negative, 1, good);
+  REFUSED(RIIS_INVALID_ARGUMENT, "to[1] is|the mesh has", mesh, NULL, 1, good, 2, outside);
+  REFUSED(RIIS_INVALID_ARGUMENT, "to[2] is node|in the band|half thickness, 0.15", mesh, NULL, 1, good, 3, in_band);
+  riis_mark_options options = mark_options();
+  uint8_t *mask = own(malloc((size_t)nodes.n));
+  memset(mask, 1, (size_t)nodes.n);
+  mask[above] = 0;
+  options.node_mask = mask;
+  REFUSED(RIIS_INVALID_ARGUMENT, "to[0] is node|options.node_mask leaves out", mesh, &options, 1, good, 1, good + 1);
+  options = mark_options();
+  options.n_threads = -1;
+  REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1", mesh, &options, 1, good, 1, good + 1);
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "passage is 48|56",
+                riis_find_passage(surface, mesh, NULL, 1, good, 1, good + 1, &found, 48));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "passage is 64|56",
+                riis_find_passage(surface, mesh, NULL, 1, good, 1, good + 1, &found, 64));
+  nodes.xyz[20] = NAN;
+  REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", mesh, NULL, 1, good, 1, good + 1);
+  assert_int_equal(found.node_id, 0x5a5a5a5a5a5a5a5a);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(graphs_have_the_passage_of_the_serial_search),
       cmocka_unit_test(meshes_have_the_passage_of_the_serial_search),
       cmocka_unit_test(the_distance_is_what_just_closes),
       cmocka_unit_test(a_hole_is_found_where_it_is),
+      cmocka_unit_test(the_papers_aortic_valve_leaks_along_its_axis),
+      cmocka_unit_test(a_pierced_leaflet_is_found_where_it_is),
+      cmocka_unit_test(other_distances_have_passages),
+      cmocka_unit_test(what_makes_no_sense_is_refused),
   };
   rng = random_start("test_passage");
   return cmocka_run_group_tests(tests, NULL, NULL);
