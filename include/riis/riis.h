@@ -854,6 +854,60 @@ RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *resu
                                                     const double **distance);
 
 /* -------------------------------------------------------------------------------------------------------- *
+ * Open regions and passages: whether the unmarked nodes still join two places (docs/meshes.md)
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
+ * edges of the mesh's adjacency. An edge may stand in one row or in both. Edges to ghosts are not looked at:
+ * ranks of MPI exchange their labels (examples/mpi_leaks.c).
+ *   mesh       that of the marking, with an adjacency
+ *   options    those of the marking; nodes that node_mask leaves out are in no region
+ *   result     of riis_mark_nodes
+ *   n_nodes    the number of nodes of the marking
+ *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region; NULL only for 0
+ *              nodes
+ *   n_regions  how many there are; may be NULL
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a result never marked with, or with
+ * another number of nodes. */
+RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_mark_options *options,
+                                             const riis_mark_result *result, int64_t n_nodes, int64_t *label,
+                                             int64_t *n_regions);
+
+/* Whether marked nodes part two sets of nodes. */
+enum {
+  RIIS_PASSAGE_CLOSED = 0, /* they do: each path has a node within the half thickness */
+  RIIS_PASSAGE_OPEN = 1,   /* they do not: some path has none */
+  RIIS_PASSAGE_NONE = 2    /* the mesh itself has no path, with marked nodes or without */
+};
+/* The widest passage from one set of nodes to another: the path whose smallest distance to the surface is
+ * largest. */
+typedef struct riis_passage {
+  int64_t node_id;  /* the node of that distance: the place. -1 without a path. Of nodes at equal distances
+                       the one with the higher id counts as the nearer */
+  double distance;  /* its distance: the smallest half thickness that closes the passage, by these triangles;
+                       a surface with a smaller one leaves it open. 0 without a path */
+  double point[3];  /* its coordinates; 0 without a path */
+  double seconds;   /* wall time of riis_find_passage */
+  int32_t state;    /* RIIS_PASSAGE_* */
+  int32_t reserved; /* 0 */
+} riis_passage;
+/* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
+ *   mesh     with an adjacency; it need not have been marked
+ *   options  node_mask, n_threads and instructions count. A node that node_mask leaves out is on no path
+ *   n_from   at least 1
+ *   from     (n_from), node ids in any order: where paths begin
+ *   n_to     at least 1
+ *   to       (n_to), node ids in any order: where they end. A node in both sets is a path
+ * Ends count as well, so take them farther from the surface than the passage is wide. A new half thickness
+ * moves a valve's triangles, by up to tolerance * half_thickness: look again after riis_surface_update.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
+ * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
+                                       const riis_mark_options *options, int64_t n_from, const int64_t *from,
+                                       int64_t n_to, const int64_t *to, riis_passage *passage,
+                                       int64_t struct_size);
+
+/* -------------------------------------------------------------------------------------------------------- *
  * Laws of opening: a valve's opening from the time, the pressure difference and the flow
  * -------------------------------------------------------------------------------------------------------- */
 
