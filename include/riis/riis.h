@@ -430,6 +430,54 @@ RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t
                                             const int32_t **leaflet_id, const int32_t **patch_id);
 
 /* -------------------------------------------------------------------------------------------------------- *
+ * Crossings: self-intersections, where the surface goes through itself
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Options of riis_find_crossings. */
+typedef struct riis_crossing_options {
+  int64_t struct_size; /* set by the init function */
+  double depth;        /* half thicknesses, 0 to 1, default 1e-6: a pair at most so deep touches */
+  int32_t n_threads;   /* default 0: 1 per 4096 triangles, at most 1 a processor */
+  int32_t reserved;    /* 0 */
+} riis_crossing_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
+
+/* Pairs of triangles that cross. Without a pair, ids are -1, and other fields but seconds 0. */
+typedef struct riis_crossings {
+  int64_t n_pairs;        /* pairs that cross */
+  double length;          /* of the pairs' intersections, which are segments, together; mesh units */
+  double depth;           /* of the deepest pair, of equal ones the first; mesh units */
+  double point[3];        /* the middle of its segment */
+  int64_t triangle_id[2]; /* its triangles, ascending */
+  int32_t leaflet_id[2];  /* their leaflets */
+  double seconds;         /* wall time of riis_find_crossings */
+} riis_crossings;
+
+/* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
+ * depth: the length of the shortest translation of one triangle after which both only touch
+ * (docs/theory.md, section 12). Triangles that touch or lie in one plane have depth 0.
+ *   surface  keeps the pairs, all else stays
+ *   options  a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
+ *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
+ * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, and no pair. The
+ * call looks at triangles, also for the other RIIS_DISTANCE_*. So smooth leaflets that touch may cross by
+ * twice riis_surface_info.error_bound.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_find_crossings(riis_surface *surface, const riis_crossing_options *options,
+                                         riis_crossings *crossings, int64_t struct_size);
+
+/* Gives the pairs of the last riis_find_crossings with the surface, ascending by their first triangle, then
+ * by their second. Valid until the next riis_find_crossings or update, which leaves none.
+ *   triangle_id  (2, n_pairs), the lower one first
+ *   point        (3, n_pairs), the middle of the pair's segment
+ *   depth        (n_pairs)
+ *   length       (n_pairs), of the segment */
+RIIS_API riis_status riis_surface_crossing_pairs(const riis_surface *surface, int64_t *n_pairs,
+                                                 const int64_t **triangle_id, const double **point,
+                                                 const double **depth, const double **length);
+
+/* -------------------------------------------------------------------------------------------------------- *
  * Closest points (paper, 4.1)
  * -------------------------------------------------------------------------------------------------------- */
 
