@@ -69,7 +69,7 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("connected|ARRAY")
       ->group(group)
       ->needs(surface);
-  app.add_option("--valve", options.valve, "Kind of the parametric valve, aortic (default) or mitral, or a file of patches")
+  app.add_option("--valve", options.valve, "Kind of the parametric valve, aortic (default), mitral or trileaflet, or a file of patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);
