@@ -128,9 +128,10 @@ RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 /* A parametric valve: its kind and its parameters' values. riis_surface_create makes the geometry. */
 typedef struct riis_valve riis_valve;
 
-/* Makes a valve with the default parameter values, which are the paper's for the first two kinds.
- *   kind  "aortic", three cusps, "mitral", two leaflets, or "bileaflet", a mechanical prosthesis
- *         (docs/theory.md, section 14); any other is RIIS_INVALID_PARAMETER */
+/* Makes a valve with the default parameter values, which are the paper's for "aortic" and "mitral".
+ *   kind  "aortic", the paper's three cusps, "mitral", two leaflets, "trileaflet", three equal cusps that
+ *         close without a hole, or "bileaflet", a mechanical prosthesis (docs/theory.md); any other is
+ *         RIIS_INVALID_PARAMETER */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Each is destroyed on its own. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
@@ -142,9 +143,9 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *             "non_coronary"), "leaflet_angle" of all three
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp), else 1
  *   values    (n_values), within the parameter's range; riis_surface_create checks whether values go together
- * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. The mitral valve has both
- * states and is open, 1, by default. The bileaflet valve has both and is closed, 0, by default. Other valves
- * stay at 0 until riis_valve_set_open_state.
+ * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters
+ * makes both states. The mitral valve is open, 1, by default, the others are at 0. The aortic valve's state
+ * at 0 is the paper's, which does not close. A valve from patches stays at 0 until riis_valve_set_open_state.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
@@ -157,7 +158,8 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
 
 /* Gives the valve a second state to open to: its own state is at opening 0, the other valve's at opening 1.
  * Control points blend linearly (docs/theory.md, section 5); the lengths and angles of a bileaflet valve do.
- * A second call replaces the state. No call removes it.
+ * A second call replaces the state. No call removes it. A mitral or trileaflet valve takes the closed curves
+ * from its own parameters, the open curves from those of the other valve.
  *   open  copied; of the same kind; from patches, with the same curves, degrees (1 and 2 mix) and sides;
  *         bileaflet, with a ring if the valve has one. Its opening, leaflet ids and second state do not matter
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
@@ -211,11 +213,12 @@ RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t param
 /* Triangles with their Embree scene and a half thickness. It borrows nothing from the caller. */
 typedef struct riis_surface riis_surface;
 
-/* The leaflets of the aortic, mitral and bileaflet valve, as leaflet_id reports them. */
+/* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
-  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters */
-  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left" */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary" */
+  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
+                                   trileaflet: the cusp on the x axis */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; trileaflet: at 120 degrees */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; trileaflet: at -120 degrees */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
@@ -279,7 +282,7 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 
 /* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles, Embree scene (paper, 3
  * and 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
- * of the aortic valve, from the atrial to the ventricular face of the mitral valve, to +z from closed
+ * of the cusps, from the atrial to the ventricular face of the mitral valve, to +z from closed
  * bileaflet leaflets. Those of the bileaflet ring point outwards. Triangles of zero area, at the root of each
  * cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together or put a curve too far away;
@@ -420,11 +423,11 @@ RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface,
 /* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
  *   triangle_id  ascending: the id that queries report; 0, 1, 2, ... for a valve
  *   leaflet_id   RIIS_LEAFLET_* for the parametric valves; from patches or arrays: the caller's
- *   patch_id     aortic: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top; mitral, from the
- *                posteromedial commissure round: anterior 0 commissure's triangle, 1 side, 2 middle, 3
- *                mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop, 7 half of
- *                the middle one, 8 and 9 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves, 4 to 7 the
- *                ring's quarters; from patches: the patch's number; from arrays: 0 */
+ *   patch_id     aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
+ *                mitral, from the posteromedial commissure round: anterior 0 commissure's triangle, 1 side,
+ *                2 middle, 3 mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop,
+ *                7 half of the middle one, 8 and 9 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves,
+ *                4 to 7 the ring's quarters; from patches: the patch's number; from arrays: 0 */
 RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
                                             const int64_t **vertex_id, const int64_t **triangle_id,
                                             const int32_t **leaflet_id, const int32_t **patch_id);
@@ -746,7 +749,7 @@ typedef struct riis_mark_fields {
   const double *normal;      /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric; /* (3, n_nodes): its weights of the triangle's vertices */
   const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
-                                but against it on mirrored patches (aortic: patch_id % 4 >= 2; mitral: 3, 4,
+                                but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
                                 5, 8, 9), and the other way round for flipped normals */
   const double *velocity;    /* (3, n_nodes): the velocity of the surface there, as its last update gave it */
   const int32_t *side;       /* (n_nodes): as riis_closest.side */

@@ -71,7 +71,7 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->group(group)
       ->needs(surface);
   app.add_option("--valve", options.valve,
-                 "Kind of the parametric valve, aortic (default), mitral or bileaflet, or a file of patches")
+                 "Kind of the parametric valve, aortic (default), mitral, trileaflet or bileaflet, or a file of patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);

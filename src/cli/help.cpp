@@ -26,8 +26,8 @@ Marked mesh
   can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
 
 Units
-  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic, mitral
-  and bileaflet valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
+  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
+  valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
   own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
   program knows no units, and --scale is the factor from the surface's unit to the mesh's.
 
@@ -42,11 +42,10 @@ Parameters
   left to right. --opening comes last, and excludes --set opening.
 
 Opening
-  The parameters of the mitral and of the bileaflet valve make it closed and open. The mitral valve is open and the bileaflet
-  valve closed unless --opening says otherwise. The aortic valve stays at opening 0 without --params-open. With --params-open,
-  the options above make the closed state. The defaults with that file's parameters make the open state; an opening in that
-  file does not matter. The paper's aortic valve, at opening 0 with the default parameters, is not closed: along its axis 19 %
-  of a disc of radius 1.2 cm stay open.
+  The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
+  others are at 0. With --params-open, the options above make the closed state. The defaults with that file's
+  parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
+  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
 
 Series in time
   --times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
@@ -67,7 +66,7 @@ Cases
   {"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
    "times": "0:0.8:0.01",
    "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
-              {"name": "aortic", "valve": "aortic", "open_parameters": {"leaflet_radius_in": 1},
+              {"name": "aortic", "valve": "trileaflet",
                "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
   Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
   A valve has "valve", a kind or a file of patches, or "surface", a file. A surface stays at rest unless the file is a .pvd,

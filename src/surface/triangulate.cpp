@@ -20,6 +20,8 @@ namespace {
 struct Piece {
   const LevelledGrid *levelled;
   const PatchImage *image;
+  const PatchImage *twin;  // null without a seam
+  const Seam *seam;
   std::int64_t first_vertex, first_triangle;
   std::int64_t n_triangles = 0;  // without triangles that turned out to have no area; there may be room for more
   std::int64_t n_zero_area = 0;
@@ -112,7 +114,8 @@ class PieceBuilder {
 
   void add_vertex(Vec3 p, double u, double v) {
     const std::int64_t at = piece_.first_vertex + n_vertices_++;
-    const Vec3 placed = place(how_.placement, place(*piece_.image, p));
+    const PatchImage &image = piece_.seam && piece_.seam->has(u, v) ? *piece_.twin : *piece_.image;
+    const Vec3 placed = place(how_.placement, place(image, p));
     double *xyz = set_.xyz.data() + 3 * at, *uv = set_.uv.data() + 2 * at;
     xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
     uv[0] = u, uv[1] = v;
@@ -256,6 +259,13 @@ Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces, const Vector<L
   return vanished;
 }
 
+// Returns the seam of an image, or null.
+const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
+  for (const Seam &seam : set.seams)
+    if (seam.patch == patch && seam.image == image) return &seam;
+  return nullptr;
+}
+
 // Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
 // there are none.
 Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
@@ -265,8 +275,10 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   double error_bound = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     error_bound = std::max(error_bound, grids[i].error_bound);
-    for (const PatchImage &image : set.patches[i].images) {
-      pieces.push_back({&grids[i], &image, n_vertices, n_triangles});
+    const auto &images = set.patches[i].images;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      const Seam *seam = seam_of(set, i, k);
+      pieces.push_back({&grids[i], &images[k], seam ? &images[seam->twin] : nullptr, seam, n_vertices, n_triangles});
       n_triangles += grids[i].n_triangles;
       n_vertices += grids[i].n_vertices;
       check_count(static_cast<double>(n_triangles), how.max_error);

@@ -11,6 +11,7 @@
 #include "valve/aortic.hpp"
 #include "valve/bileaflet.hpp"
 #include "valve/mitral.hpp"
+#include "valve/trileaflet.hpp"
 
 namespace riis {
 namespace {
@@ -60,7 +61,9 @@ const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
   if (name == "bileaflet") return bileaflet_valve_kind();
   if (name == "mitral") return mitral_valve_kind();
-  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a kind of valve; there are: aortic, bileaflet, mitral");
+  if (name == "trileaflet") return trileaflet_valve_kind();
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name),
+       "' is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet");
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {
@@ -141,8 +144,7 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
 PatchSet Valve::make_patches() const {
   if (opening() != 0 && !can_open())
     fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
-         " valve has one state only: give it another to open to with riis_valve_set_open_state or riis-mark "
-         "--params-open");
+         " valve has one state only: give it another to open to with riis_valve_set_open_state");
   if (kind_->check_values) {
     kind_->check_values(state_.values);
     if (open_) check_open_values();

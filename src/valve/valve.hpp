@@ -41,7 +41,7 @@ struct ValveKind {
   // Refuses values that do not go together. NULL: all values go together.
   void (*check_values)(const ParameterValues &values);
   // Makes the patches at an opening from 0, the closed state, to 1, the open state, by blending control points. Both
-  // states have been checked; they may be the same.
+  // states have been checked. They are one object if the valve was given no other state to open to.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
   // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
   // states of the kind are built alike.
