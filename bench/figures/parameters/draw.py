@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Writes aortic_parameters and mitral_parameters to the
-folder, each as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
+draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Writes KIND_parameters for each kind of valve to the
+folder, as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
 a parameter out, shows another value than the parameter's, or has labels that overlap."""
 
 import json
@@ -11,17 +11,25 @@ import os
 import sys
 
 import aortic
+import bileaflet
 import mitral
 import sheet
+import trileaflet
+
+MODULES = {"aortic": aortic, "trileaflet": trileaflet, "mitral": mitral, "bileaflet": bileaflet}
 
 CAPTIONS = {
     "aortic": "Every parameter of the aortic valve, with its default. Lines, angles and points are the library's own: each is "
     "compared with the parameter that it is named by.",
+    "trileaflet": "Every parameter of the trileaflet valve, with its default, likewise.",
     "mitral": "Every parameter of the mitral valve, with its default, likewise.",
+    "bileaflet": "Every parameter of the bileaflet valve, with its default, likewise.",
 }
 PAPER = {
     "aortic": "table “Aortic valve parameters” (section 2.1), which has no picture of them.",
+    "trileaflet": "none: the paper has no such valve.",
     "mitral": "appendix, table of the mitral valve's parameters.",
+    "bileaflet": "none: the paper has no such valve.",
 }
 
 
@@ -33,7 +41,7 @@ def main(arguments):
     with open(curves, encoding="utf-8") as file:
         valves = json.load(file)
     figures = []
-    for valve, module in (("aortic", aortic), ("mitral", mitral)):
+    for valve, module in MODULES.items():
         try:
             module.draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
         except sheet.Refused as why:
