@@ -59,7 +59,8 @@ Series in time
   A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
   the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
   the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
-  and needs the program ffmpeg. Leaks are searched at the time when the valve is least open.
+  and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open, and for --surface at the
+  first time.
 
 Cases
   --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
