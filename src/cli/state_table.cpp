@@ -15,6 +15,8 @@ namespace {
 
 // How much of its closed length a free edge may gain or lose.
 constexpr double fair_change = 0.1;
+// The rounding of a length or area that stays the same, as a share of it.
+constexpr double same = 1e-9;
 
 using Value = std::function<double(const State &)>;
 
@@ -39,6 +41,7 @@ std::string ratios_of(const States &states, const Value &value) {
   std::string text = shown(closed) + " when closed";
   if (states.states.size() == 1) return text;
   const auto [least, most] = extremes_of(states, value);
+  if (value(*most) - value(*least) <= same * closed) return text + ", and at every opening";
   return text + ", times " + rounded(value(*least) / closed) + at(*least) + " to " + rounded(value(*most) / closed) +
          at(*most);
 }
