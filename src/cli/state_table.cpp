@@ -80,7 +80,7 @@ void add_leaflets(const States &states, Summary &summary) {
 
 std::string text_of_orifice(const States &states) {
   if (states.disc.empty())
-    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 do not close";
+    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
   const Value value = [](const State &state) { return *state.orifice; };
   std::string text = rounded(value(states.states.front())) + " at 0";
   if (states.states.size() > 1) {
