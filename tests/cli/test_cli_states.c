@@ -301,7 +301,7 @@ static void test_prosthesis(void **state) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* A flat triangle with a side that is one point. The point's triangles have no area, and so its end of the edge is in no triangle.
+/* A flat triangle with a side that is one point. The point's triangles have no area, so its end of the edge is in no triangle.
  * The sides along the axes have the lengths 1 and 2, the slanted one the length sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
