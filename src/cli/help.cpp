@@ -17,6 +17,7 @@ const char *const footer = R"(Examples:
   riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
   riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
   riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
+  riis-mark --valve prosthesis.json --check-crossing
   riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
 
 Marked mesh
@@ -83,6 +84,13 @@ Leaks
   The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
   edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
   between leaflets.
+
+Crossings
+  --check-crossing looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
+  each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
+  of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
+  as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
+  no MESH.
 
 Valve from patches
   --valve FILE.json is a valve from patches, by the curves that bound them:
