@@ -24,7 +24,7 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# All examples except that of MPI, which check_mpi_example.sh runs. Then the flags that a compiler needs for them besides riis.
+# All examples except those of MPI, which check_mpi_example.sh runs. Then the flags that a compiler needs for them besides riis.
 examples=(first_marking prosthesis opening_valve cell_centres quadrature_points csr_from_elements openmp_caller)
 declare -A more_flags=([openmp_caller]=-fopenmp)
 expected=$source/tests/install/expected
