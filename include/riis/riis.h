@@ -459,7 +459,7 @@ typedef struct riis_crossings {
 
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
  * depth: the length of the shortest translation of one triangle after which both only touch
- * (docs/theory.md, section 14). Triangles that touch or lie in one plane have depth 0.
+ * (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0.
  *   surface  keeps the pairs, all else stays
  *   options  a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
  *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
