@@ -216,8 +216,8 @@ def draw_opening(sheet, aortic):
     panel.label("open_radius_ratio", (1.12, 1.18), ways[2], value=value)
     sheet.check("commissure_expansion", math.hypot(*ends[2]) / math.hypot(*ends[0]) - 1)
     value = f"{sheet.value_text('commissure_expansion')}: leaflet_radius_out\ngrows by this share (not seen here)"
-    panel.label("commissure_expansion", (0.62, -0.1), value=value)
-    panel.note((0.05, -0.2), "Every control point moves on a straight line.")
+    panel.label("commissure_expansion", (0.05, 0.0), value=value)
+    panel.note((0.05, -0.26), "Every control point moves on a straight line.")
 
 
 def draw(aortic):
