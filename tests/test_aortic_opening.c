@@ -91,7 +91,8 @@ static void state_is_the_one_of_the_formulas(void **state) {
     const double opening = trial < 3 ? 0.5 * trial : random_between(&random, 0, 1);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
     CHECK_OK(riis_valve_set_scalar(given, "opening", opening));
-    const surface_content a = surface_content_of(new_surface(valve, NULL)), b = surface_content_of(new_surface(given, NULL));
+    const surface_content a = surface_content_of(new_surface(valve, NULL)),
+                          b = surface_content_of(new_surface(given, NULL));
     assert_int_equal(a.n_vertices, b.n_vertices);
     for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(a.xyz[i], b.xyz[i], 1e-12);
     free_owned_after(owned_before);
@@ -205,7 +206,8 @@ static void absurd_open_states_are_refused(void **state) {
   riis_surface *surface = NULL;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'open_radius_ratio' is 2|from 0.05 to 1.5",
                 riis_valve_set_scalar(valve, "open_radius_ratio", 2));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'open_radius_ratio' is 0;", riis_valve_set_scalar(valve, "open_radius_ratio", 0));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'open_radius_ratio' is 0;",
+                riis_valve_set_scalar(valve, "open_radius_ratio", 0));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'commissure_expansion' is 0.6|from 0 to 0.5",
                 riis_valve_set_scalar(valve, "commissure_expansion", 0.6));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'commissure_expansion' is nan",
@@ -214,7 +216,8 @@ static void absurd_open_states_are_refused(void **state) {
   CHECK_OK(riis_valve_set_scalar(valve, "left.leaflet_radius_out", 5));
   new_surface(valve, NULL);
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.01));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state, the left cusp's leaflet curve reaches 7.|commissure_expansion",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER,
+                "in the open state, the left cusp's leaflet curve reaches 7.|commissure_expansion",
                 riis_surface_create(valve, NULL, &surface));
   assert_null(surface);
   CHECK_OK(riis_valve_set_scalar(valve, "commissure_expansion", 0.1));

@@ -92,9 +92,11 @@ static void cusps_meet_in_the_same_bits(void **state) {
     assert_true(n_of_places >= 3);
     assert_true(opening > 0 ? n_of_pairs == n_of_places : n_of_pairs > 3 * 4 + n_of_places);
     const int64_t n_pairs = n_of_pairs;
+    riis_surface *plain = new_surface(valve, &options);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.1, NULL, NULL));
     check_common_vertices(surface, options.scale);
     assert_int_equal(n_of_pairs, n_pairs);
+    assert_true(is_same_content(surface, plain));
     free_owned_after(owned_before);
   }
 }
@@ -247,7 +249,8 @@ static double edge_by_formula(double t) {
     control[k][1] = ((1 - t) * closed + t * open) * share * sine;
   }
   for (int i = 0; i <= 4000; ++i) {
-    const double s = i / 4000.0, p[4] = {(1 - s) * (1 - s) * (1 - s), 3 * s * (1 - s) * (1 - s), 3 * s * s * (1 - s), s * s * s};
+    const double s = i / 4000.0,
+                 p[4] = {(1 - s) * (1 - s) * (1 - s), 3 * s * (1 - s) * (1 - s), 3 * s * s * (1 - s), s * s * s};
     double at[2] = {0, 0};
     for (int k = 0; k < 4; ++k)
       for (int c = 0; c < 2; ++c) at[c] += p[k] * control[k][c];
@@ -287,7 +290,8 @@ static void velocity_is_that_of_the_vertices(void **state) {
   options.triangulation = RIIS_TRIANGULATION_FIXED;
   static const double openings[4][2] = {{0.5, 0.25}, {1, 0.9}, {0, 0.125}, {0.1, 0}};
   for (int trial = 0; trial < 4; ++trial) {
-    riis_valve *valve = valve_at("trileaflet", openings[trial][0]), *before = valve_at("trileaflet", openings[trial][1]);
+    riis_valve *valve = valve_at("trileaflet", openings[trial][0]),
+               *before = valve_at("trileaflet", openings[trial][1]);
     riis_surface *surface = new_surface(valve, &options), *then = new_surface(before, &options);
     const double seconds = openings[trial][0] - openings[trial][1];
     CHECK_OK(riis_surface_update_moving(surface, valve, before, seconds, NULL, NULL));
@@ -350,15 +354,58 @@ static void opens_to_another_valves_open_state(void **state) {
   assert_false(is_same_content(new_surface(valve, NULL), new_surface(plain, NULL)));
 }
 
+static void every_parameter_by_name(void **state) {
+  (void)state;
+  static const struct {
+    const char *name;
+    int64_t n_values;
+    double values[3];
+  } table[] = {{"root_radius", 1, {1.25}},
+               {"leaflet_radius_out", 1, {1.25}},
+               {"leaflet_height", 1, {1.2}},
+               {"bending_height", 1, {0.6}},
+               {"bending_radius_in", 1, {0.4}},
+               {"bending_radius_out", 1, {1.275}},
+               {"bending_angle", 1, {35}},
+               {"bending_power", 1, {1.8}},
+               {"t0_bending", 1, {0.25}},
+               {"t3_bending", 1, {0.25}},
+               {"xq", 1, {-0.22}},
+               {"zq", 1, {-0.35}},
+               {"translation", 3, {0, 0, -1.2}},
+               {"opening", 1, {0}},
+               {"open_radius_ratio", 1, {0.8}},
+               {"commissure_expansion", 1, {0.1}}};
+  const int n_parameters = sizeof table / sizeof *table;
+  riis_valve *valve = new_valve("trileaflet");
+  int64_t n;
+  CHECK_OK(riis_valve_n_parameters(valve, &n));
+  assert_int_equal(n, n_parameters);
+  for (int i = 0; i < n_parameters; ++i) {
+    riis_parameter parameter;
+    double values[3] = {0, 0, 0};
+    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    assert_string_equal(parameter.name, table[i].name);
+    CHECK_OK(riis_valve_get(valve, table[i].name, table[i].n_values, values));
+    assert_memory_equal(values, table[i].values, sizeof values);
+    assert_memory_equal(parameter.default_values, table[i].values, sizeof values);
+    /* Changed a little, the surface changes. */
+    riis_valve *changed = valve_at("trileaflet", 0.5);
+    for (int k = 0; k < table[i].n_values; ++k) values[k] += 0.01;
+    CHECK_OK(riis_valve_set(changed, table[i].name, table[i].n_values, values));
+    assert_false(is_same_content(new_surface(changed, NULL), new_surface(valve_at("trileaflet", 0.5), NULL)));
+  }
+}
+
 static void values_that_do_not_go_together_are_refused(void **state) {
   (void)state;
   riis_surface *surface = NULL;
-#define IS_REFUSED(name, value, text)                                                              \
-  do {                                                                                             \
-    riis_valve *valve = new_valve("trileaflet");                                                   \
-    CHECK_OK(riis_valve_set_scalar(valve, name, value));                                           \
-    CHECK_REFUSED(RIIS_INVALID_PARAMETER, text, riis_surface_create(valve, NULL, &surface));       \
-    assert_null(surface);                                                                          \
+#define IS_REFUSED(name, value, text)                                                        \
+  do {                                                                                       \
+    riis_valve *valve = new_valve("trileaflet");                                             \
+    CHECK_OK(riis_valve_set_scalar(valve, name, value));                                     \
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, text, riis_surface_create(valve, NULL, &surface)); \
+    assert_null(surface);                                                                    \
   } while (0)
   IS_REFUSED("bending_height", 1.2, "bending_height is 1.2|leaflet_height, which is 1.2");
   IS_REFUSED("leaflet_height", 20, "leaflet_height is 20|root_radius, which is 1.25");
@@ -373,7 +420,8 @@ static void values_that_do_not_go_together_are_refused(void **state) {
   CHECK_OK(riis_valve_set_scalar(valve, "commissure_expansion", 0.5));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state, a cusp's leaflet curve reaches 7.5|commissure_expansion",
                 riis_surface_create(valve, NULL, &surface));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'bending_angle' is 61|from 5 to 60", riis_valve_set_scalar(valve, "bending_angle", 61));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'bending_angle' is 61|from 5 to 60",
+                riis_valve_set_scalar(valve, "bending_angle", 61));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_radius_in' is not a parameter of the trileaflet valve",
                 riis_valve_set_scalar(valve, "leaflet_radius_in", 0.1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.bending_angle' is not a parameter of the trileaflet valve",
@@ -395,6 +443,7 @@ int main(void) {
       cmocka_unit_test_teardown(velocity_is_that_of_the_vertices, free_owned),
       cmocka_unit_test_teardown(closed_free_edges_are_no_rims, free_owned),
       cmocka_unit_test_teardown(opens_to_another_valves_open_state, free_owned),
+      cmocka_unit_test_teardown(every_parameter_by_name, free_owned),
       cmocka_unit_test_teardown(values_that_do_not_go_together_are_refused, free_owned),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -404,7 +404,8 @@ RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t 
 /* Gives each vertex's place on its patch, uv(2, n_vertices), in [0,1]; NULL for a surface from arrays. */
 RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **uv);
-/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. */
+/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. Where
+ * closed cusps meet, a vertex has the velocity of its own cusp. */
 RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **velocity);
 /* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
@@ -412,7 +413,8 @@ RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface,
  *   patch_id     aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
  *                mitral, from the posteromedial commissure round: anterior 0 commissure's triangle, 1 side,
  *                2 middle, 3 mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop,
- *                7 half of the middle one, 8 and 9 mirrored; from patches: the patch's number; from arrays: 0 */
+ *                7 half of the middle one, 8 and 9 mirrored; from patches: the patch's number; from arrays:
+ *                0 */
 RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
                                             const int64_t **vertex_id, const int64_t **triangle_id,
                                             const int32_t **leaflet_id, const int32_t **patch_id);
@@ -689,8 +691,8 @@ typedef struct riis_mark_fields {
   const int32_t *side;       /* (n_nodes): as riis_closest.side */
   const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
                                 valve consists of the sides that only one patch has, such as free edges and
-                                the annulus; the rim of arrays of the edges of one triangle, where vertices
-                                with equal coordinates are one */
+                                the annulus, but not closed free edges that coincide; the rim of arrays of the
+                                edges of one triangle, where vertices with equal coordinates are one */
   const int32_t *patch_id;   /* (n_nodes): as riis_surface_triangles gives it */
 } riis_mark_fields;
 /* Gives the fields of the marked nodes, in the order and with the lifetime of riis_mark_result_marked. */

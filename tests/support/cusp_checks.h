@@ -122,7 +122,8 @@ static inline double check_opening(riis_valve *valve, double radius, const doubl
     free_one_owned(surface);
   }
   for (int cusp = 0; cusp < 3; ++cusp) {
-    printf("%s, cusp %d: free edge %.3f, from %.3f to %.3f of it\n", name, cusp, at_rest[cusp], least[cusp], most[cusp]);
+    printf("%s, cusp %d: free edge %.3f, from %.3f to %.3f of it\n", name, cusp, at_rest[cusp], least[cusp],
+           most[cusp]);
     assert_true(least[cusp] >= 1 - share && most[cusp] <= 1 + share);
   }
   printf("%s: orifice %.2f\n", name, orifice);
