@@ -417,7 +417,8 @@ RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t 
 /* Gives each vertex's place on its patch, uv(2, n_vertices), in [0,1]; NULL for a surface from arrays. */
 RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **uv);
-/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. */
+/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. Where
+ * closed cusps meet, a vertex has the velocity of its own cusp. */
 RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **velocity);
 /* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
@@ -755,8 +756,8 @@ typedef struct riis_mark_fields {
   const int32_t *side;       /* (n_nodes): as riis_closest.side */
   const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
                                 valve consists of the sides that only one patch has, such as free edges and
-                                the annulus; the rim of arrays of the edges of one triangle, where vertices
-                                with equal coordinates are one */
+                                the annulus, but not closed free edges that coincide; the rim of arrays of the
+                                edges of one triangle, where vertices with equal coordinates are one */
   const int32_t *patch_id;   /* (n_nodes): as riis_surface_triangles gives it */
 } riis_mark_fields;
 /* Gives the fields of the marked nodes, in the order and with the lifetime of riis_mark_result_marked. */
