@@ -18,7 +18,7 @@ namespace riis::cli {
 namespace {
 
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
-                                            "resistance", "times", "valves"};
+                                            "resistance", "times", "valves",         "check_leaks"};
 const std::vector<std::string> valve_keys = {
     "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
     "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
@@ -51,7 +51,16 @@ class CaseReader {
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
     options.resistance = values.at_least_zero("resistance");
+    if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
+  }
+
+  LeakCheck leak_check_of(const CaseValues &values) const {
+    const std::vector<double> points = values.numbers("check_leaks", 6);
+    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
+    std::copy_n(points.begin(), 3, made.from);
+    std::copy_n(points.begin() + 3, 3, made.to);
+    return made;
   }
 
   std::vector<double> times_of(const CaseValues &values) const {
@@ -109,7 +118,7 @@ class CaseReader {
       return all_.options.prefix;
     }
     if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
-    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is that of the sums");
+    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
     if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
     return name;
   }
@@ -126,10 +135,10 @@ class CaseReader {
       surface.half_thickness = *own;
     }
     options.surface_unit = values.unit("surface_unit");
-    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", that of the mesh");
+    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
     if (options.unit && is_file && !options.surface_unit)
-      values.refuse("surface_unit", "\"unit\" needs it, the unit of the file");
+      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
     if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
       values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
     if (options.unit) apply_units(options);

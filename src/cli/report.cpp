@@ -71,6 +71,34 @@ void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
   out << "\n";
 }
 
+void add_crossings(const CrossingReport &report, std::ostringstream &out) {
+  out << "crossing  ";
+  if (report.found.n_pairs == 0) {
+    out << "none: no triangles go through each other";
+    if (report.n_openings > 0) out << " at " << counted(report.n_openings, "opening") << " from 0 to 1";
+  } else {
+    out << counted(report.found.n_pairs, "pair") << " of triangles go through each other";
+    if (report.opening) out << " at opening " << *report.opening;
+    out << ", along a length of " << report.found.length << ", up to " << report.found.depth << " deep";
+  }
+  out << "\n";
+}
+
+const char *state_name(int32_t state) {
+  return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
+}
+
+nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
+  const riis_passage &found = passage.found;
+  return {{"state", state_name(found.state)},
+          {"node_id", found.node_id},
+          {"distance", found.distance},
+          {"point", found.point},
+          {"closing_half_thickness", passage.closing_half_thickness > 0
+                                         ? nlohmann::ordered_json(passage.closing_half_thickness)
+                                         : nlohmann::ordered_json()}};
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
   out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
       << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
@@ -99,6 +127,21 @@ std::string surface_title(const Report &report) {
   out << report.surface_name;
   if (report.opening) out << (is_valve_file(report.surface_name) ? "" : " valve") << ", opening " << *report.opening;
   if (report.time) out << ", time " << *report.time;
+  return out.str();
+}
+
+std::string line_of_passage(const LeakReport &leaks) {
+  if (!leaks.passage) return "";
+  const riis_passage &found = leaks.passage->found;
+  std::ostringstream out = table_stream();
+  out << "passage   ";
+  if (found.state == RIIS_PASSAGE_NONE)
+    out << "none: the mesh itself does not join the two points";
+  else
+    out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << found.point[0] << " " << found.point[1]
+        << " " << found.point[2] << ", " << found.distance << " from the surface"
+        << (leaks.passage->is_end ? ", an end" : "");
+  out << "\n";
   return out.str();
 }
 
@@ -141,11 +184,22 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
+  if (report.leaks.passage) json["passage"] = json_of_passage(*report.leaks.passage);
   if (report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},
                     {"search", search_name(report.step->search)},
                     {"seconds_surface", report.step->surface},
                     {"seconds_search", report.step->marking}};
+  }
+  if (report.crossings) {
+    const riis_crossings &found = report.crossings->found;
+    json["crossings"] = {{"n_openings", report.crossings->n_openings},
+                         {"n_pairs", found.n_pairs},
+                         {"length", found.length},
+                         {"depth", found.depth},
+                         {"point", found.point},
+                         {"leaflets", found.leaflet_id}};
+    if (report.crossings->opening) json["crossings"]["opening"] = *report.crossings->opening;
   }
   return json.dump(2) + "\n";
 }
@@ -162,7 +216,9 @@ std::string table_of(const Report &report) {
   if (!report.mesh_name.empty()) {
     add_marks(report, out);
     add_leaks(report.leaks, out);
+    out << line_of_passage(report.leaks);
   }
+  if (report.crossings) add_crossings(*report.crossings, out);
   add_seconds(report.seconds, out);
   if (report.step) add_step(*report.step, out);
   for (const std::string &path : report.written) out << "written   " << path << "\n";

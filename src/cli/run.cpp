@@ -6,6 +6,7 @@
 
 #include "cli/case.hpp"
 #include "cli/case_file.hpp"
+#include "cli/crossings.hpp"
 #include "cli/drawing.hpp"
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
@@ -15,6 +16,7 @@
 #include "cli/movie.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
+#include "cli/passage_check.hpp"
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
@@ -78,6 +80,7 @@ MarkResult mark(const Options &options, const riis_surface *surface, const riis_
   report.distance = options.surface_options.distance;
   report.mesh_name = options.mesh;
   look_for_leaks(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
+  check_passage(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
   return result;
 }
 
@@ -127,6 +130,7 @@ ExitCode run_single(const Options &options) {
   if (!options.leaflets.empty()) report.n_leaflets = count_leaflets(surface.get());
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;
+  if (options.check_crossing) look_for_crossings(options, valve, surface.get(), report);
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, names_of_arrays(options), mesh.get());
