@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Writes KIND_parameters for each kind of valve to the
-folder, as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
+draw.py CURVES.json FOLDER [KIND...]: CURVES.json is from riis-figures --curves. Writes KIND_parameters for these
+kinds of valve, or for all, to the folder as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
 a parameter out, shows another value than the parameter's, or has labels that overlap."""
 
 import json
@@ -34,16 +34,16 @@ PAPER = {
 
 
 def main(arguments):
-    if len(arguments) != 2:
-        print("usage: draw.py CURVES.json FOLDER", file=sys.stderr)
+    if len(arguments) < 2 or not set(arguments[2:]) <= set(MODULES):
+        print(f"usage: draw.py CURVES.json FOLDER [{'|'.join(MODULES)}...]", file=sys.stderr)
         return 2
-    curves, folder = arguments
+    curves, folder, *kinds = arguments
     with open(curves, encoding="utf-8") as file:
         valves = json.load(file)
     figures = []
-    for valve, module in MODULES.items():
+    for valve in kinds or MODULES:
         try:
-            module.draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
+            MODULES[valve].draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
         except sheet.Refused as why:
             print(f"draw.py: {valve} valve: {why}", file=sys.stderr)
             return 1
