@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER [KIND...]: CURVES.json is from riis-figures --curves. Writes KIND_parameters for these
-kinds of valve, or for all, to the folder as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
-a parameter out, shows another value than the parameter's, or has labels that overlap."""
+draw.py CURVES.json FOLDER [KIND...]: CURVES.json is from riis-figures --curves. Writes KIND_parameters for these kinds of
+valve, or for all, to the folder as .png and .svg. Writes parameters.json, with which riis-figures puts them on its page. Refuses
+a drawing that leaves a parameter out, shows another value than the parameter's, or has labels that overlap."""
 
 import json
 import os

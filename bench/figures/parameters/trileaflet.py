@@ -7,7 +7,7 @@ import aortic
 from aortic import BENDING, LEAFLET, SINUS, SYMMETRY, plan, section
 from sheet import DARK, GREY, PALE, SMALL, Sheet, along, distance, plain
 
-INNER_PLACES = {"xq": (1.33, 0.6), "zq": (1.33, 0.38), "inner": (1.33, 0.18), "middle": (1.33, 0.8)}
+INNER_PLACES = {"xq": (1.3, 0.6), "zq": (1.3, 0.38), "inner": (1.3, 0.18), "middle": (1.3, 0.8)}
 AXIS = (0, (8, 3, 2, 3))
 
 
@@ -35,14 +35,14 @@ def draw_plan(sheet, cusp):
 
 
 def draw_section(sheet, cusp):
-    panel = sheet.panel((7.4, 4.7), (7.5, 5.1), "b   The symmetry plane of the cusp, seen from the side", (-0.88, -0.5), 0.4)
+    panel = sheet.panel((7.4, 4.7), (7.5, 5.1), "b   The symmetry plane of the cusp, seen from the side", (-0.83, -0.5), 0.4)
     symmetry, leaflet, bending = cusp["symmetry"], cusp["leaflet"][0], cusp["bending"][0]
     root, inner, _, top = symmetry[0]
     low = section(bending[0][0])
     panel.line((0, -0.3), (0, 1.4), color=GREY, width=0.6, style=AXIS)
     panel.note((0.02, 1.42), "symmetry axis of the valve", va="bottom", ha="center")
     panel.line((-0.62, 0), (1.62, 0), color=GREY, width=0.6)
-    panel.note((-0.87, -0.06), "root, z = 0 of\nthe cusp's frame", va="top")
+    panel.note((-0.82, -0.06), "root, z = 0 of\nthe cusp's frame", va="top")
     for pieces, color in ((cusp["sinus"][0], SINUS), (leaflet, LEAFLET), (bending, BENDING)):
         panel.curve(pieces, section, color, 1.1, style="--")
     panel.curve(symmetry, section, SYMMETRY, 2.6)
@@ -119,7 +119,8 @@ def draw_commissures(sheet, states):
 
 def draw(trileaflet):
     sheet = Sheet("Parameters of the trileaflet valve", trileaflet["parameters"], (15, 10.6))
-    sheet.text(0.33, 1 - 0.27 / 10.6, "Defaults. The three cusps are equal. One radius gives length and place of the closed free edges.", va="center")
+    text = "Defaults. The three cusps are equal. One radius gives length and place of the closed free edges."
+    sheet.text(0.33, 1 - 0.27 / 10.6, text, va="center")
     states = trileaflet["states"]
     own = states[0]["own_frame"]
     draw_plan(sheet, own)
