@@ -63,7 +63,9 @@ const std::vector<Subject> &subjects() {
        looking({-1, 0, 0}, {0, 0, 1}),
        {"anterior leaflet", "posterior leaflet"},
        "the inside of the annulus",
-       "The saddle of the annulus flattens while the leaflets turn into the ventricle.",
+       "The saddle of the annulus flattens while the leaflets turn into the ventricle. The paper's free edges lengthen "
+       "more than "
+       "tissue does, and its open orifice is large: docs/theory.md, section 15, has published values.",
        "appendix, table of the mitral valve's parameters, of which <i>t</i> is the opening."},
       {"bileaflet",
        "The bileaflet mechanical valve, from closed to open",
@@ -290,14 +292,16 @@ Figure states_figure(const StateTable &table) {
   for (std::size_t k = 0; k < subject.leaflets.size(); ++k)
     figure.key.push_back({leaflet_colours[k], subject.leaflets[k]});
   figure.key.push_back({orifice_colour, "orifice, seen from above"});
-  figure.key.push_back({grey, "edge of " + std::string(subject.disc)});
+  // The annulus is dark, as the leaflets' other edges are.
+  if (table.kind != "mitral") figure.key.push_back({grey, "edge of " + std::string(subject.disc)});
+  const bool has_edges = !table.edges.empty();
   figure.caption =
-      std::string(subject.caption) + " Parameters: the defaults; tolerance " + percent(tolerance) +
-      ". The table has the length of each free edge, the area of each leaflet and, in brackets, how much "
-      "they differ from those at opening " +
-      number(table.openings.front()) + ". The orifice is the part of " + subject.disc +
-      " that the leaflets leave uncovered along the axis. This command prints the table: " + command_of(table) + ".";
-  if (table.edges.empty()) figure.caption += " The leaflets are rigid: edges keep their length.";
+      std::string(subject.caption) + " Parameters: the defaults; tolerance " + percent(tolerance) + ". The table has " +
+      (has_edges ? "the length of each free edge, " : "") +
+      "the area of each leaflet and, in brackets, the change since opening " + number(table.openings.front()) +
+      (has_edges ? "" : ", which is none, as the leaflets are rigid") + ". The orifice is the part of " + subject.disc +
+      " that the leaflets leave uncovered along the axis. This command writes these numbers: " + command_of(table) +
+      ".";
   return figure;
 }
 
