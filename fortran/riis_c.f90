@@ -63,6 +63,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_ANTERIOR = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSTERIOR = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_POSITIVE = 0
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_NEGATIVE = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_HOUSING = 2
 
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
@@ -99,6 +102,10 @@ module riis_c
 
   integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
   integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
+
+  integer(c_int32_t), parameter :: RIIS_PASSAGE_CLOSED = 0
+  integer(c_int32_t), parameter :: RIIS_PASSAGE_OPEN = 1
+  integer(c_int32_t), parameter :: RIIS_PASSAGE_NONE = 2
 
   integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
   integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
@@ -178,7 +185,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_keyframe_arrays
 
-  !> The size of a surface, and the time that it took.
+  !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices     !< length of the array of riis_surface_vertices
     integer(c_int64_t) :: n_triangles    !< triangles that answer queries
@@ -212,8 +219,8 @@ module riis_c
 
   !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance        !< >= 0
-    real(c_double) :: point(3)        !< on the triangle
+    real(c_double) :: distance        !< >= 0, mesh units
+    real(c_double) :: point(3)        !< on the triangle, mesh units
     real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
@@ -297,7 +304,7 @@ module riis_c
     integer(c_int32_t) :: reserved2
   end type riis_mark_options
 
-  !> c_null_ptr for fields that were not asked for, or with no nodes
+  !> c_null_ptr for fields that were not requested, or with no nodes
   type, bind(c) :: riis_mark_fields
     integer(c_int64_t) :: n_nodes
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
@@ -351,6 +358,18 @@ module riis_c
     real(c_double) :: half_thickness         !< the smallest that gives each edge a marked node, by these triangles
     real(c_double) :: seconds                !< wall time of riis_find_leaks
   end type riis_leaks
+
+  !> The widest passage from one set of nodes to another: the path whose smallest distance to the surface is largest.
+  type, bind(c) :: riis_passage
+    integer(c_int64_t) :: node_id  !< the node of that distance: the place. -1 without a path. Of nodes at equal
+                                   !! distances the one with the higher id counts as the nearer
+    real(c_double) :: distance     !< its distance: the smallest half thickness that closes the passage, by these
+                                   !! triangles; a surface with a smaller one leaves it open. 0 without a path
+    real(c_double) :: point(3)     !< its coordinates; 0 without a path
+    real(c_double) :: seconds      !< wall time of riis_find_passage
+    integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
+    integer(c_int32_t) :: reserved !< 0
+  end type riis_passage
 
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
@@ -473,7 +492,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   kind  riis_c_string('aortic') or riis_c_string('mitral')
+    !>   kind  riis_c_string('aortic'), 'mitral', 'trileaflet' or 'bileaflet'
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none
@@ -629,7 +648,7 @@ module riis_c
     end function riis_surface_update
 
     !>   options         left out: the surface's own
-    !!   options_before  left out: those of now
+    !!   options_before  left out: the present ones
     function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -688,7 +707,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_keyframes
 
-    !>   options  left out: those that the surface has
+    !>   options  left out: the surface's own
     function riis_surface_update_from_keyframes(surface, keyframes, time, since, options) result(status) &
         bind(c, name='riis_surface_update_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -1181,6 +1200,45 @@ module riis_c
       type(c_ptr), intent(inout), optional :: node_id, length, distance
       integer(riis_status) :: status
     end function riis_mark_result_leaking_edges
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Open regions and passages
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   options  left out: all defaults
+    !!   label    (n_nodes), contiguous, from 0; nodes in no region get -1
+    function riis_label_open_regions(mesh, options, result, n_nodes, label, n_regions) result(status) &
+        bind(c, name='riis_label_open_regions')
+      import :: c_int64_t, c_ptr, riis_mark_options, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      type(c_ptr), value :: result
+      integer(c_int64_t), value :: n_nodes
+      integer(c_int64_t), intent(inout) :: label(*)
+      integer(c_int64_t), intent(inout), optional :: n_regions
+      integer(riis_status) :: status
+    end function riis_label_open_regions
+
+    !>   options      left out: all defaults
+    !!   from         (n_from), from 0
+    !!   to           (n_to), from 0
+    !!   struct_size  c_sizeof(passage)
+    function riis_find_passage(surface, mesh, options, n_from, from, n_to, to, passage, struct_size) result(status) &
+        bind(c, name='riis_find_passage')
+      import :: c_int64_t, c_ptr, riis_mark_options, riis_passage, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      integer(c_int64_t), value :: n_from
+      integer(c_int64_t), intent(in) :: from(*)
+      integer(c_int64_t), value :: n_to
+      integer(c_int64_t), intent(in) :: to(*)
+      type(riis_passage), intent(inout) :: passage
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_passage
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Laws of opening

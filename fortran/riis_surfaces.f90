@@ -1056,7 +1056,7 @@ contains
     if (code == RIIS_OK .and. .not. (present(distance) .or. present(point) .or. present(barycentric) .or. present(normal) .or. &
       present(triangle_id) .or. present(leaflet_id) .or. present(side))) code = refuse('none of distance, point, &
       &barycentric, normal, triangle_id, leaflet_id and side is given, or allocated')
-    if (code == RIIS_OK) call ask(points%n)
+    if (code == RIIS_OK) call query(points%n)
 
   contains
 
@@ -1090,7 +1090,7 @@ contains
     end subroutine get_vectors
 
     ! The binding takes arrays, so every address becomes an array.
-    subroutine ask(n)
+    subroutine query(n)
       integer(int64), intent(in) :: n
       real(c_double), pointer :: x(:), y(:), z(:)
       if (n == 0) then
@@ -1101,7 +1101,7 @@ contains
         call c_f_pointer(points%z, z, [1])
         code = riis_closest_points(this%handle, n, x, y, z, points%stride, options, arrays)
       end if
-    end subroutine ask
+    end subroutine query
   end subroutine closest_points
 
   !> Tells whether the surface was created and not destroyed.

@@ -71,7 +71,7 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// Returns the number of threads that an option asks for. 0 stands for the processors that the calling thread may use.
+// Returns the number of threads that an option requests. 0 stands for the processors that the calling thread may use.
 inline int threads_asked_for(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");

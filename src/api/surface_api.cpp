@@ -118,7 +118,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// The last content's size is the guide.
+// The last content's size is the guide for options that leave the number open.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
   return riis::threads_for_triangles(options.n_threads,
                                      surface.surface ? surface.surface->triangles().n_triangles() : 0);

@@ -18,7 +18,7 @@ namespace riis::cli {
 namespace {
 
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
-                                            "resistance", "times", "valves"};
+                                            "resistance", "times", "valves",         "check_leaks"};
 const std::vector<std::string> valve_keys = {
     "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
     "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
@@ -51,7 +51,16 @@ class CaseReader {
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
     options.resistance = values.at_least_zero("resistance");
+    if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
+  }
+
+  LeakCheck leak_check_of(const CaseValues &values) const {
+    const std::vector<double> points = values.numbers("check_leaks", 6);
+    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
+    std::copy_n(points.begin(), 3, made.from);
+    std::copy_n(points.begin() + 3, 3, made.to);
+    return made;
   }
 
   std::vector<double> times_of(const CaseValues &values) const {
@@ -68,7 +77,7 @@ class CaseReader {
     }
   }
 
-  // Path in the file, as seen from here. "" if the key is not there.
+  // Returns a path of the case, which is relative to the case's folder, or "" if the key is not there.
   std::string file_of(const CaseValues &values, const char *key) {
     const std::string text = values.text(key);
     if (text.empty()) return "";
@@ -109,7 +118,7 @@ class CaseReader {
       return all_.options.prefix;
     }
     if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
-    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is that of the sums");
+    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
     if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
     return name;
   }
@@ -126,10 +135,10 @@ class CaseReader {
       surface.half_thickness = *own;
     }
     options.surface_unit = values.unit("surface_unit");
-    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", that of the mesh");
+    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
     if (options.unit && is_file && !options.surface_unit)
-      values.refuse("surface_unit", "\"unit\" needs it, the unit of the file");
+      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
     if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
       values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
     if (options.unit) apply_units(options);
@@ -171,7 +180,7 @@ class CaseReader {
     set_law(values, source.valve.get(), source);
   }
 
-  // An object, or the path of a file with one.
+  // Sets parameters from an object, or from the file whose path stands there.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -180,7 +189,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets also the largest opening that the valve will have, for the check whether it can open.
+  // Sets the law, and the valve's largest opening, for the check whether it can open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -203,7 +212,7 @@ class CaseReader {
       source.file = read_surface(source.options, seconds);
       return;
     }
-    if (!all_.is_series()) values.refuse("surface", "one that moves needs times, in the file or by --times");
+    if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
     source.options.period = values.above_zero("period").value_or(0);
     KeyframeFiles read = read_keyframes(source.options, seconds);
     source.keyframes = std::move(read.keyframes);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/refusal.hpp"
 #include "cli/units.hpp"
 
 namespace riis::cli {
@@ -30,9 +31,16 @@ struct SeriesOptions {
   bool all_cells = false;
 };
 
+// Two points, which a valve is to part, and what refusals say of them.
+struct LeakCheck {
+  double from[3], to[3];
+  std::string subject;
+  ExitCode exit_code = exit_wrong_usage;
+};
+
 // At the position of their RIIS_TRIANGULATION_*.
 const std::vector<std::string> &triangulation_names();
-// The views, at the position of their RIIS_VTK_VIEW_*.
+// Returns the names of the views, each at the position of its RIIS_VTK_VIEW_*.
 const std::vector<std::string> &view_names();
 
 struct Options {
@@ -46,7 +54,8 @@ struct Options {
   std::optional<double> opening;      // from 0 to 1
   riis_surface_options surface_options;
   std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
-  bool has_scale = false, has_half_thickness = false;  // the user gave them as numbers
+  // The user gave them as numbers.
+  bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::string
       leaflets;  // of the surface's file: "connected", the name of a cell array, or "" for the array riis_leaflet
   riis_mark_options mark_options;
@@ -59,7 +68,10 @@ struct Options {
   bool replace = false;         // arrays of these names
   bool allow_none = false;
   bool check_crossing = false;
+  std::optional<LeakCheck> check_leaks;
   SeriesOptions series;
+  std::string states;           // the table of --states; "": not wanted
+  std::int32_t n_states = 101;  // openings in it
   bool print_params = false, describe_params = false;
   bool quiet = false;
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/drawing.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include "base/array_view.hpp"
 #include "cli/interruption.hpp"
 #include "cli/progress.hpp"
@@ -20,6 +23,9 @@ bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
     double values[3] = {0, 0, 0};
     check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+    // The parameters of the open state do not matter at opening 0.
+    const std::string_view name = parameter.name;
+    if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
     if (!std::equal(values, values + 3, parameter.default_values)) return false;
   }
   return true;
@@ -36,7 +42,8 @@ void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vt
 
 std::vector<const char *> leaflet_names(const Options &options) {
   if (!options.surface.empty()) return {};
-  if (options.valve == "aortic") return {"right", "left", "non-coronary"};
+  if (options.valve == "aortic" || options.valve == "trileaflet") return {"right", "left", "non-coronary"};
+  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
   if (options.valve == "mitral") return {"anterior", "posterior"};
   return {};
 }

@@ -16,6 +16,7 @@
 #include "cli/moving_valve.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
+#include "cli/passage_check.hpp"
 #include "cli/progress.hpp"
 #include "cli/series_files.hpp"
 #include "cli/series_pictures.hpp"
@@ -34,7 +35,7 @@ int64_t n_nodes_of(const riis_vtk_mesh *file) {
   return n;
 }
 
-// The arrays of a series. The part of a mesh also tells the ids of its nodes in the whole mesh.
+// Returns the names of a series' arrays. The part of a mesh also tells the ids of its nodes in the whole mesh.
 std::vector<std::string> names_of_series(const Case &all) {
   std::vector<std::string> names;
   for (const ValveSource &valve : all.valves) {
@@ -49,7 +50,7 @@ std::vector<std::string> names_of_series(const Case &all) {
   return names;
 }
 
-// Such as "12.3 MB".
+// Returns a text such as "12.3 MB".
 std::string bytes_text(double n) {
   const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
   std::size_t unit = 0;
@@ -73,7 +74,7 @@ class Writing {
         surfaces_(all.options.surface_output, ".vtp", times().size()),
         table_(all) {}
 
-  // The size of all files, from those of the first step.
+  // Prints the size of all files, by the files of the first step.
   void announce(int64_t n_nodes_of_mesh) {
     if (all_.options.quiet || !meshes_.is_wanted()) return;
     set_arrays(0);
@@ -86,7 +87,7 @@ class Writing {
                  meshes_.folder().c_str());
   }
 
-  // Ends early, after a whole step, if a signal waits.
+  // Writes all steps. Ends early, after a whole step, if a signal waits.
   void run(Report &report) {
     if (meshes_.is_wanted()) meshes_.make_folder();
     if (surfaces_.is_wanted()) surfaces_.make_folder();
@@ -112,7 +113,7 @@ class Writing {
  private:
   const std::vector<double> &times() const { return all_.options.series.times; }
 
-  // The first time has no time before it, and takes the first step's length.
+  // Returns the time before a step. The first time takes the length of the first step.
   double time_before(std::size_t step) const {
     return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
   }
@@ -176,19 +177,20 @@ MeshFile copy_of(const riis_vtk_mesh *file) {
   return part_of(file, all);
 }
 
-// The first time at which the valve is least open.
+// Returns the first time at which the valve is least open.
 double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &times) {
   return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
 }
 
-// Only a valve that is as closed as it will be can stop the flow.
+// Warns of leaks at the time when each valve is least open: only then can it be meant to stop the flow.
 void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
-                           const riis_vtk_mesh *file) {
+                           const riis_vtk_mesh *file, Report &report) {
   for (MovingValve &valve : valves) {
     valve.move_to(time_of_least_opening(valve.source().law, all.options.series.times));
     valve.mark(mesh, 0);
   }
   look_for_leaks_of(all, valves, mesh, file);
+  check_passage_of(all, valves, mesh, file, report);
 }
 
 // Warns of marks that look wrong, by the times at which each valve marks most nodes.
@@ -202,7 +204,7 @@ void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *fil
   }
 }
 
-// What a user reads at the end.
+// Prints the summary that a user reads at the end.
 void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
@@ -211,6 +213,7 @@ void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int
   text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
           (writing.meshes().is_wanted() ? ", " + grouped(n_written) + " written\n" : "\n");
   text += writing.table().summary();
+  text += line_of_passage(report.leaks);
   for (const SeriesFiles *files : {&writing.meshes(), &writing.surfaces()}) {
     if (!files->is_wanted()) continue;
     report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
@@ -234,7 +237,7 @@ ExitCode run_series(Case &all) {
   {
     const Mesh mesh = borrow_nodes(file.get(), options.mesh);
     sweep = sweep_of(valves, options.series.times, mesh.get(), n_nodes, options.quiet);
-    look_for_closed_leaks(all, valves, mesh.get(), file.get());
+    look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
   warn_of_sweep(all, sweep, file.get());
   // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.

@@ -85,7 +85,7 @@ contains
     write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
     call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
     patch = -1
-    call riis_version(patch=patch) ! what is left out is NULL
+    call riis_version(patch=patch) ! an argument that is left out is NULL
     call check(patch >= 0, 'the patch version alone')
     do i = 1, size(statuses)
       call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
@@ -355,7 +355,7 @@ contains
     call check_ok(riis_surface_update_from_arrays(plate, arrays, options), 'update a surface from triangles')
     call riis_set_log(c_null_funptr, c_null_ptr)
     call check(log%n_warnings == 1 .and. index(last_warning, 'zero area') > 0, 'a warning of the skipped triangle')
-    call check(log%n_messages > log%n_warnings, 'information is logged, too')
+    call check(log%n_messages > log%n_warnings, 'information is also logged')
     n_before = log%n_messages
     call check_ok(riis_surface_update_from_arrays(plate, arrays), 'update with the options that the surface has')
     call check(log%n_messages == n_before, 'silence after the log function is taken away')
@@ -831,6 +831,9 @@ contains
     type(riis_mark_options) :: options
     type(riis_leaks) :: leaks
     type(twin_leaks) :: list
+    type(riis_passage) :: passage
+    integer(c_int64_t), allocatable, target :: label(:)
+    integer(c_int64_t) :: n_regions
     type(c_ptr) :: thin, thin_valve, leaking
 
     thin = c_null_ptr
@@ -865,6 +868,15 @@ contains
     call check_same_bytes(list%node_id, twin%leaks%node_id, 16 * list%n, 'nodes of edges that leak')
     call check_same_bytes(list%length, twin%leaks%length, 8 * list%n, 'their lengths')
     call check_same_bytes(list%distance, twin%leaks%distance, 8 * list%n, 'their distances')
+    allocate (label(n_nodes))
+    call check_ok(riis_label_open_regions(mesh, options, leaking, n_nodes, label, n_regions), 'open regions')
+    call check(n_regions == twin%leaks%n_regions .and. n_regions > 0, 'as many regions as from C')
+    call check_same_bytes(c_loc(label), twin%leaks%label, 8 * n_nodes, 'the labels')
+    call check_ok(riis_find_passage(thin, mesh, options, 1_c_int64_t, [0_c_int64_t], 1_c_int64_t, [n_nodes - 1], passage, &
+      c_sizeof(passage)), 'a passage')
+    call check(passage%node_id == twin%leaks%passage%node_id .and. passage%state == twin%leaks%passage%state .and. &
+      all(transfer([passage%distance, passage%point], [0_c_int64_t]) == &
+      transfer([twin%leaks%passage%distance, twin%leaks%passage%point], [0_c_int64_t])), 'the passage')
     call riis_mark_result_destroy(leaking)
     call riis_surface_destroy(thin)
     call riis_valve_destroy(thin_valve)
@@ -970,7 +982,7 @@ contains
 
   subroutine set_adjacency(adjacency)
     type(c_ptr), intent(in) :: adjacency
-    type(riis_csr) :: csr ! may go: what is borrowed are its arrays
+    type(riis_csr) :: csr ! may go: only its arrays are borrowed
     call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
     call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set an adjacency')
   end subroutine set_adjacency

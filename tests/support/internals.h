@@ -82,6 +82,15 @@ typedef struct bounded_quad {
 riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
+/* The triangles and the bound of a valve of the given kind whose curves are `deviation` from their shape. A fixed triangulation
+ * is planned for this state alone. bound_of_patches is that of the patches for other distances. */
+typedef struct deviating {
+  int64_t n_triangles;
+  double bound, bound_of_patches;
+  int is_within; /* by the plan; 1 without one */
+} deviating;
+riis_status triangulate_deviating(const char *kind, double deviation, double max_error, int is_fixed, deviating *made);
+
 /* Finds the closest triangle to each point twice: by the Embree scene of the triangles xyz(9, n_triangles), with every
  * instruction set that there is, and by a loop over all of them with the same kernel. Returns how often the squared distance
  * (bits) or the triangle differ. Points beyond the limit must give none. */
@@ -101,7 +110,7 @@ const char *kernels_name(int set);
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
-/* The same for at most 8 pairs, with the closest points (3, n) and their barycentrics (3, n). */
+/* Does the same for at most 8 pairs, and gives the closest points (3, n) and their barycentrics (3, n). */
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 
@@ -109,7 +118,7 @@ void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *tri
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);
 void kernels_group_free(kernel_group *group);
-/* Whether all bits of two groups and of their bounds are the same. */
+/* Returns 1 if all bits of two groups and of their bounds are the same. */
 int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
 /* Single precision's squares of the distances of a point to its 16 lanes. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
