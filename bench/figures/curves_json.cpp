@@ -123,11 +123,53 @@ json mitral() {
   return {{"parameters", parameters_of(valve.kind())}, {"states", states}};
 }
 
+// One cusp in its own frame, and all in place, closed and on the way.
+json trileaflet() {
+  Valve valve(find_valve_kind("trileaflet"));
+  json states = json::array();
+  for (const double opening : {0.0, 0.5, 1.0}) {
+    valve.set("opening", 1, &opening);
+    const PatchSet placed = valve.make_patches();
+    json cusps = json::array();
+    for (std::int32_t cusp = 0; cusp < 3; ++cusp) cusps.push_back(json_of(cusp_curves(placed, cusp)));
+    states.push_back({{"opening", opening},
+                      {"own_frame", json_of(cusp_curves(in_own_frames(placed), RIIS_LEAFLET_RIGHT))},
+                      {"cusps", cusps}});
+  }
+  return {{"parameters", parameters_of(valve.kind())}, {"states", states}};
+}
+
+// Lengths that are 0 by default have these values here, so that there is something to see.
+json bileaflet() {
+  const std::pair<const char *, double> shown[] = {{"gap", 0.1}, {"hinge_height", 0.14}, {"ring_height", 1.4}};
+  Valve valve(find_valve_kind("bileaflet"));
+  json example = json::object(), states = json::array();
+  for (const auto &[name, value] : shown) {
+    valve.set(name, 1, &value);
+    example[name] = value;
+  }
+  for (const double opening : {0.0, 0.5, 1.0}) {
+    valve.set("opening", 1, &opening);
+    const PatchSet set = valve.make_patches();
+    json halves = json::array();
+    for (const Patch &patch : set.patches)
+      for (const PatchImage &image : patch.images)
+        halves.push_back({{"leaflet", image.leaflet_id},
+                          {"v0", json_of(placed(set, patch.v0, image))},
+                          {"v1", json_of(placed(set, patch.v1, image))},
+                          {"u0", json_of(placed(set, patch.u0, image))}});
+    states.push_back({{"opening", opening}, {"halves", halves}});
+  }
+  return {{"parameters", parameters_of(valve.kind())}, {"example", example}, {"states", states}};
+}
+
 }  // namespace
 
 void write_curves(const std::string &path) {
   std::ofstream out(path, std::ios::binary);
-  out << json{{"aortic", aortic()}, {"mitral", mitral()}}.dump(1) << "\n";
+  out << json{{"aortic", aortic()}, {"trileaflet", trileaflet()}, {"mitral", mitral()}, {"bileaflet", bileaflet()}}
+             .dump(1)
+      << "\n";
   out.close();
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures FILE.html [GIVEN.json...]: draws the geometry into one page, beginning with the paper's figures. The pictures that
-// the JSON files name follow them. riis-figures --curves FILE.json: writes both valves' parameters and curves, for
-// parameters/draw.py.
+// riis-figures FILE.html [GIVEN.json|KIND.csv...]: draws the geometry into one page, beginning with the paper's figures. Valves
+// at the openings of tables by riis-mark --states follow, then the pictures that the JSON files name. riis-figures --curves
+// FILE.json: writes the valves' parameters and curves, for parameters/draw.py.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/errors.hpp"
@@ -12,6 +14,7 @@
 #include "figures/figures.hpp"
 #include "figures/given_figures.hpp"
 #include "figures/shapes.hpp"
+#include "figures/state_figures.hpp"
 #include "figures/text.hpp"
 #include "vtk/display.hpp"
 #include "vtk/vtk_errors.hpp"
@@ -22,7 +25,7 @@ using namespace riis::figures;
 
 std::string parameter_tables() {
   std::string html = "<section id=\"parameters\">\n<h2>Parameters of the figures</h2>\n";
-  for (const char *name : {"aortic", "mitral"}) {
+  for (const char *name : kinds_with_states) {
     const riis::ValveKind &kind = riis::find_valve_kind(name);
     std::vector<std::vector<std::string>> rows = {{"parameter", "value", "unit", "what it is"}};
     for (const riis::ParameterSpec &spec : kind.parameters) {
@@ -37,27 +40,54 @@ std::string parameter_tables() {
   return html + "</section>\n";
 }
 
+// The files that the page also shows.
+struct Given {
+  std::vector<StateTable> states;
+  std::vector<Figure> figures;
+  std::vector<std::string> left_out;
+};
+
+bool is_table(const std::string &path) { return path.size() > 4 && path.compare(path.size() - 4, 4, ".csv") == 0; }
+
+Given read_given(const std::vector<std::string> &paths) {
+  Given given;
+  for (const std::string &path : paths) {
+    if (is_table(path)) {
+      given.states.push_back(read_state_table(path));
+      check_table(given.states.back());
+      continue;
+    }
+    const GivenFigures read = read_figures(path);
+    given.figures.insert(given.figures.end(), read.figures.begin(), read.figures.end());
+    given.left_out.insert(given.left_out.end(), read.left_out.begin(), read.left_out.end());
+  }
+  for (const std::string kind : kinds_with_states) {
+    const auto is_of_kind = [&](const StateTable &table) { return table.kind == kind; };
+    if (std::none_of(given.states.begin(), given.states.end(), is_of_kind))
+      given.left_out.push_back(how_to_show_states(kind));
+  }
+  return given;
+}
+
 void draw_page(const std::string &path, const std::vector<std::string> &given_paths,
                const riis::vtk::CaughtOutput &caught) {
   const riis::vtk::HeldDisplay display;
   begin_page(path);
-  std::vector<Figure> figures, given;
-  std::vector<std::string> left_out;
-  for (const std::string &given_path : given_paths) {
-    const GivenFigures read = read_figures(given_path);
-    given.insert(given.end(), read.figures.begin(), read.figures.end());
-    left_out.insert(left_out.end(), read.left_out.begin(), read.left_out.end());
-  }
-  for (Figure (*draw)() : {bezier_figure, coons_figure, aortic_valve_figure, aortic_cusp_figure, mitral_curves_figure,
-                           mitral_surfaces_figure, mitral_quads_figure, marking_figure, tolerance_figure,
-                           accuracy_figure, accuracy_distribution_figure}) {
-    figures.push_back(draw());
+  const Given given = read_given(given_paths);
+  std::vector<Figure> figures;
+  const auto add = [&](Figure figure) {
+    figures.push_back(std::move(figure));
     caught.check(path);
     std::printf("figure %zu: %s\n", figures.size(), figures.back().title.c_str());
     std::fflush(stdout);
-  }
-  figures.insert(figures.end(), given.begin(), given.end());
-  write_page(path, figures, left_out, parameter_tables());
+  };
+  for (Figure (*draw)() : {bezier_figure, coons_figure, aortic_valve_figure, aortic_cusp_figure, mitral_curves_figure,
+                           mitral_surfaces_figure, mitral_quads_figure, marking_figure, tolerance_figure,
+                           accuracy_figure, accuracy_distribution_figure})
+    add(draw());
+  for (const StateTable &table : given.states) add(states_figure(table));
+  figures.insert(figures.end(), given.figures.begin(), given.figures.end());
+  write_page(path, figures, given.left_out, parameter_tables());
 }
 
 }  // namespace
@@ -66,7 +96,8 @@ int main(int argc, char **argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   const bool only_curves = !words.empty() && words[0] == "--curves";
   if (words.empty() || (only_curves && words.size() != 2)) {
-    std::fprintf(stderr, "usage: riis-figures FILE.html [GIVEN.json...]\n       riis-figures --curves FILE.json\n");
+    std::fprintf(stderr,
+                 "usage: riis-figures FILE.html [GIVEN.json|KIND.csv...]\n       riis-figures --curves FILE.json\n");
     return 2;
   }
   try {

@@ -194,18 +194,25 @@ std::array<BoundaryPolyline, 4> boundary_polylines(const PatchSet &set, const Pa
 
 CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp) {
   const Patch *below = nullptr, *above = nullptr;
-  for (const Patch &patch : set.patches)
-    if (patch.images.front().leaflet_id == cusp) (set.curve_of(patch.v0).length() == 0 ? below : above) = &patch;
+  std::vector<PatchImage> images;  // of the patch below, as it is and mirrored
+  for (const Patch &patch : set.patches) {
+    std::vector<PatchImage> of_cusp;
+    for (const PatchImage &image : patch.images)
+      if (image.leaflet_id == cusp) of_cusp.push_back(image);
+    if (of_cusp.empty()) continue;
+    const bool is_below = set.curve_of(patch.v0).length() == 0;
+    (is_below ? below : above) = &patch;
+    if (is_below) images = of_cusp;
+  }
   if (!below || !above) throw std::runtime_error("a cusp has two patches");
   CuspCurves curves;
   for (std::size_t k = 0; k < 2; ++k) {
-    const PatchImage &image = below->images.at(k);
+    const PatchImage &image = images.at(k);
     curves.leaflet[k] = placed(set, above->v1, image);
     curves.bending[k] = placed(set, below->v1, image);
     curves.sinus[k] = joined(concatenated(placed(set, below->u1, image), placed(set, above->u1, image)));
   }
-  const PatchImage &image = below->images.front();
-  curves.symmetry = joined(concatenated(placed(set, below->u0, image), placed(set, above->u0, image)));
+  curves.symmetry = joined(concatenated(placed(set, below->u0, images[0]), placed(set, above->u0, images[0])));
   return curves;
 }
 

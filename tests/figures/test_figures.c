@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The page of figures: every figure is there with a caption. Every picture is a PNG of the size that the page gives, with more
- * than one colour. Nothing is fetched from elsewhere. */
+ * than one colour. Tables of states hold the numbers of riis-mark. Nothing is fetched from elsewhere. */
+#include <math.h>
+#include <riis/riis.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -11,20 +13,25 @@
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
-enum { n_figures = 11 };
+enum { n_of_paper = 11, n_kinds = 3, n_figures = n_of_paper + n_kinds };
+
+/* The kinds with a table of states, and the number of openings in it. The page says that the other kind, aortic, has none. */
+static const char *const kinds[n_kinds] = {"trileaflet", "mitral", "bileaflet"};
+static const int n_openings[n_kinds] = {5, 2, 5};
 
 static char *page;
 
-/* Returns the program's exit status. Its output goes to a file in the scratch folder. */
-static int run_program(const char *arguments) {
-  char command[2048];
-  const int n =
-      snprintf(command, sizeof command, "'%s' %s >%s 2>&1", RIIS_FIGURES_PROGRAM, arguments, scratch_path("printed"));
+/* Returns a program's exit status. Its output goes to a file in the scratch folder. */
+static int run(const char *program, const char *arguments) {
+  char command[4096];
+  const int n = snprintf(command, sizeof command, "'%s' %s >%s 2>&1", program, arguments, scratch_path("printed"));
   assert_true(n > 0 && (size_t)n < sizeof command);
   const int status = system(command);
   assert_true(WIFEXITED(status));
   return WEXITSTATUS(status);
 }
+
+static int run_program(const char *arguments) { return run(RIIS_FIGURES_PROGRAM, arguments); }
 
 /* The same with the plots of a JSON file behind the figures. */
 static int run_with_plots(const char *name, const char *json) {
@@ -33,6 +40,22 @@ static int run_with_plots(const char *name, const char *json) {
   const int n = snprintf(arguments, sizeof arguments, "%s ", scratch_path(name));
   snprintf(arguments + n, sizeof arguments - (size_t)n, "%s", scratch_path("plots.json"));
   return run_program(arguments);
+}
+
+static const char *table_path(const char *kind) {
+  char name[64];
+  snprintf(name, sizeof name, "%s.csv", kind);
+  return scratch_path(name);
+}
+
+static int measure_states(void) {
+  for (int i = 0; i < n_kinds; ++i) {
+    char arguments[1024];
+    snprintf(arguments, sizeof arguments, "--quiet --valve %s --state-count %d --states %s", kinds[i], n_openings[i],
+             table_path(kinds[i]));
+    if (run(RIIS_MARK_PROGRAM, arguments) != 0) return -1;
+  }
+  return 0;
 }
 
 static int draw_page(void **state) {
@@ -44,7 +67,13 @@ static int draw_page(void **state) {
       "\", \"caption\": \"first\"},"
       " {\"png\": \"" RIIS_TEST_PICTURE
       "\", \"caption\": \"second\"}]}], \"left_out\": [\"Peers: not measured.\", \"Threads: as well.\"]}";
-  if (run_with_plots("figures.html", plots) != 0) {
+  char arguments[2048];
+  scratch_write_text("plots.json", plots);
+  int n = snprintf(arguments, sizeof arguments, "%s", scratch_path("figures.html"));
+  n += snprintf(arguments + n, sizeof arguments - (size_t)n, " %s", scratch_path("plots.json"));
+  for (int i = 0; i < n_kinds; ++i)
+    n += snprintf(arguments + n, sizeof arguments - (size_t)n, " %s", table_path(kinds[i]));
+  if (measure_states() != 0 || run_program(arguments) != 0) {
     fprintf(stderr, "%s\n", scratch_read(scratch_path("printed"), NULL));
     return -1;
   }
@@ -127,6 +156,131 @@ static void test_every_figure(void **state) {
   assert_null(strstr(page, beyond));
 }
 
+/* Returns the section of the figure of this number, and its end. */
+static const char *section_of(int number, const char **end) {
+  char start[64];
+  snprintf(start, sizeof start, "<section id=\"figure-%d\">", number);
+  const char *section = strstr(page, start);
+  assert_non_null(section);
+  *end = strstr(section, "</section>");
+  assert_non_null(*end);
+  return section;
+}
+
+/* Reads the column of a table of riis-mark. Returns the number of lines, 0 if there is no such column. */
+static int read_column(const char *kind, const char *name, double *values) {
+  char *csv = scratch_read(table_path(kind), NULL), *rest = NULL;
+  int column = -1, n = 0;
+  for (char *line = strtok_r(csv, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+    char *cells = NULL;
+    int i = 0;
+    for (char *cell = strtok_r(line, ",", &cells); cell; cell = strtok_r(NULL, ",", &cells), ++i)
+      if (column < 0 && strcmp(cell, name) == 0) {
+        column = i;
+        break;
+      } else if (column >= 0 && i == column) {
+        values[n++] = strtod(cell, NULL);
+      }
+  }
+  free(csv);
+  return n;
+}
+
+/* The row's cells are the column's numbers, and their change since the first. */
+static void expect_row(const char *kind, int figure, const char *row, const char *column) {
+  double values[8];
+  const int n = read_column(kind, column, values);
+  if (n < 2) fail_msg("%s has no column %s", kind, column);
+  char head[128];
+  snprintf(head, sizeof head, "<tr><td>%s</td>", row);
+  const char *end, *section = section_of(figure, &end), *cells = find(section, end, head);
+  if (!cells) fail_msg("%s: '%s' is not in the table", kind, row);
+  cells += strlen(head);
+  for (int i = 0; i < n; ++i) {
+    double value, change = 0;
+    int is_negative = 0;
+    assert_int_equal(sscanf(cells, "<td>%lf", &value), 1);
+    assert_true(fabs(value - values[i]) <= 0.005 + 1e-9);
+    const char *next = strstr(cells, "</td>"), *bracket = find(cells, next, "(");
+    assert_non_null(next);
+    if (strcmp(column, "orifice_area") == 0 || i == 0) {
+      assert_null(bracket);
+    } else {
+      assert_non_null(bracket);
+      is_negative = find(bracket, next, "\u2212") != NULL;
+      assert_int_equal(sscanf(bracket + 1 + (is_negative ? (int)strlen("\u2212") : 0), "%lf", &change), 1);
+      assert_true(fabs((is_negative ? -change : change) - 100 * (values[i] / values[0] - 1)) <= 0.05 + 1e-9);
+    }
+    cells = next + strlen("</td>");
+  }
+  assert_memory_equal(cells, "</tr>", 5);
+}
+
+static void test_tables_of_states(void **state) {
+  (void)state;
+  const int trileaflet = n_of_paper + 1, mitral = trileaflet + 1, bileaflet = mitral + 1;
+  expect_row("trileaflet", trileaflet, "right cusp: free edge (cm)", "right_edge");
+  expect_row("trileaflet", trileaflet, "non-coronary cusp: area (cm²)", "non_coronary_area");
+  expect_row("trileaflet", trileaflet, "orifice (cm²)", "orifice_area");
+  expect_row("mitral", mitral, "anterior leaflet: free edge (cm)", "anterior_edge");
+  expect_row("mitral", mitral, "posterior leaflet: free edge (cm)", "posterior_edge");
+  expect_row("mitral", mitral, "posterior leaflet: area (cm²)", "posterior_area");
+  expect_row("mitral", mitral, "orifice (cm²)", "orifice_area");
+  expect_row("bileaflet", bileaflet, "leaflet x &lt; 0: area (cm²)", "leaflet_1_area");
+  expect_row("bileaflet", bileaflet, "orifice (cm²)", "orifice_area");
+  const char *end, *section = section_of(bileaflet, &end);
+  assert_null(find(section, end, "free edge (cm)"));
+}
+
+/* Each opening has a picture from above and one from the side. */
+static void test_pictures_of_states(void **state) {
+  (void)state;
+  for (int i = 0; i < n_kinds; ++i) {
+    const char *end, *section = section_of(n_of_paper + 1 + i, &end);
+    int n_pictures = 0;
+    for (const char *image = section; (image = find(image, end, "<img ")); ++image) ++n_pictures;
+    assert_int_equal(n_pictures, 2 * n_openings[i]);
+    double openings[8];
+    assert_int_equal(read_column(kinds[i], "opening", openings), n_openings[i]);
+    for (int k = 0; k < n_openings[i]; ++k) {
+      char text[64];
+      snprintf(text, sizeof text, "Opening %.3g, from ", openings[k]);
+      const char *above = find(section, end, text);
+      assert_non_null(above);
+      assert_non_null(find(above + 1, end, text));
+    }
+  }
+}
+
+/* The table of parameters has every parameter of every kind, with what it is. */
+static void test_parameters_of_all_kinds(void **state) {
+  (void)state;
+  static const char *const all[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+  const char *section = strstr(page, "<section id=\"parameters\">");
+  assert_non_null(section);
+  for (size_t k = 0; k < 4; ++k) {
+    char summary[64];
+    snprintf(summary, sizeof summary, "<summary>%s valve: ", all[k]);
+    const char *begin = strstr(section, summary);
+    assert_non_null(begin);
+    const char *end = strstr(begin, "</details>");
+    riis_valve *valve = NULL;
+    int64_t n = 0;
+    assert_int_equal(riis_valve_create(all[k], &valve), RIIS_OK);
+    assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+    for (int64_t i = 0; i < n; ++i) {
+      riis_parameter parameter;
+      char name[256];
+      assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+      snprintf(name, sizeof name, "<tr><td><code>%s</code></td>", parameter.name);
+      const char *row = find(begin, end, name);
+      if (!row) fail_msg("%s: %s is not in the table", all[k], parameter.name);
+      assert_non_null(find(row, strstr(row, "</tr>"), parameter.description));
+    }
+    riis_valve_destroy(&valve);
+  }
+}
+
 static void test_page_stands_alone(void **state) {
   (void)state;
   assert_null(strstr(page, "http:")); /* encoded pictures have no colon */
@@ -165,6 +319,8 @@ static void test_left_out(void **state) {
   assert_non_null(find(section, end, "Not on this page"));
   assert_non_null(find(section, end, "<li>Peers: not measured.</li>"));
   assert_non_null(find(section, end, "<li>Threads: as well.</li>"));
+  assert_non_null(find(section, end, "<li>The states of the aortic valve: "));
+  assert_null(find(section, end, "states of the mitral valve"));
 }
 
 /* Faults of given figures are reported before anything is drawn. */
@@ -194,6 +350,37 @@ static void test_given_figures_refused(void **state) {
   }
 }
 
+/* Faults of tables of states, too. */
+static void test_tables_refused(void **state) {
+  (void)state;
+  const struct {
+    const char *name, *table, *text;
+  } wrong[] = {{"mitral.csv", "", "mitral.csv: cannot be read"},
+               {"mitral.csv", "opening\n", "mitral.csv: no table of openings"},
+               {"mitral.csv", "time,orifice_area\n0,1\n", "mitral.csv: no table of openings"},
+               {"mitral.csv", "opening,a_area,b_area\n0,1,1\n1,2\n", "mitral.csv: line 3: 2 cells under 3 names"},
+               {"mitral.csv", "opening,a_area,b_area\n0,1,1\n1,2,two\n", "mitral.csv: line 3: 'two' is no number"},
+               {"mitral.csv", "opening,a_area,b_area\n0,1,nan\n", "mitral.csv: line 2: 'nan' is no number"},
+               {"mitral.csv", "opening,a_area,b_length\n0,1,1\n", "mitral.csv: 'b_length' is no measure of a state"},
+               {"mitral.csv", "opening,a_area\n0,1\n", "mitral.csv: 1 leaflets have an area, not 2"},
+               {"mitral.csv", "opening,a_area,b_area\n0,1,1\n2,1,1\n", "mitral.csv: opening 2 is not from 0 to 1"},
+               {"mitral.csv", "opening,a_area,b_area\n0,1,1\n.1,1,1\n.2,1,1\n.3,1,1\n.4,1,1\n.5,1,1\n1,1,1\n",
+                "mitral.csv: 7 openings are more than 6"},
+               {"tricuspid.csv", "opening,a_area,b_area\n0,1,1\n",
+                "tricuspid.csv: the page has no states of a valve 'tricuspid'"}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    char arguments[1024];
+    scratch_write_text(wrong[i].name, wrong[i].table);
+    const int n = snprintf(arguments, sizeof arguments, "%s", scratch_path("wrong.html"));
+    snprintf(arguments + n, sizeof arguments - (size_t)n, " %s", scratch_path(wrong[i].name));
+    assert_int_equal(run_program(arguments), 1);
+    char *printed = scratch_read(scratch_path("printed"), NULL);
+    if (!strstr(printed, wrong[i].text)) fail_msg("'%s' is not in '%s'", wrong[i].text, printed);
+    assert_null(strstr(printed, "figure 1"));
+    free(printed);
+  }
+}
+
 static void test_refusals(void **state) {
   (void)state;
   assert_int_equal(run_program(""), 2);
@@ -207,9 +394,16 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_figure),  cmocka_unit_test(test_page_stands_alone),
-      cmocka_unit_test(test_given_figures), cmocka_unit_test(test_given_figures_refused),
-      cmocka_unit_test(test_left_out),      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_every_figure),
+      cmocka_unit_test(test_page_stands_alone),
+      cmocka_unit_test(test_given_figures),
+      cmocka_unit_test(test_given_figures_refused),
+      cmocka_unit_test(test_left_out),
+      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_tables_of_states),
+      cmocka_unit_test(test_pictures_of_states),
+      cmocka_unit_test(test_parameters_of_all_kinds),
+      cmocka_unit_test(test_tables_refused),
   };
   return cmocka_run_group_tests(tests, draw_page, remove_page);
 }

@@ -11,12 +11,14 @@
 #include "expect.h"
 #include "scratch.h"
 
-static const char *const valves[] = {"aortic", "mitral"};
+enum { n_valves = 4 };
+static const char *const valves[n_valves] = {"aortic", "trileaflet", "mitral", "bileaflet"};
 
 /* Returns the exit status of a program. Its output goes to a file in the scratch folder. */
-static int run(const char *command, const char *word, const char *other_word) {
+static int run(const char *command, const char *word, const char *other_word, const char *kind) {
   char line[2048];
-  const int n = snprintf(line, sizeof line, "%s '%s' '%s' >'%s", command, word, other_word, scratch_path("printed"));
+  const int n =
+      snprintf(line, sizeof line, "%s '%s' '%s' %s >'%s", command, word, other_word, kind, scratch_path("printed"));
   assert_true(n > 0 && (size_t)n + 7 < sizeof line);
   strcat(line, "' 2>&1");
   const int status = system(line);
@@ -24,13 +26,14 @@ static int run(const char *command, const char *word, const char *other_word) {
   return WEXITSTATUS(status);
 }
 
-static int draw(const char *curves) {
+/* kind: "" draws all. */
+static int draw(const char *curves, const char *kind) {
   char path[1024];
   snprintf(path, sizeof path, "%s", scratch_path(curves));
   const size_t folder = (size_t)(strrchr(path, '/') - path);
   char out[1024];
   snprintf(out, sizeof out, "%.*s", (int)folder, path);
-  return run("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "'", path, out);
+  return run("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "'", path, out, kind);
 }
 
 static int setup(void **state) {
@@ -42,7 +45,7 @@ static int setup(void **state) {
   }
   char path[1024];
   snprintf(path, sizeof path, "%s", scratch_path("curves.json"));
-  if (run("'" RIIS_FIGURES_PROGRAM "'", "--curves", path) == 0 && draw("curves.json") == 0) return 0;
+  if (run("'" RIIS_FIGURES_PROGRAM "'", "--curves", path, "") == 0 && draw("curves.json", "") == 0) return 0;
   fprintf(stderr, "%s\n", scratch_read(scratch_path("printed"), NULL));
   return -1;
 }
@@ -53,7 +56,7 @@ static void for_each_parameter(const char *kind, void (*visit)(const riis_parame
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
   int64_t n = 0;
   assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
-  assert_true(n > 10);
+  assert_true(n >= 8);
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
     assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
@@ -80,7 +83,7 @@ static void expect_written(const riis_parameter *parameter, void *svg) {
 
 static void test_every_parameter_is_named(void **state) {
   (void)state;
-  for (size_t i = 0; i < 2; ++i) {
+  for (size_t i = 0; i < n_valves; ++i) {
     char name[64];
     snprintf(name, sizeof name, "%s_parameters.svg", valves[i]);
     char *svg = scratch_read(scratch_path(name), NULL);
@@ -109,7 +112,7 @@ static void expect_in_picture(const riis_parameter *parameter, void *what) {
 
 static void test_pictures_of_the_documents(void **state) {
   (void)state;
-  for (size_t i = 0; i < 2; ++i) {
+  for (size_t i = 0; i < n_valves; ++i) {
     char path[1024];
     struct picture picture;
     snprintf(path, sizeof path, "%s/%s_parameters.png", RIIS_DOCS, valves[i]);
@@ -132,7 +135,7 @@ static void expect_refused_drawing(const char *mark, const char *old, const char
   scratch_write_text("changed.json", changed);
   free(changed);
   free(json);
-  assert_int_equal(draw("changed.json"), 1);
+  assert_int_equal(draw("changed.json", ""), 1);
   char *printed = scratch_read(scratch_path("printed"), NULL);
   if (!strstr(printed, message)) fail_msg("'%s' is not in '%s'", message, printed);
   free(printed);
@@ -146,6 +149,10 @@ static void test_untrue_drawings_are_refused(void **state) {
   expect_refused_drawing("\"mitral\"", "\"parameters\": [", more, "mitral valve: not drawn: left.tilt");
   expect_refused_drawing("\"mitral\"", "\"name\": \"surface_angle\"", "\"name\": \"face_angle\"",
                          "surface_angle is no parameter");
+  expect_refused_drawing("\"trileaflet\"", "\"parameters\": [", more, "trileaflet valve: not drawn: left.tilt");
+  expect_refused_drawing("\"bileaflet\"", "\"parameters\": [", more, "bileaflet valve: not drawn: left.tilt");
+  expect_refused_drawing("\"trileaflet\"", "\"name\": \"leaflet_radius_out\"", "\"name\": \"leaflet_radius\"",
+                         "leaflet_radius_out is no parameter");
   expect_refused_drawing("\"name\": \"root_radius\"", "1.29", "1.28",
                          "aortic valve: root_radius is 1.28, but what the drawing shows as it is 1.29");
   expect_refused_drawing("\"name\": \"leaflet_arc_angle\"", "120.0", "119.0",
@@ -156,21 +163,79 @@ static void test_untrue_drawings_are_refused(void **state) {
                          "leaflet_power is 2.7, but what the drawing shows as it is 2.7");
 }
 
+/* Returns the place behind a text in the curves of a kind. */
+static char *after(char *json, const char *kind, const char *text) {
+  char *found = strstr(json, kind);
+  assert_non_null(found);
+  assert_non_null(found = strstr(found, text));
+  return found + strlen(text);
+}
+
+/* The drawing of every parameter with a value other than 0 is refused if the value is another. */
+static void expect_compared(const char *kind, const char *quoted_kind, const char *name) {
+  char *json = scratch_read(scratch_path("curves.json"), NULL), text[256];
+  snprintf(text, sizeof text, "\"name\": \"%s\"", name);
+  char *end, *values = after(after(json, quoted_kind, text), "\"values\"", "[");
+  const double value = strtod(values, &end);
+  assert_true(end > values && value != 0);
+  const size_t size = strlen(json) + 64;
+  char *changed = malloc(size);
+  snprintf(changed, size, "%.*s%.17g%s", (int)(values - json), json, value * 1.01, end);
+  scratch_write_text("changed.json", changed);
+  free(changed);
+  free(json);
+  assert_int_equal(draw("changed.json", kind), 1);
+  char *printed = scratch_read(scratch_path("printed"), NULL);
+  snprintf(text, sizeof text, "draw.py: %s valve: ", kind);
+  if (!strstr(printed, text) || !strstr(printed, "but what the drawing shows as it is"))
+    fail_msg("%s of the %s valve: '%s'", name, kind, printed);
+  free(printed);
+}
+
+static void test_new_kinds_are_compared(void **state) {
+  (void)state;
+  static const char *const trileaflet[] = {"root_radius",
+                                           "leaflet_radius_out",
+                                           "leaflet_height",
+                                           "bending_height",
+                                           "bending_radius_in",
+                                           "bending_radius_out",
+                                           "bending_angle",
+                                           "bending_power",
+                                           "t0_bending",
+                                           "t3_bending",
+                                           "xq",
+                                           "zq",
+                                           "open_radius_ratio",
+                                           "commissure_expansion"};
+  static const char *const bileaflet[] = {"radius", "hinge_offset", "closed_angle", "open_angle"};
+  for (size_t i = 0; i < sizeof trileaflet / sizeof *trileaflet; ++i)
+    expect_compared("trileaflet", "\"trileaflet\"", trileaflet[i]);
+  for (size_t i = 0; i < sizeof bileaflet / sizeof *bileaflet; ++i)
+    expect_compared("bileaflet", "\"bileaflet\"", bileaflet[i]);
+  expect_refused_drawing("\"bileaflet\"", "\"gap\": 0.1", "\"gap\": 0.2",
+                         "gap is 0.2, but what the drawing shows as it is 0.1");
+  expect_refused_drawing("\"bileaflet\"", "\"hinge_height\": 0.14", "\"hinge_height\": 0.2",
+                         "hinge_height is 0.2, but what the drawing shows as it is 0.1");
+  expect_refused_drawing("\"bileaflet\"", "\"ring_height\": 1.4", "\"ring_height\": 1.5",
+                         "ring_height is 1.5, but what the drawing shows as it is 1.4");
+}
+
 static void test_refused_arguments(void **state) {
   (void)state;
-  assert_int_equal(run("'" RIIS_FIGURES_PROGRAM "'", "--curves", scratch_path("none/curves.json")), 1);
+  assert_int_equal(run("'" RIIS_FIGURES_PROGRAM "'", "--curves", scratch_path("none/curves.json"), ""), 1);
   char *printed = scratch_read(scratch_path("printed"), NULL);
   assert_non_null(strstr(printed, "curves.json: cannot be written"));
   free(printed);
   assert_int_equal(system("'" RIIS_FIGURES_PROGRAM "' --curves 2>/dev/null"), 2 << 8);
   assert_int_equal(system("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "' 2>/dev/null"), 2 << 8);
+  assert_int_equal(draw("curves.json", "tricuspid"), 2);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_parameter_is_named),
-      cmocka_unit_test(test_pictures_of_the_documents),
-      cmocka_unit_test(test_untrue_drawings_are_refused),
+      cmocka_unit_test(test_every_parameter_is_named),    cmocka_unit_test(test_pictures_of_the_documents),
+      cmocka_unit_test(test_untrue_drawings_are_refused), cmocka_unit_test(test_new_kinds_are_compared),
       cmocka_unit_test(test_refused_arguments),
   };
   return cmocka_run_group_tests(tests, setup, scratch_teardown);

@@ -114,8 +114,12 @@ def along_curve(pieces, t, offset):
     return x + offset[0], y + offset[1]
 
 
-def first_inner(panel, root, low, inner):
-    """xq and zq: the place of the first inner control point, from the middle of root and bending curve."""
+INNER_PLACES = {"xq": (0.64, 0.54), "zq": (0.64, 0.3), "inner": (0.64, 0.1), "middle": (1.34, 0.44)}
+
+
+def first_inner(panel, root, low, inner, places=INNER_PLACES, ha="right"):
+    """xq and zq: the place of the first inner control point, from the middle of root and bending curve. Three of the labels
+    are aligned as told, and that of the middle on its left."""
     sheet, middle = panel.sheet, along(root, low, 0.5)
     width, height = root[0] - low[0], low[1] - root[1]
     for p, q in (((low[0], root[1]), low), (low, (root[0], low[1])), ((root[0], low[1]), root)):
@@ -130,13 +134,15 @@ def first_inner(panel, root, low, inner):
     panel.arrow(middle, corner, both=False)
     panel.arrow(corner, inner, both=False)
     value = f"{sheet.value_text('xq')}, times (root_radius\n− bending_radius_in): {plain(round(inner[0] - middle[0], 9))} cm"
-    panel.label("xq", (0.64, 0.54), along(middle, corner, 0.5), ha="right", value=value)
+    panel.label("xq", places["xq"], along(middle, corner, 0.5), ha=ha, value=value)
     value = f"{sheet.value_text('zq')}, times bending_height:\n{plain(round(inner[1] - middle[1], 9))} cm"
-    panel.label("zq", (0.64, 0.3), along(corner, inner, 0.5), ha="right", value=value)
-    panel.note((0.64, 0.1), "first inner control point\nof the symmetry curve", color=SYMMETRY, ha="right")
-    panel.line((0.65, 0.1), inner, color=SYMMETRY, width=0.5)
-    panel.note((1.34, 0.44), "middle of\nthe box")
-    panel.line((1.33, 0.44), middle, color=GREY, width=0.5)
+    panel.label("zq", places["zq"], along(corner, inner, 0.5), ha=ha, value=value)
+    x, y = places["inner"]
+    panel.note((x, y), "first inner control point\nof the symmetry curve", color=SYMMETRY, ha=ha)
+    panel.line((x + (0.01 if ha == "right" else -0.01), y), inner, color=SYMMETRY, width=0.5)
+    x, y = places["middle"]
+    panel.note((x, y), "middle of\nthe box")
+    panel.line((x - 0.01, y), middle, color=GREY, width=0.5)
 
 
 def draw_rotations(sheet, cusps):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER: CURVES.json is from riis-figures --curves. Writes aortic_parameters and mitral_parameters to the
-folder, each as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
+draw.py CURVES.json FOLDER [KIND...]: CURVES.json is from riis-figures --curves. Writes KIND_parameters for these
+kinds of valve, or for all, to the folder as .png and .svg, and parameters.json, with which riis-figures puts them on its page. Refuses a drawing that leaves
 a parameter out, shows another value than the parameter's, or has labels that overlap."""
 
 import json
@@ -11,31 +11,39 @@ import os
 import sys
 
 import aortic
+import bileaflet
 import mitral
 import sheet
+import trileaflet
+
+MODULES = {"aortic": aortic, "trileaflet": trileaflet, "mitral": mitral, "bileaflet": bileaflet}
 
 CAPTIONS = {
     "aortic": "Every parameter of the aortic valve, with its default. Lines, angles and points are the library's own: each is "
     "compared with the parameter that it is named by.",
+    "trileaflet": "Every parameter of the trileaflet valve, with its default, likewise.",
     "mitral": "Every parameter of the mitral valve, with its default, likewise.",
+    "bileaflet": "Every parameter of the bileaflet valve, with its default, likewise.",
 }
 PAPER = {
     "aortic": "table “Aortic valve parameters” (section 2.1), which has no picture of them.",
+    "trileaflet": "none: the paper has no such valve.",
     "mitral": "appendix, table of the mitral valve's parameters.",
+    "bileaflet": "none: the paper has no such valve.",
 }
 
 
 def main(arguments):
-    if len(arguments) != 2:
-        print("usage: draw.py CURVES.json FOLDER", file=sys.stderr)
+    if len(arguments) < 2 or not set(arguments[2:]) <= set(MODULES):
+        print(f"usage: draw.py CURVES.json FOLDER [{'|'.join(MODULES)}...]", file=sys.stderr)
         return 2
-    curves, folder = arguments
+    curves, folder, *kinds = arguments
     with open(curves, encoding="utf-8") as file:
         valves = json.load(file)
     figures = []
-    for valve, module in (("aortic", aortic), ("mitral", mitral)):
+    for valve in kinds or MODULES:
         try:
-            module.draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
+            MODULES[valve].draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
         except sheet.Refused as why:
             print(f"draw.py: {valve} valve: {why}", file=sys.stderr)
             return 1

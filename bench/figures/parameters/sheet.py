@@ -205,10 +205,12 @@ class Panel:
         y = min(max(y, min(box.y0 for box in boxes) - 2), max(box.y1 for box in boxes) + 2)
         return tuple(self.axis.transData.inverted().transform((x, y)))
 
-    def length(self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5):
+    def length(
+        self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5, example=None
+    ):
         """A length from p to q: a dimension line moved by shift, with extension lines, named at a place. The drawn length is
-        `factor` times the parameter. The leader ends at `share` of the dimension line."""
-        self.sheet.check(name, distance(p, q) / abs(factor))
+        `factor` times the parameter, or an example of it. The leader ends at `share` of the dimension line."""
+        self.sheet.check(name, distance(p, q) / abs(factor), example)
         moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]
         if shift != (0, 0):
             for a, b in zip((p, q), moved):
