@@ -37,7 +37,7 @@ double distance_to_line(const Point &p, const Line &line) {
 
 // Both lines go through the same points. One may have more vertices on its edges.
 bool coincide(const Line &a, const Line &b) {
-  const double tolerance = 1e-9 * length_of(a);
+  const double tolerance = 1e-9 * line_length(a);
   for (std::size_t i = 1; i < a.size(); ++i)
     if (distance_to_line(middle_of(a[i - 1], a[i]), b) > tolerance) return false;
   return true;
@@ -85,9 +85,9 @@ struct SideId {
   PatchSide side;
 };
 
-using Ends = std::pair<Point, Point>;
+using LineEnds = std::pair<Point, Point>;
 
-Ends ends_of(const Line &line) { return std::minmax(line.front(), line.back()); }
+LineEnds ends_of(const Line &line) { return std::minmax(line.front(), line.back()); }
 
 // The sides by their ends. Sides that are one curve have the same ends.
 class SidesByEnds {
@@ -96,7 +96,7 @@ class SidesByEnds {
     for (std::size_t patch = 0; patch < patches.size(); ++patch)
       for (const PatchSide side : {side_v0, side_v1, side_u0, side_u1}) {
         const Line &line = patches[patch].lines[side];
-        if (length_of(line) > 0) sides_[ends_of(line)].push_back({patch, side});
+        if (line_length(line) > 0) sides_[ends_of(line)].push_back({patch, side});
       }
   }
 
@@ -114,7 +114,7 @@ class SidesByEnds {
 
  private:
   const std::vector<PatchSides> &patches_;
-  std::map<Ends, std::vector<SideId>> sides_;
+  std::map<LineEnds, std::vector<SideId>> sides_;
 };
 
 }  // namespace
@@ -150,7 +150,7 @@ std::vector<PatchSides> sides_of_patches(const SurfaceArrays &surface) {
   return patches;
 }
 
-double length_of(const Line &line) {
+double line_length(const Line &line) {
   double length = 0;
   for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
   return length;
@@ -171,7 +171,7 @@ std::set<std::int32_t> free_edges(const std::vector<PatchSides> &patches) {
   const SidesByEnds sides(patches);
   std::set<std::int32_t> free;
   for (std::size_t i = 0; i < patches.size(); ++i)
-    if (length_of(patches[i].lines[side_v1]) > 0 && !sides.is_shared({i, side_v1}, false))
+    if (line_length(patches[i].lines[side_v1]) > 0 && !sides.is_shared({i, side_v1}, false))
       free.insert(patches[i].patch_id);
   return free;
 }
@@ -180,7 +180,7 @@ std::vector<Line> attachment(const std::vector<PatchSides> &patches) {
   const SidesByEnds sides(patches);
   std::vector<Line> lines;
   for (std::size_t i = 0; i < patches.size(); ++i)
-    if (length_of(patches[i].lines[side_v0]) > 0 && !sides.is_shared({i, side_v0}, true))
+    if (line_length(patches[i].lines[side_v0]) > 0 && !sides.is_shared({i, side_v0}, true))
       lines.push_back(patches[i].lines[side_v0]);
   return lines;
 }

@@ -37,7 +37,7 @@ struct PatchSides {
 // Ascending by patch.
 std::vector<PatchSides> sides_of_patches(const SurfaceArrays &surface);
 
-double length_of(const Line &line);
+double line_length(const Line &line);
 
 std::map<std::int32_t, double> areas_of_leaflets(const SurfaceArrays &surface);
 

@@ -173,7 +173,7 @@ class Measures {
     std::map<std::int32_t, LeafletSize> sizes;
     for (const auto &[id, area] : areas_of_leaflets(surface)) sizes[id] = {0, area};
     for (const PatchSides &patch : patches)
-      if (free_.count(patch.patch_id) != 0) sizes[patch.leaflet_id].edge += length_of(patch.lines[side_v1]);
+      if (free_.count(patch.patch_id) != 0) sizes[patch.leaflet_id].edge += line_length(patch.lines[side_v1]);
     return sizes;
   }
 
