@@ -12,15 +12,15 @@ If (paper)
   bending_radius[] = {1.39, 1.355, 1.435}; bending_angle[] = {47.3, 43, 42.75};
   rotation[] = {0, 119.5, 238.5}; root_z = -1;
 Else
-  root_radius = 1.25; leaflet_height = 1; bending_height = 0.5;
+  root_radius = 1.25; leaflet_height = 1.2; bending_height = 0.6;
   leaflet_radius[] = {1.25, 1.25, 1.25}; leaflet_angle[] = {60, 60, 60};
-  bending_radius[] = {1.255, 1.255, 1.255}; bending_angle[] = {36, 36, 36};
-  rotation[] = {0, 120, 240}; root_z = -1;
+  bending_radius[] = {1.275, 1.275, 1.275}; bending_angle[] = {35, 35, 35};
+  rotation[] = {0, 120, 240}; root_z = -1.2;
 EndIf
 // The tubes below and above the sinuses, and how far a sinus reaches beyond the attachment. Above the sinuses, at the sinotubular
 // junction, the root is as wide as at the commissures.
 outflow_length = 0.5;
-sinus_height = 1.4;
+sinus_height = leaflet_height + 0.4;
 sinus_depth = 0.5;
 aorta_length = 0.8;
 

@@ -3,7 +3,7 @@
 // It runs from 0.35 cm below the open leaflets to 0.4 cm above the closed annulus, in centimetres. fill.geo fills it with about
 // 100,000 nodes. For gmsh: gmsh -2 -format msh2 -o SURFACE.msh mitral_tube.geo
 SetFactory("OpenCASCADE");
-h = 0.062;
+h = 0.064;
 bottom = -1.4;
 top = 2.2;
 // The valve's parameters of these names, and the curves of docs/theory.md, section 4.
