@@ -51,12 +51,12 @@ module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
-  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_leaks, riis_c_text, riis_c_text_length, &
-    riis_last_error, riis_band_sums, &
+  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_leaks, riis_crossings, riis_c_text, &
+    riis_c_text_length, riis_last_error, riis_band_sums, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
-    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, &
+    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
     RIIS_DISTANCE_TRIANGLES, RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_MINIMIZATION, &
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
@@ -74,13 +74,14 @@ module riis
   use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_mark_result, riis_mark_fields, riis_mark_nodes
   use riis_leaking, only: riis_find_leaks
+  use riis_crossing, only: riis_find_crossings
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
     riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
     riis_mark_result, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, &
-    riis_keyframes
+    riis_keyframes, riis_find_crossings, riis_crossings
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
@@ -88,7 +89,7 @@ module riis
     RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
     RIIS_INTERNAL_ERROR
   public :: RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
-    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, &
+    RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
     RIIS_DISTANCE_TRIANGLES, RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_MINIMIZATION, &
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &

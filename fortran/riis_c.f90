@@ -63,6 +63,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NON_CORONARY = 2
   integer(c_int32_t), parameter :: RIIS_LEAFLET_ANTERIOR = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSTERIOR = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_POSITIVE = 0
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_NEGATIVE = 1
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_HOUSING = 2
 
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
@@ -178,7 +181,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_keyframe_arrays
 
-  !> The size of a surface, and the time that it took.
+  !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices     !< length of the array of riis_surface_vertices
     integer(c_int64_t) :: n_triangles    !< triangles that answer queries
@@ -192,10 +195,28 @@ module riis_c
                                          !! and to the smooth valve differ by more. 0 for a surface from arrays
   end type riis_surface_info
 
+  type, bind(c) :: riis_crossing_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: depth
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: reserved
+  end type riis_crossing_options
+
+  !> Pairs of triangles that cross. Without a pair, ids are -1, and other fields but seconds 0.
+  type, bind(c) :: riis_crossings
+    integer(c_int64_t) :: n_pairs        !< pairs that cross
+    real(c_double) :: length             !< of the pairs' intersections, which are segments, together; mesh units
+    real(c_double) :: depth              !< of the deepest pair, of equal ones the first; mesh units
+    real(c_double) :: point(3)           !< the middle of its segment
+    integer(c_int64_t) :: triangle_id(2) !< its triangles, ascending
+    integer(c_int32_t) :: leaflet_id(2)  !< their leaflets
+    real(c_double) :: seconds            !< wall time of riis_find_crossings
+  end type riis_crossings
+
   !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.
   type, bind(c) :: riis_closest
-    real(c_double) :: distance        !< >= 0
-    real(c_double) :: point(3)        !< on the triangle
+    real(c_double) :: distance        !< >= 0, mesh units
+    real(c_double) :: point(3)        !< on the triangle, mesh units
     real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
@@ -279,7 +300,7 @@ module riis_c
     integer(c_int32_t) :: reserved2
   end type riis_mark_options
 
-  !> c_null_ptr for fields that were not asked for, or with no nodes
+  !> c_null_ptr for fields that were not requested, or with no nodes
   type, bind(c) :: riis_mark_fields
     integer(c_int64_t) :: n_nodes
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
@@ -455,7 +476,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   kind  riis_c_string('aortic') or riis_c_string('mitral')
+    !>   kind  riis_c_string('aortic'), 'mitral', 'trileaflet' or 'bileaflet'
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none
@@ -611,7 +632,7 @@ module riis_c
     end function riis_surface_update
 
     !>   options         left out: the surface's own
-    !!   options_before  left out: those of now
+    !!   options_before  left out: the present ones
     function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -670,7 +691,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_keyframes
 
-    !>   options  left out: those that the surface has
+    !>   options  left out: the surface's own
     function riis_surface_update_from_keyframes(surface, keyframes, time, since, options) result(status) &
         bind(c, name='riis_surface_update_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -742,6 +763,46 @@ module riis_c
       type(c_ptr), intent(inout), optional :: vertex_id, triangle_id, leaflet_id, patch_id
       integer(riis_status) :: status
     end function riis_surface_triangles
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Crossings
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(options)
+    function riis_crossing_options_init(options, struct_size) result(status) bind(c, name='riis_crossing_options_init')
+      import :: c_int64_t, riis_crossing_options, riis_status
+      implicit none
+      type(riis_crossing_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_crossing_options_init
+
+    !>   options      left out: all defaults
+    !!   struct_size  c_sizeof(crossings)
+    function riis_find_crossings(surface, options, crossings, struct_size) result(status) &
+        bind(c, name='riis_find_crossings')
+      import :: c_int64_t, c_ptr, riis_crossing_options, riis_crossings, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_crossing_options), intent(in), optional :: options
+      type(riis_crossings), intent(inout) :: crossings
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_crossings
+
+    !>   triangle_id  integer(c_int64_t), (2, n_pairs), from 0, the lower one first
+    !!   point        real(c_double), (3, n_pairs)
+    !!   depth        real(c_double), (n_pairs)
+    !!   length       real(c_double), (n_pairs)
+    function riis_surface_crossing_pairs(surface, n_pairs, triangle_id, point, depth, length) result(status) &
+        bind(c, name='riis_surface_crossing_pairs')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: n_pairs
+      type(c_ptr), intent(inout), optional :: triangle_id, point, depth, length
+      integer(riis_status) :: status
+    end function riis_surface_crossing_pairs
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Closest points

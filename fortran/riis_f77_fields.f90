@@ -85,7 +85,7 @@ subroutine riisf_marked_reals(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_marked_reals
 
@@ -138,7 +138,7 @@ subroutine riisf_marked_reals_64(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_marked_reals_64
 
@@ -185,7 +185,7 @@ subroutine riisf_marked_integers(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_marked_integers
 
@@ -232,7 +232,7 @@ subroutine riisf_marked_integers_64(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_marked_integers_64
 
@@ -287,7 +287,7 @@ subroutine riisf_within_limit_reals(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_within_limit_reals
 
@@ -340,7 +340,7 @@ subroutine riisf_within_limit_reals_64(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_within_limit_reals_64
 
@@ -387,7 +387,7 @@ subroutine riisf_within_limit_integers(result, field, length, n, values, status)
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_within_limit_integers
 
@@ -434,6 +434,6 @@ subroutine riisf_within_limit_integers_64(result, field, length, n, values, stat
     call c_f_pointer(location, kept, [n_values])
     values(:n_values) = kept
   else if (fields%n_nodes > 0) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking was not asked for')
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
   end if
 end subroutine riisf_within_limit_integers_64

@@ -2,8 +2,8 @@
 ! Generated from fortran/templates/riis_f77_resistance.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the resistance. The conventions are those of riis_f77.f90.
 
-!> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up, where delta(d) is
-!! (1 + cos(pi d / eps)) / (2 eps) at the distance d < eps. Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
+!> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At the distance
+!! d < eps delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
 !! another number of nodes, or a field that the result lacks.
 subroutine riisf_add_resistance(result, resistance, half_thickness, rim, n_nodes, coefficient, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof

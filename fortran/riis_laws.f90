@@ -199,7 +199,7 @@ contains
   end subroutine advance_switch
 
   !> Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which makes the angle
-  !! second order in the length of steps; without values before, those of now count for the whole step. Errors:
+  !! second order in the length of steps. Without values before, the present ones count for the whole step. Errors:
   !! RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step so long that the
   !! motion would take more than a million steps within it.
   subroutine advance_angle(law, state, time, pressure_difference, flow, status)

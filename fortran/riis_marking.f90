@@ -12,8 +12,8 @@ module riis_marking
   private
   public :: riis_mark_result, riis_mark_fields, riis_mark_nodes
 
-  !> Pointers to the fields of the closest points that riis_mark_nodes was asked for, by %marked_fields or
-  !! %within_limit_fields. The result owns the arrays; they count from 1. The size of a field that was not asked for is 0.
+  !> Pointers to the fields of the closest points that riis_mark_nodes kept, by %marked_fields or
+  !! %within_limit_fields. The result owns the arrays; they count from 1. The size of a field that was not requested is 0.
   type :: riis_mark_fields
     integer(int64) :: n_nodes = 0                           !< Returns the number of nodes.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_nodes): the closest point of the surface.
@@ -565,7 +565,7 @@ contains
     call finish(code, status)
   end subroutine result_within_limit_fields
 
-  ! Points to what the library has; there is no address of a field that was not asked for, nor in one of no nodes.
+  ! Points to what the library has; there is no address of a field that was not requested, nor in one of no nodes.
   subroutine point_to_fields(made, fields)
     type(c_mark_fields), intent(in) :: made
     type(riis_mark_fields), intent(inout) :: fields

@@ -35,7 +35,7 @@ module riis_support
     module procedure get_int64
   end interface get_integer
 
-  !> Makes bytes of a mask: 1 for .true. and for what is not 0. Bytes that are not allocated are not present where they are
+  !> Makes bytes of a mask: 1 for .true. and for numbers other than 0. Bytes that are not allocated are not present where they are
   !! passed on as optional.
   interface get_mask
     module procedure get_mask_logical

@@ -37,6 +37,7 @@ module riis_surfaces
     procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Points to their places on patches.
     procedure, non_overridable :: vertex_velocities => surface_vertex_velocities !< How fast they move.
     procedure, non_overridable :: triangles => surface_triangles        !< Points to the triangles.
+    procedure, non_overridable :: crossing_pairs => surface_crossing_pairs !< Points to the pairs that riis_find_crossings found.
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
     generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
                                                                !< Finds those to many points, in parallel.
@@ -60,9 +61,9 @@ module riis_surfaces
   end type riis_surface
 
   ! The target of pointers to nothing, so that their size can be taken.
-  real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
+  real(c_double), target, save :: no_points(3, 0), no_uv(2, 0), no_reals(0)
   integer(int32), target, save :: no_int32(0)
-  integer(int64), target, save :: no_int64(0), no_corners(3, 0)
+  integer(int64), target, save :: no_int64(0), no_corners(3, 0), no_pairs(2, 0)
 
 contains
 
@@ -809,6 +810,45 @@ contains
     call finish(code, status)
   end subroutine surface_triangles
 
+  !> Points to the surface's own arrays of the pairs that riis_find_crossings found last, ascending, without a copy. They are
+  !! valid until the next riis_find_crossings with the surface, its update or its destruction. Do not write to them. Sizes are 0
+  !! on an error.
+  subroutine surface_crossing_pairs(this, triangle_id, point, depth, length, status)
+    class(riis_surface), intent(in) :: this                 !< From riis_find_crossings.
+    integer(int64), pointer, intent(out), optional :: triangle_id(:, :) !< (2, n_pairs), from 0, the lower one first.
+    real(c_double), pointer, intent(out), optional :: point(:, :) !< (3, n_pairs): the middle of the pair's intersection.
+    real(c_double), pointer, intent(out), optional :: depth(:) !< (n_pairs): the penetration depth.
+    real(c_double), pointer, intent(out), optional :: length(:) !< (n_pairs), of the intersection.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(c_ptr) :: triangles, points, depths, lengths
+    integer(int64) :: n
+    integer(riis_status) :: code
+    triangles = c_null_ptr
+    points = c_null_ptr
+    depths = c_null_ptr
+    lengths = c_null_ptr
+    n = 0
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_crossing_pairs(this%handle, n, triangles, points, depths, lengths)
+    if (present(triangle_id)) then
+      triangle_id => no_pairs
+      if (c_associated(triangles)) call c_f_pointer(triangles, triangle_id, [2_int64, n])
+    end if
+    if (present(point)) then
+      point => no_points
+      if (c_associated(points)) call c_f_pointer(points, point, [3_int64, n])
+    end if
+    if (present(depth)) then
+      depth => no_reals
+      if (c_associated(depths)) call c_f_pointer(depths, depth, [n])
+    end if
+    if (present(length)) then
+      length => no_reals
+      if (c_associated(lengths)) call c_f_pointer(lengths, length, [n])
+    end if
+    call finish(code, status)
+  end subroutine surface_crossing_pairs
+
   !> Finds the closest point of the surface to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
   subroutine surface_closest_point(this, point, closest, status)
     class(riis_surface), intent(in) :: this                 !< Created.
@@ -1016,7 +1056,7 @@ contains
     if (code == RIIS_OK .and. .not. (present(distance) .or. present(point) .or. present(barycentric) .or. present(normal) .or. &
       present(triangle_id) .or. present(leaflet_id) .or. present(side))) code = refuse('none of distance, point, &
       &barycentric, normal, triangle_id, leaflet_id and side is given, or allocated')
-    if (code == RIIS_OK) call ask(points%n)
+    if (code == RIIS_OK) call query(points%n)
 
   contains
 
@@ -1050,7 +1090,7 @@ contains
     end subroutine get_vectors
 
     ! The binding takes arrays, so every address becomes an array.
-    subroutine ask(n)
+    subroutine query(n)
       integer(int64), intent(in) :: n
       real(c_double), pointer :: x(:), y(:), z(:)
       if (n == 0) then
@@ -1061,7 +1101,7 @@ contains
         call c_f_pointer(points%z, z, [1])
         code = riis_closest_points(this%handle, n, x, y, z, points%stride, options, arrays)
       end if
-    end subroutine ask
+    end subroutine query
   end subroutine closest_points
 
   !> Tells whether the surface was created and not destroyed.

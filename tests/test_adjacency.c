@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Adjacencies: the builders against lists of pairs made by other means, and what is refused of cells, faces and grids.
+ * Adjacencies: the builders against lists of pairs made by other means, and refusals of cells, faces and grids.
  */
 #include <riis/riis.h>
 

@@ -148,7 +148,7 @@ static void when_an_adjacency_goes(void **state) {
   csr.n_all = n + 2;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* As many nodes: it stays. A refused update: it stays. Another number: it goes. */
+  /* The adjacency stays if the number of nodes does, and if an update is refused. It goes with another number. */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(has_adjacency(surface, mesh), 1);
   xyz[3 * n] = NAN;

@@ -84,7 +84,7 @@ static void stays_within_the_bound(void **state) {
   assert_true(sum_of_ratios > 0.5 * n_ranges);
 }
 
-/* Where W is parallel to T, O has no direction. The bound allows for any direction. */
+/* O has no direction if W is parallel to T. The bound allows for any direction. */
 static void has_no_direction_along_the_base(void **state) {
   (void)state;
   const double straight[12] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, ahead[12] = {5, 0, 0, 6, 0, 0, 7, 0, 0, 8, 0, 0};

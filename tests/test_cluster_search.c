@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds the same nodes as the exhaustive search, to the last bit, whatever the mesh, surface, limit,
- * mask, instructions and number of threads. Where it cannot be used, the exhaustive search runs and is named. */
+ * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh,
+ * surface, limit, mask, instruction set and number of threads. If it cannot be used, the exhaustive search runs and is named. */
 #include <omp.h>
 #include <riis/riis.h>
 

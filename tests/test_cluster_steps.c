@@ -61,7 +61,7 @@ static void non_finite_coordinates(void **state) {
         options.n_threads = threads;
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* else they are as they were when they are next asked for */
+        if (made_before < 2) { /* else they are as they were when they are next used */
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
@@ -96,7 +96,7 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   return search;
 }
 
-/* Exhaustive for the first marking of a mesh, clusters for all others, and for the first, too, if the mesh is prepared. */
+/* Exhaustive for the first marking of a mesh, clusters for all others, and also for the first if the mesh is prepared. */
 static void what_auto_is(void **state) {
   (void)state;
   enum { n = 200 };

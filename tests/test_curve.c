@@ -96,7 +96,7 @@ static void parts_are_parts(void **state) {
   assert_int_equal(chain_between(n, control, first, 1, 0, part), n - 1);
 }
 
-/* As for one piece (test_bezier), points are on the curve at binary fractions of its length. At equal shares no chord is farther
+/* Points are on the curve at binary fractions of its length, as for one piece (test_bezier). At equal shares no chord is farther
  * from the curve than its bound, also across joints. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;

@@ -249,7 +249,13 @@ static void nothing_leaks(void **state) {
     const double *length = &leaks.seconds, *distance = length;
     CHECK_OK(riis_mark_result_leaking_edges(result, &n, &ids, &length, &distance));
     assert_true(n == 0 && !ids && !length && !distance);
+    CHECK_OK(riis_label_open_regions(mesh, &options, result, 0, NULL, &n));
+    assert_int_equal(n, 0);
   }
+  const int64_t node = 0;
+  riis_passage passage;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "from[0] is 0|0 nodes",
+                riis_find_passage(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
   /* What an empty result is not of: a marking. */
   riis_mark_result *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked",

@@ -108,6 +108,11 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("result", riis_find_leaks(surface, mesh, NULL, NULL, NULL, 72));
   NULL_IS_NAMED("leaks", riis_find_leaks(surface, mesh, NULL, result, NULL, 72));
   NULL_IS_NAMED("result", riis_mark_result_leaking_edges(NULL, &n, NULL, NULL, NULL));
+  NULL_IS_NAMED("mesh", riis_label_open_regions(NULL, NULL, result, 4, &n, NULL));
+  NULL_IS_NAMED("result", riis_label_open_regions(mesh, NULL, NULL, 4, &n, NULL));
+  NULL_IS_NAMED("surface", riis_find_passage(NULL, mesh, NULL, 1, &n, 1, &n, NULL, 56));
+  NULL_IS_NAMED("mesh", riis_find_passage(surface, NULL, NULL, 1, &n, 1, &n, NULL, 56));
+  NULL_IS_NAMED("passage", riis_find_passage(surface, mesh, NULL, 1, &n, 1, &n, NULL, 56));
   /* Destroying takes NULL, a NULL handle, and a handle, and leaves NULL. */
   riis_valve_destroy(NULL);
   riis_surface_destroy(NULL);
@@ -145,6 +150,10 @@ static void swapped_handles_are_refused(void **state) {
   IS_OF_ANOTHER_KIND("mesh", riis_find_leaks(surface, no_mesh, NULL, result, NULL, 72));
   IS_OF_ANOTHER_KIND("result", riis_find_leaks(surface, mesh, NULL, no_result, NULL, 72));
   IS_OF_ANOTHER_KIND("result", riis_mark_result_leaking_edges(no_result, NULL, NULL, NULL, NULL));
+  IS_OF_ANOTHER_KIND("mesh", riis_label_open_regions(no_mesh, NULL, result, 4, NULL, NULL));
+  IS_OF_ANOTHER_KIND("result", riis_label_open_regions(mesh, NULL, no_result, 4, NULL, NULL));
+  IS_OF_ANOTHER_KIND("surface", riis_find_passage(no_surface, mesh, NULL, 1, NULL, 1, NULL, NULL, 56));
+  IS_OF_ANOTHER_KIND("mesh", riis_find_passage(surface, no_mesh, NULL, 1, NULL, 1, NULL, NULL, 56));
   IS_OF_ANOTHER_KIND("valve", riis_surface_create(no_valve, NULL, &no_surface));
   IS_OF_ANOTHER_KIND("valve", riis_valve_set_scalar(no_valve, "xq", 0));
   IS_OF_ANOTHER_KIND("surface", riis_surface_update(no_surface, valve, NULL));

@@ -400,7 +400,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
   }
 }
 
-/* Where a rim edge of a valve at a random opening has its middle, no triangle of another patch is. */
+/* No triangle of another patch touches the middle of a rim edge of a valve at a random opening. */
 static void no_other_patch_touches_the_rim(void **state) {
   (void)state;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The kernels, compiled for several instruction sets: decisions and located points have the bits of the scalar kernel, single precision is
- * off by no more than the library allows for (docs/theory.md, section 8), and no pair that matters is left out, however little room there is. */
+ * The kernels, compiled for several instruction sets. Decisions and located points have the bits of the scalar kernel. Single
+ * precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that matters is left out, however
+ * little room there is. */
 #include "internals.h"
 #include "test_support.h"
 

@@ -141,7 +141,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
   return n;
 }
 
-/* The oracle's marks. Where rounding decides, the result's marks. */
+/* The oracle's marks. The result's marks replace them if rounding decides. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_mark_result *result, uint8_t *marks) {
   const surface_content all = surface_content_of(surface);

@@ -260,7 +260,7 @@ static void closed_leaflets_share_their_edge(void **state) {
         }
     }
   /* At the other corners, a line of one leaflet ends inside a chord of the other. */
-  printf("closed edge: %d of %d corners are the other leaflet's, too\n", n_shared, n_of_edge);
+  printf("closed edge: %d of %d corners are also the other leaflet's\n", n_shared, n_of_edge);
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
@@ -451,7 +451,7 @@ static void refusals(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "opening is 0.5|aortic valve has one state|riis_valve_set_open_state",
                 riis_surface_create(aortic, NULL, &surface));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, mitral", riis_valve_create("tricuspid", &aortic));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, bileaflet, mitral", riis_valve_create("tricuspid", &aortic));
   /* The message names which of the two states it is. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));

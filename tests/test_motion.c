@@ -79,7 +79,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
   return own(copy);
 }
 
-/* Of any kind, with a state to open to. */
+/* Makes a valve of any kind, with a state to open to. */
 static riis_valve *random_valve(int64_t kind) {
   riis_valve *valve = NULL, *open = NULL;
   if (kind == 2) {
@@ -261,7 +261,7 @@ static placed placed_by(const riis_surface_options *o) {
   return made;
 }
 
-/* Where a point x of now was: the inverse of scale times rotation is its transpose over the scale's square. */
+/* Tells where a point x of now was: the inverse of scale times rotation is its transpose over the scale's square. */
 static void before_of(const riis_surface_options *now, const riis_surface_options *then, const double *x,
                       long double *was) {
   const placed a = placed_by(now), b = placed_by(then);
@@ -366,7 +366,7 @@ static void time_goes_back(void **state) {
   }
 }
 
-/* Where a vertex was, by its velocity, is a point of the surface before, on the same patch at the same u and v. */
+/* A vertex, taken back by its velocity, is a point of the surface before, on the same patch at the same u and v. */
 static void vertices_come_from_their_place_before(void **state) {
   (void)state;
   double worst = 0, worst_uv = 0;

@@ -125,7 +125,7 @@ static void inside_the_callers_openmp(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
   for (int n_threads = 0; n_threads <= 3; ++n_threads)
-    for (int nested = 1; nested <= 2; ++nested) { /* regions within regions, too */
+    for (int nested = 1; nested <= 2; ++nested) { /* also regions within regions */
       const int levels = omp_get_max_active_levels();
       int n_wrong = 0;
       omp_set_max_active_levels(nested);

@@ -198,7 +198,7 @@ static int set_up(void **state) {
 }
 
 static int tear_down(void **state) {
-  free(mask), free(marks), free(side);
+  free(mask), free(labels), free(marks), free(side);
   free(strip);
   printf(
       "%d scenarios; failures injected: %lld of the library's own allocations, %lld of those on other threads, %lld of "

@@ -120,7 +120,7 @@ static void sides_are_checked(void **state) {
   CHANGED_IS_REFUSED(square.reversed[3] = -1, RIIS_INVALID_PARAMETER, "reversed of side u = 1 of patch 0 is -1;");
   CHANGED_IS_REFUSED(square.leaflet_id[0] = -1, RIIS_INVALID_PARAMETER,
                      "leaflet_id of patch 0 is -1; it must be at least 0");
-  /* A later patch is named, too. */
+  /* A later patch is also named. */
   CHANGED_IS_REFUSED((add_patch(&square, 0, 1, 2, 7), arrays.patches.n_patches = 2), RIIS_INVALID_PARAMETER,
                      "side u = 1 of patch 1 is curve 7");
 }

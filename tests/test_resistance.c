@@ -64,7 +64,7 @@ static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
   int32_t *ids = own(malloc((size_t)(n * m) * 4 * sizeof *ids));
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) at((double)i / n, (double)j / m, xyz + 3 * (j * (n + 1) + i));
-  /* Where a shape closes, its ends are the same place to the last bit. */
+  /* The ends of a closed shape are the same place to the last bit. */
   for (int j = 0; j <= m; ++j)
     if (at != cylinder) memcpy(xyz + 3 * (j * (n + 1) + n), xyz + 3 * j * (n + 1), 3 * sizeof *xyz);
   for (int i = 1; i <= n; ++i)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The Embree scene only culls. Its answers are those of a loop over all triangles with the same kernel, bit for bit, wherever
- * the surface is, whatever its shape, near the limit and at it. */
+ * The Embree scene only culls. Its answers equal those of a loop over all triangles with the same kernel, bit for bit. This
+ * holds for every place and shape of the surface, near the limit and at it. */
 #include "internals.h"
 #include "test_support.h"
 

@@ -90,7 +90,7 @@ static riis_surface *valve_surface(const char *kind, double opening, int32_t dis
   return surface;
 }
 
-/* By whichever distances it is marked. */
+/* This holds for marks by every kind of distance. */
 static void valves_leak_where_the_loop_says(void **state) {
   (void)state;
   static const char *const kinds[2] = {"aortic", "mitral"};
@@ -144,7 +144,7 @@ static test_mesh column_of_nodes(int64_t n, double from, double step) {
   return lattice(counts, lower, upper);
 }
 
-/* Where the search may have missed nodes, short edges are looked at as well. */
+/* Short edges are examined also if the search may have missed nodes. */
 static void what_the_papers_search_misses_leaks(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(121, -1, 0.1);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_fortran.py ford.md, run by the Python that FORD was installed for: every public Fortran name has a text in what FORD makes.
-# Public names are those that FORD shows, and those of the PUBLIC statements, so that one which FORD overlooks is missed, too.
+# The names that FORD shows are compared with the names of the PUBLIC statements, so a name that FORD overlooks is also found.
 import pathlib
 import re
 import sys

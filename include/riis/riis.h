@@ -42,7 +42,7 @@
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default: the processors in the calling thread's affinity mask, whatever
  *   OMP_NUM_THREADS and omp_set_num_threads say. With 1 no thread is started, except that Embree builds its
- *   scene on threads of TBB. A child of fork() may use 1 only. Where the system refuses a thread, or its
+ *   scene on threads of TBB. A child of fork() may use 1 only. If the system refuses a thread, or its
  *   memory, the run-times of OpenMP and TBB end the process (docs/building.md).
  * - Environment: each call, including a log function, runs with the default floating-point environment and
  *   restores the caller's. The caller's OpenMP and TBB settings stay.
@@ -118,7 +118,7 @@ enum {
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
-/* Takes the default where a field says so. */
+/* Requests the default, in fields that name it. */
 #define RIIS_AUTO (-1.0)
 
 /* -------------------------------------------------------------------------------------------------------- *
@@ -128,42 +128,47 @@ RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 /* A parametric valve: its kind and its parameters' values. riis_surface_create makes the geometry. */
 typedef struct riis_valve riis_valve;
 
-/* Makes a valve with the paper's parameter values.
- *   kind  "aortic", three cusps, or "mitral", two leaflets; any other is RIIS_INVALID_PARAMETER */
+/* Makes a valve with the default parameter values, which are the paper's for "aortic" and "mitral".
+ *   kind  "aortic", the paper's three cusps, "mitral", two leaflets, "trileaflet", three equal cusps that
+ *         close without a hole, or "bileaflet", a mechanical prosthesis (docs/theory.md); any other is
+ *         RIIS_INVALID_PARAMETER */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Each is destroyed on its own. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
 /* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
-/* Sets a parameter by the paper's name. To move a valve, set "opening" and call riis_surface_update.
+/* Sets a parameter by its name, the paper's. To move a valve, set "opening" and call riis_surface_update.
  *   name      such as "root_radius" of a valve, "right.leaflet_angle" of one cusp ("right", "left",
  *             "non_coronary"), "leaflet_angle" of all three
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp), else 1
- *   values    each within the parameter's range; riis_surface_create checks whether values go together
- * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. The mitral valve has both
- * states and is open, 1, by default. Other valves stay at 0 until riis_valve_set_open_state.
+ *   values    (n_values), within the parameter's range; riis_surface_create checks whether values go together
+ * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters
+ * makes both states. The mitral valve is open, 1, by default, the others are at 0. The aortic valve's state
+ * at 0 is the paper's, which does not close. A valve from patches stays at 0 until riis_valve_set_open_state.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
-/* Sets a parameter that has one value. */
+/* Sets a parameter that has one value. Arguments and errors as riis_valve_set. */
 RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
-/* Copies a parameter's values out; arguments as in riis_valve_set.
+/* Copies a parameter's values to the caller's array; arguments as in riis_valve_set.
  * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
 /* Gives the valve a second state to open to: its own state is at opening 0, the other valve's at opening 1.
- * Control points blend linearly (docs/theory.md, section 5). A second call replaces the state; none removes
- * it.
- *   open  of the same kind, else RIIS_INVALID_PARAMETER; from patches, with the same curves, degrees (1 and 2
- *         mix) and sides. The opening, leaflet ids and second state of open do not matter */
+ * Control points blend linearly (docs/theory.md, section 5); the lengths and angles of a bileaflet valve do.
+ * A second call replaces the state. No call removes it. A mitral or trileaflet valve takes the closed curves
+ * from its own parameters, the open curves from those of the other valve.
+ *   open  copied; of the same kind; from patches, with the same curves, degrees (1 and 2 mix) and sides;
+ *         bileaflet, with a ring if the valve has one. Its opening, leaflet ids and second state do not matter
+ * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
 /* The caller's own valve, such as a prosthesis: Coons patches by their four boundary curves (paper, 3.3). The
- * sides v = 0 and v = 1 run from the side u = 0 to the side u = 1; those run from v = 0 to v = 1. Corners
- * meet to 1e-9 of the valve's size, normals are along S_u x S_v, and a side may be a single point. Patches
- * that name one curve meet without cracks. */
+ * sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from the
+ * side v = 0 to the side v = 1. Corners meet to 1e-9 of the valve's size, normals are along S_u x S_v, and a
+ * side may be a single point. Patches that name the same curve meet without cracks. */
 typedef struct riis_patches {
   int64_t struct_size;       /* set by the init function */
   int64_t n_curves;          /* 1 to 4,000,000; each the side of some patch */
@@ -179,7 +184,8 @@ typedef struct riis_patches {
 /* Fills *patches with the defaults. */
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size);
 
-/* Makes a valve from patches. Its only parameter is "opening"; patch_id is the patch's number.
+/* Makes a valve from patches, which it copies. Its only parameter is "opening"; patch_id is the patch's
+ * number, from 0.
  * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
@@ -189,7 +195,7 @@ typedef struct riis_parameter {
   const char *unit;        /* "length", "degree" or "1" */
   const char *description; /* one line */
   int64_t n_values;        /* 1 or 3 */
-  double default_values[3];/* the paper's; entries beyond n_values are 0 */
+  double default_values[3];/* entries beyond n_values are 0 */
   double minimum;          /* of every value, inclusive */
   double maximum;          /* of every value, inclusive */
 } riis_parameter;
@@ -207,13 +213,17 @@ RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t param
 /* Triangles with their Embree scene and a half thickness. It borrows nothing from the caller. */
 typedef struct riis_surface riis_surface;
 
-/* The leaflets of the aortic and of the mitral valve, as leaflet_id reports them. */
+/* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
-  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters */
-  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left" */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary" */
+  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
+                                   trileaflet: the cusp on the x axis */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; trileaflet: at 120 degrees */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; trileaflet: at -120 degrees */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
-  RIIS_LEAFLET_POSTERIOR = 1    /* mitral: the posterior leaflet, all three scallops */
+  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
+  RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
+  RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
+  RIIS_LEAFLET_HOUSING = 2      /* bileaflet: the housing's wall, if ring_height is not 0 */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
@@ -246,7 +256,7 @@ enum {
                                      other option forgets the choice */
 };
 
-/* How a surface is made and, last, placed: x -> scale * rotation * x + translation, for valves and arrays. */
+/* How a surface is made and then placed: x -> scale * rotation * x + translation, for valves and arrays. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
   double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
@@ -262,7 +272,8 @@ typedef struct riis_surface_options {
   int32_t distance;        /* RIIS_DISTANCE_*, of closest points and marking only; default
                               RIIS_DISTANCE_TRIANGLES, the only one for arrays */
   int32_t n_threads;       /* default 0: 1 per 4096 triangles of the last content, at most 1 a processor */
-  double distance_tolerance; /* for the other two distances: 1e-6 to 1, default RIIS_AUTO: tolerance */
+  double distance_tolerance; /* for distances by sampling and minimisation, in half thicknesses: 1e-6 to 1.
+                                Default RIIS_AUTO: tolerance */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
   int32_t reserved;        /* 0 */
 } riis_surface_options;
@@ -271,10 +282,12 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
 
 /* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles, Embree scene (paper, 3
  * and 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
- * of the aortic valve, from the atrial to the ventricular face of the mitral valve. Triangles of zero area,
- * at the root of each cusp and at the mitral commissures, are skipped.
- * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together or throw a curve far away;
- * RIIS_LIMIT_EXCEEDED where a tolerance needs more than 16,777,216 triangles, quads or samples. */
+ * of the cusps, from the atrial to the ventricular face of the mitral valve, to +z from closed
+ * bileaflet leaflets. Those of the bileaflet ring point outwards. Triangles of zero area, at the root of each
+ * cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped.
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together or put a curve too far away;
+ * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is less than
+ * the coordinates round by. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
@@ -282,7 +295,7 @@ RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_sur
 typedef struct riis_surface_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
-  const double *x, *y, *z;   /* the vertices */
+  const double *x, *y, *z;   /* (n_vertices) by stride: the vertices, before placement */
   int64_t stride;            /* of x, y and z. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
   const void *vertex_ids;    /* (corners_per_face, n_faces); the right-hand rule makes the normal */
@@ -290,9 +303,9 @@ typedef struct riis_surface_arrays {
   int32_t index_base;        /* of vertex_ids */
   int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
   int32_t reserved;          /* 0 */
-  const int32_t *leaflet_id; /* one per face, >= 0; NULL: all 0 */
-  const double *vx, *vy, *vz; /* velocities of the vertices, points by velocity_stride. The placement turns
-                                 and scales them, and does not move them. All NULL: none */
+  const int32_t *leaflet_id; /* (n_faces), >= 0; NULL: all 0 */
+  const double *vx, *vy, *vz; /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths over
+                                 the caller's time. The placement turns and scales them. All NULL: none */
   int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
@@ -301,12 +314,13 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of
  * quad q have 2 q and 2 q + 1. Skipped triangles keep their ids. A triangle has zero area when its height
  * over its longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60.
- * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
+ * Errors: RIIS_LIMIT_EXCEEDED for too many vertices or faces; RIIS_INVALID_SURFACE naming the face or vertex
+ * and its value. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
 
-/* Replaces the surface's content, as for a valve that moved. The handle stays.
+/* Replaces the surface's content by that of a valve, such as one that moved. The handle stays.
  *   options  NULL keeps the surface's own options, not the defaults
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
@@ -316,9 +330,11 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  * vertex, over the time between (docs/theory.md, section 10). A valve at rest is its own state before.
  *   valve_before    the state before: of the same kind; from patches, with the same curves and sides
  *   seconds         from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
- *   options_before  scale, rotation and translation before; its other fields do not count. NULL: those of now
- * This mean velocity is that of the middle of the time to second order, that of either end to first. Where
- * two leaflets touch, it is that of the triangle with the lowest id, and jumps there.
+ *   options_before  scale, rotation and translation before; its other fields do not count. NULL: the present
+ *                   ones
+ * The velocity, in mesh units over the unit of seconds, is the mean of the step: that of the step's middle to
+ * second order, that of either end to first. It jumps where two leaflets touch: there the triangle
+ * with the lowest id gives it.
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
  * whose parameters do not go together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -327,18 +343,18 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options_before);
 /* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0, and
  * vertex_ids and leaflet_id NULL, the vertices alone move: the surface keeps the faces of its last arrays.
- * Errors: as riis_surface_create_from_arrays; RIIS_INVALID_ARGUMENT for other than the faces' n_vertices, or
- * without such faces. */
+ * Errors: as riis_surface_create_from_arrays. With n_faces 0 RIIS_INVALID_ARGUMENT also refuses another
+ * n_vertices than that of the last arrays, and a surface that was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
 /* Interpolation between keys in time. */
 enum {
-  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is that behind it */
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is the rate after it */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
 };
 /* A surface that moves by frames, such as a patient's valve: the same faces, other places of the vertices. */
 typedef struct riis_keyframes riis_keyframes;
-/* The frames. */
+/* The frames of a surface that moves, in the caller's arrays. */
 typedef struct riis_keyframe_arrays {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
@@ -354,9 +370,10 @@ typedef struct riis_keyframe_arrays {
 } riis_keyframe_arrays;
 /* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
-/* Copies faces and frames.
+/* Makes keyframes from copies of faces and frames.
  *   faces  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
- * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face. */
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face and its value; RIIS_LIMIT_EXCEEDED for more
+ * than memory can hold. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *faces,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
@@ -368,8 +385,8 @@ RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time,
                                                         double since, const riis_surface_options *options,
                                                         riis_surface **surface);
-/* Replaces the surface's content as riis_surface_create_from_keyframes makes it; options as in
- * riis_surface_update. */
+/* Replaces the surface's content by the frames around a time. Arguments and errors as
+ * riis_surface_create_from_keyframes, options as in riis_surface_update. */
 RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface,
                                                         const riis_keyframes *keyframes, double time,
                                                         double since,
@@ -377,7 +394,7 @@ RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface,
 /* Destroys the surface. Results stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
-/* The size of a surface, and the time that it took. */
+/* The size of a surface, and the seconds that its last create or update took. */
 typedef struct riis_surface_info {
   int64_t n_vertices;        /* length of the array of riis_surface_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
@@ -390,7 +407,7 @@ typedef struct riis_surface_info {
   double error_bound;        /* at most tolerance * half_thickness: no point's distances to the triangles and
                                 to the smooth valve differ by more. 0 for a surface from arrays */
 } riis_surface_info;
-/* Tells the size of the surface. */
+/* Tells the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
                                            int64_t struct_size);
 
@@ -405,13 +422,63 @@ RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface,
                                                     const double **velocity);
 /* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
  *   triangle_id  ascending: the id that queries report; 0, 1, 2, ... for a valve
- *   patch_id     aortic: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top; mitral, from the
- *                posteromedial commissure round: anterior 0 commissure's triangle, 1 side, 2 middle, 3
- *                mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop, 7 half of
- *                the middle one, 8 and 9 mirrored; from patches: the patch's number; from arrays: 0 */
+ *   leaflet_id   RIIS_LEAFLET_* for the parametric valves; from patches or arrays: the caller's
+ *   patch_id     aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
+ *                mitral, from the posteromedial commissure round: anterior 0 commissure's triangle, 1 side,
+ *                2 middle, 3 mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop,
+ *                7 half of the middle one, 8 and 9 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves,
+ *                4 to 7 the ring's quarters; from patches: the patch's number; from arrays: 0 */
 RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
                                             const int64_t **vertex_id, const int64_t **triangle_id,
                                             const int32_t **leaflet_id, const int32_t **patch_id);
+
+/* -------------------------------------------------------------------------------------------------------- *
+ * Crossings: self-intersections, where the surface goes through itself
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Options of riis_find_crossings. */
+typedef struct riis_crossing_options {
+  int64_t struct_size; /* set by the init function */
+  double depth;        /* half thicknesses, 0 to 1, default 1e-6: a pair at most so deep touches */
+  int32_t n_threads;   /* default 0: 1 per 4096 triangles, at most 1 a processor */
+  int32_t reserved;    /* 0 */
+} riis_crossing_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
+
+/* Pairs of triangles that cross. Without a pair, ids are -1, and other fields but seconds 0. */
+typedef struct riis_crossings {
+  int64_t n_pairs;        /* pairs that cross */
+  double length;          /* of the pairs' intersections, which are segments, together; mesh units */
+  double depth;           /* of the deepest pair, of equal ones the first; mesh units */
+  double point[3];        /* the middle of its segment */
+  int64_t triangle_id[2]; /* its triangles, ascending */
+  int32_t leaflet_id[2];  /* their leaflets */
+  double seconds;         /* wall time of riis_find_crossings */
+} riis_crossings;
+
+/* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
+ * depth: the length of the shortest translation of one triangle after which both only touch
+ * (docs/theory.md, section 12). Triangles that touch or lie in one plane have depth 0.
+ *   surface  keeps the pairs, all else stays
+ *   options  a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
+ *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
+ * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, and no pair. The
+ * call looks at triangles, also for the other RIIS_DISTANCE_*. So smooth leaflets that touch may cross by
+ * twice riis_surface_info.error_bound.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_find_crossings(riis_surface *surface, const riis_crossing_options *options,
+                                         riis_crossings *crossings, int64_t struct_size);
+
+/* Gives the pairs of the last riis_find_crossings with the surface, ascending by their first triangle, then
+ * by their second. Valid until the next riis_find_crossings or update, which leaves none.
+ *   triangle_id  (2, n_pairs), the lower one first
+ *   point        (3, n_pairs), the middle of the pair's segment
+ *   depth        (n_pairs)
+ *   length       (n_pairs), of the segment */
+RIIS_API riis_status riis_surface_crossing_pairs(const riis_surface *surface, int64_t *n_pairs,
+                                                 const int64_t **triangle_id, const double **point,
+                                                 const double **depth, const double **length);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Closest points (paper, 4.1)
@@ -419,8 +486,8 @@ RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t
 
 /* The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in. */
 typedef struct riis_closest {
-  double distance;        /* >= 0 */
-  double point[3];        /* on the triangle */
+  double distance;        /* >= 0, mesh units */
+  double point[3];        /* on the triangle, mesh units */
   double barycentric[3];  /* its weights of the triangle's three vertices, >= 0, sum 1 */
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
@@ -505,8 +572,8 @@ RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
  * non-finite after it was given. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
-/* Neighbours of nodes, as compressed sparse rows: those of node i are columns[offsets[i]] to
- * columns[offsets[i + 1] - 1] minus the base. */
+/* Neighbours of nodes, as compressed sparse rows. With base = index_base, node i of 0 to n_rows - 1 has the
+ * neighbours columns[k] - base for k from offsets[i] - base to offsets[i + 1] - base - 1. */
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
@@ -525,7 +592,7 @@ RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size);
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
  *   csr  its arrays are borrowed: they stay in place, unchanged, until the handle is destroyed or given
- *        another. NULL takes the adjacency away; riis_mesh_update with another n_nodes does so also
+ *        another. NULL takes the adjacency away; riis_mesh_update with another n_nodes also does
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
@@ -576,7 +643,7 @@ RIIS_API riis_status riis_faces_init(riis_faces *faces, int64_t struct_size);
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
- *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k) */
+ *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0 */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
 /* Fills *csr for riis_mesh_set_adjacency. Its arrays are the adjacency's. Offsets are int64_t; columns are
@@ -656,13 +723,16 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
  * limit. The reported distance decides, in double precision, inclusive.
  *   result  its content is replaced
  * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or
- * less than the half thickness: once for the two, at most eight times for a mesh, never below 1000 nodes.
+ * less than the half thickness. It warns once for the two, at most eight times for a mesh, and never for a
+ * mesh of less than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. A positive status
  * leaves the result's content as it was, but its arrays may have moved: get the pointers again. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_mark_result *result);
 
-/* Gives the marked nodes, ascending by node_id; arrays (n_marked), valid until the next riis_mark_nodes. */
+/* Gives the marked nodes, ascending by node_id; arrays (n_marked), valid until the next riis_mark_nodes.
+ *   distance                 mesh units
+ *   triangle_id, leaflet_id  of the closest triangle, as in riis_closest */
 RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked,
                                              const int64_t **node_id, const double **distance,
                                              const int64_t **triangle_id, const int32_t **leaflet_id);
@@ -671,7 +741,7 @@ RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *resul
                                                    const int64_t **node_id, const double **distance,
                                                    const int64_t **triangle_id, const int32_t **leaflet_id);
 
-/* The fields of closest points by options.fields; NULL for fields that were not asked for. All equal those of
+/* The fields of closest points that options.fields requested; NULL for the others. All equal those of
  * riis_closest_point for the node, to the last bit. */
 typedef struct riis_mark_fields {
   int64_t n_nodes;           /* n_marked or n_within, as of the call that gave the fields */
@@ -679,9 +749,9 @@ typedef struct riis_mark_fields {
   const double *normal;      /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric; /* (3, n_nodes): its weights of the triangle's vertices */
   const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
-                                but against it on mirrored patches (aortic: patch_id % 4 >= 2; mitral: 3, 4,
+                                but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
                                 5, 8, 9), and the other way round for flipped normals */
-  const double *velocity;    /* (3, n_nodes): the velocity of the surface there */
+  const double *velocity;    /* (3, n_nodes): the velocity of the surface there, as its last update gave it */
   const int32_t *side;       /* (n_nodes): as riis_closest.side */
   const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
                                 valve consists of the sides that only one patch has, such as free edges and
@@ -692,7 +762,8 @@ typedef struct riis_mark_fields {
 /* Gives the fields of the marked nodes, in the order and with the lifetime of riis_mark_result_marked. */
 RIIS_API riis_status riis_mark_result_marked_fields(const riis_mark_result *result, riis_mark_fields *fields,
                                                     int64_t struct_size);
-/* Gives the fields of the nodes within the limit, in the order of riis_mark_result_within_limit. */
+/* Gives the fields of the nodes within the limit, in the order and with the lifetime of
+ * riis_mark_result_within_limit. */
 RIIS_API riis_status riis_mark_result_within_limit_fields(const riis_mark_result *result,
                                                           riis_mark_fields *fields, int64_t struct_size);
 
@@ -742,8 +813,8 @@ typedef struct riis_resistance {
   double resistance;     /* R, 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
                             velocity u has a pressure drop of (R / eps) u. The init function sets NaN, which
                             is refused */
-  double half_thickness; /* eps, mesh units, at most the distance limit of the marking. Default RIIS_AUTO: the
-                            half thickness of the marking */
+  double half_thickness; /* eps, mesh units, 1e-50 to the distance limit of the marking. Default RIIS_AUTO:
+                            the half thickness of the marking */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
   int32_t reserved;      /* 0 */
 } riis_resistance;
@@ -755,18 +826,19 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
  *   n_nodes      the number of nodes of the marking
  *   coefficient  (n_nodes), K is added; NULL if not wanted
  *   momentum     (3, n_nodes), K u_surface is added; needs RIIS_FIELD_VELOCITY. NULL if not wanted
- * Errors: RIIS_INVALID_ARGUMENT also for a field that the result lacks; the arrays are then as they were. */
+ * Errors: RIIS_INVALID_ARGUMENT also for a result never marked with, and for a field that the result lacks.
+ * The arrays are then as they were. */
 RIIS_API riis_status riis_mark_result_add_resistance(const riis_mark_result *result,
                                                      const riis_resistance *resistance, int64_t n_nodes,
                                                      double *coefficient, double *momentum);
 
-/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks add
- * theirs by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
+/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks sum
+ * their forces by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
  *   n_nodes   the number of nodes of the marking
  *   velocity  (3, n_nodes), of the flow; NULL only for 0 nodes
  *   weight    (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for 0
  *             nodes
- *   force     (3), added to
+ *   force     (3), added to; its unit is that of weight K velocity, N in SI units
  * Errors: as riis_mark_result_add_resistance. */
 RIIS_API riis_status riis_mark_result_add_reaction(const riis_mark_result *result,
                                                    const riis_resistance *resistance, int64_t n_nodes,
@@ -781,8 +853,8 @@ typedef struct riis_band_sums {
   int64_t n_nodes[2]; /* nodes in the band */
 } riis_band_sums;
 /* Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose
- * closest point is on the rim, or that are on neither side, are left out. With an open valve the two sides
- * have no meaning.
+ * closest point is on the rim are left out, and so are nodes on neither side. With an open valve the two
+ * sides have no meaning.
  *   inner, outer  mesh units, 0 <= inner <= outer <= distance limit of the marking
  *   n_nodes       the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM
  *   value         (n_nodes); NULL only for 0 nodes
@@ -810,7 +882,7 @@ typedef struct riis_leaks {
 
 /* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
  * Touching counts. The decision is exact for coordinates in double precision; those below 1e-90 count as 0.
- * An edge may stand in one row or in both, and counts once. Edges to ghosts are not looked at.
+ * An edge may stand in one row or in both, and counts once. Edges to ghosts do not count.
  *   surface, mesh  those of the marking. The mesh must have an adjacency
  *   options        those of the marking. An edge to a node that node_mask leaves out is no path
  *   result         of riis_mark_nodes; its edges are replaced, all else stays
@@ -831,6 +903,60 @@ RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mes
 RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64_t *n_edges,
                                                     const int64_t **node_id, const double **length,
                                                     const double **distance);
+
+/* -------------------------------------------------------------------------------------------------------- *
+ * Open regions and passages: whether the unmarked nodes still join two places (docs/meshes.md)
+ * -------------------------------------------------------------------------------------------------------- */
+
+/* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
+ * edges of the mesh's adjacency. An edge may stand in one row or in both. Edges to ghosts are not looked at:
+ * ranks of MPI exchange their labels (examples/mpi_leaks.c).
+ *   mesh       that of the marking, with an adjacency
+ *   options    those of the marking; nodes that node_mask leaves out are in no region
+ *   result     of riis_mark_nodes
+ *   n_nodes    the number of nodes of the marking
+ *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region; NULL only for 0
+ *              nodes
+ *   n_regions  how many there are; may be NULL
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a result never marked with, or with
+ * another number of nodes. */
+RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_mark_options *options,
+                                             const riis_mark_result *result, int64_t n_nodes, int64_t *label,
+                                             int64_t *n_regions);
+
+/* Whether marked nodes part two sets of nodes. */
+enum {
+  RIIS_PASSAGE_CLOSED = 0, /* they do: each path has a node within the half thickness */
+  RIIS_PASSAGE_OPEN = 1,   /* they do not: some path has none */
+  RIIS_PASSAGE_NONE = 2    /* the mesh itself has no path, with marked nodes or without */
+};
+/* The widest passage from one set of nodes to another: the path whose smallest distance to the surface is
+ * largest. */
+typedef struct riis_passage {
+  int64_t node_id;  /* the node of that distance: the place. -1 without a path. Of nodes at equal distances
+                       the one with the higher id counts as the nearer */
+  double distance;  /* its distance: the smallest half thickness that closes the passage, by these triangles;
+                       a surface with a smaller one leaves it open. 0 without a path */
+  double point[3];  /* its coordinates; 0 without a path */
+  double seconds;   /* wall time of riis_find_passage */
+  int32_t state;    /* RIIS_PASSAGE_* */
+  int32_t reserved; /* 0 */
+} riis_passage;
+/* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
+ *   mesh     with an adjacency; it need not have been marked
+ *   options  node_mask, n_threads and instructions count. A node that node_mask leaves out is on no path
+ *   n_from   at least 1
+ *   from     (n_from), node ids in any order: where paths begin
+ *   n_to     at least 1
+ *   to       (n_to), node ids in any order: where they end. A node in both sets is a path
+ * Ends count as well, so take them farther from the surface than the passage is wide. A new half thickness
+ * moves a valve's triangles, by up to tolerance * half_thickness: look again after riis_surface_update.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
+ * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
+                                       const riis_mark_options *options, int64_t n_from, const int64_t *from,
+                                       int64_t n_to, const int64_t *to, riis_passage *passage,
+                                       int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Laws of opening: a valve's opening from the time, the pressure difference and the flow
@@ -857,6 +983,7 @@ typedef struct riis_opening_table {
 /* Fills *table with the defaults. */
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size);
 /* Tells the opening at a time by a table. opening and rate may be NULL.
+ *   time  magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
@@ -875,8 +1002,9 @@ typedef struct riis_opening_times {
 } riis_opening_times;
 /* Fills *times with the defaults. */
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size);
-/* Tells the opening at a time. opening and rate may be NULL. Errors: RIIS_INVALID_ARGUMENT naming the
- * field. */
+/* Tells the opening at a time by the times of opening and closing. opening and rate may be NULL.
+ *   time  magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
                                              double *rate);
 
@@ -917,7 +1045,8 @@ typedef struct riis_opening_switch_state {
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
 /* Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening
  * has first order in the length of steps.
- *   time  at least before->time
+ *   time                       at least before->time, magnitude at most 1e30
+ *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now is then as it was. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
@@ -954,9 +1083,10 @@ typedef struct riis_opening_angle_state {
 /* Fills *state with an angle of 0 at rest, at time 0. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
- * makes the angle second order in the length of steps; without values before, those of now count for the
+ * makes the angle second order in the length of steps. Without values before, the present ones count for the
  * whole step.
- *   time  at least before->time
+ *   time                       at least before->time, magnitude at most 1e30
+ *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so
  * long that the motion would take more than a million steps within it. *now is then as it was. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,

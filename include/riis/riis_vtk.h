@@ -38,13 +38,14 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
-/* Gives the nodes in the file's order, xyz(3, n_nodes), valid until the mesh's destruction. */
+/* Gives the nodes in the file's order, xyz(3, n_nodes), and the number of cells. The array is valid until the
+ * mesh's destruction. */
 RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                          const double **xyz);
 
 /* Makes the adjacency of nodes that an edge of a tetrahedron, pyramid, wedge, hexahedron or voxel joins, for
- * riis_mesh_set_adjacency. It borrows nothing from the mesh. Nodes of other cells alone get empty rows:
- * RIIS_SEARCH_NEIGHBOR finds them all the same, RIIS_SEARCH_PAPER does not. */
+ * riis_mesh_set_adjacency. It borrows nothing from the mesh. Nodes that belong only to other cells get empty
+ * rows: RIIS_SEARCH_NEIGHBOR still finds them, RIIS_SEARCH_PAPER does not. */
 RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                              riis_adjacency **adjacency);
 
@@ -61,19 +62,19 @@ RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const r
                                               double longer_than, int32_t n_threads,
                                               int64_t *n_cells_left_out, riis_adjacency **adjacency);
 
-/* Adds, or replaces, the point arrays of a marking: riis_marked (UInt8, 0 or 1), riis_distance (Float64,
- * far_distance beyond the limit), riis_leaflet (Int32, -1 beyond the limit).
+/* Sets the point arrays of a marking: riis_marked (UInt8, 0 or 1), riis_distance (Float64, far_distance
+ * beyond the limit), riis_leaflet (Int32, -1 beyond the limit). Arrays of these names are replaced.
  *   far_distance  as in riis_mark_result_dense
  * Errors: RIIS_INVALID_ARGUMENT for a result of a mesh with another number of nodes. */
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
                                              double far_distance);
-/* Adds, or replaces, the marks of one of several valves as PREFIX_marked, PREFIX_distance, PREFIX_leaflet.
+/* Sets the marks of one of several valves as PREFIX_marked, PREFIX_distance, PREFIX_leaflet.
  * riis_vtk_draw shows the marks of riis_vtk_mesh_set_marks only, whose prefix is "riis".
  *   prefix  1 to 64 letters, digits, "_", "-" and "."
  * Errors: as riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
                                                    double far_distance, const char *prefix);
-/* Adds, or replaces, point arrays of the fields of a marking: PREFIX_point, PREFIX_normal,
+/* Sets point arrays of the fields of a marking: PREFIX_point, PREFIX_normal,
  * PREFIX_barycentric, PREFIX_uv, PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32).
  * Beyond the limit they are 0, and PREFIX_patch is -1.
  *   fields  a sum of RIIS_FIELD_* of the marking's fields
@@ -92,7 +93,7 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
 /* Gives the median length of the edges of linear cells (triangle, quad, pixel, tetrahedron, pyramid, wedge,
  * hexahedron, voxel), 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells,
- * evenly spaced in their order, are looked at. */
+ * evenly spaced in their order, are measured. */
 RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Makes a mesh of some nodes and of all cells that have one of them, with the cells' other nodes. Nodes and
@@ -100,13 +101,14 @@ RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double
  * and riis_cell_id of cells (Int64). The part borrows nothing.
  *   n_ids     >= 0
  *   node_ids  (n_ids), 0 to n_nodes - 1, in any order
- * Errors: RIIS_INVALID_ARGUMENT naming the id. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the id and its place in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
 /* Tells how many bytes the file of riis_vtk_mesh_write takes, without its few kilobytes of text. */
 RIIS_API riis_status riis_vtk_mesh_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
-/* Writes the mesh with all its arrays to a .vtu file, points as Float64. */
+/* Writes the mesh with all its arrays to a file, points as Float64.
+ *   path  ends in .vtu */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* -------------------------------------------------------------------------------------------------------- *
@@ -129,18 +131,19 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **
 RIIS_API riis_status riis_vtk_surface_read_with_leaflets(const char *path, const char *leaflets,
                                                          riis_vtk_surface **surface);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
- * faces. Faces are connected that have a vertex in common, or vertices with exactly the same coordinates, as
- * in an .stl file. Arrays got from the surface before end. */
+ * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as
+ * in an .stl file. Arrays that the surface gave before are no longer valid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
-/* Destroys the surface; arrays that point into it end, surfaces made from it stay. */
+/* Destroys the surface. Its arrays are no longer valid; surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 /* Points *arrays at the arrays of the surface, for riis_surface_create_from_arrays.
  *   arrays  filled by its init function before; its arrays are valid until the surface's destruction */
 RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays);
 
-/* Writes exactly the triangles that are queried, after placement, to a .vtp file: points Float64; cell arrays
+/* Writes exactly the triangles that are queried, after placement, to a file: points Float64; cell arrays
  * riis_leaflet, riis_patch (Int32), riis_triangle (Int64); point arrays riis_uv (2 x Float64) for valves and
- * riis_velocity (3 x Float64) if the surface's last update gave velocities. */
+ * riis_velocity (3 x Float64) if the surface's last update gave velocities.
+ *   path  ends in .vtp */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
 /* -------------------------------------------------------------------------------------------------------- *
@@ -159,9 +162,9 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   same order. Polygons and quads are cut as in the first file.
  * - Leaflets are those of the first file. `leaflets` names their cell array, as in
  *   riis_vtk_surface_read_with_leaflets; NULL is riis_leaflet, which need not be there.
- * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly one place
- *   in the first file are one vertex, and must be at one place in every other file. A surface whose leaflets
- *   touch at corners in the first file, and part later, needs files with points.
+ * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
+ *   place in the first file are one vertex, and must share their place in every other file. A surface whose
+ *   leaflets touch at corners in the first file, and part later, needs files with points.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and what differs, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
@@ -195,7 +198,7 @@ RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_
                                            const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
 RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
-/* Destroys the motion. Arrays that point into it end; keyframes made from it stay. */
+/* Destroys the motion. Its arrays are no longer valid; keyframes made from it stay. */
 RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion);
 /* Points the structs at the motion's arrays, for riis_keyframes_create. Their other fields, such as
  * frames->period, stay.
@@ -235,7 +238,8 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface, each leaflet in a colour of its own.
+ * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn, and the key
+ *   below names as many leaflets as fit.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
  *   colour of the leaflet nearest to one of them. Only the far side of other cells with a marked node is
  *   drawn, pale.
@@ -244,6 +248,7 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   Pictures lower than 120 pixels have no texts, axes or bar.
  *
  *   mesh  with marks set; NULL draws the surface alone, in one panel
+ *   path  ends in .png
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
  * leaking_edges without a mesh, or outside of it. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,

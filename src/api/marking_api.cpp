@@ -8,6 +8,8 @@
 #include "base/errors.hpp"
 #include "marking/leaks.hpp"
 #include "marking/mark_nodes.hpp"
+#include "marking/open_regions.hpp"
+#include "marking/passage.hpp"
 #include "marking/resistance.hpp"
 
 using riis::guarded;
@@ -18,7 +20,7 @@ namespace {
 
 // The structs' sizes in the first release.
 constexpr std::int64_t options_size = 32, stats_size = 56, csr_size = 56, cells_size = 56, faces_size = 64,
-                       leaks_size = 72, fields_size = 72, resistance_size = 32, band_sums_size = 48;
+                       leaks_size = 72, passage_size = 56, fields_size = 72, resistance_size = 32, band_sums_size = 48;
 
 const riis_mark_options default_options{
     sizeof(riis_mark_options), RIIS_AUTO, nullptr, RIIS_SEARCH_AUTO, 0, RIIS_INSTRUCTIONS_AUTO, 0, 0, 0};
@@ -58,7 +60,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   if (instructions == RIIS_INSTRUCTIONS_AUTO) return riis::best_instruction_set();
   const auto set = static_cast<riis::InstructionSet>(instructions - RIIS_INSTRUCTIONS_BASELINE);
   if (!riis::has(set))
-    riis::fail(RIIS_UNAVAILABLE, "options.instructions is ", instructions, ", which this processor has not");
+    riis::fail(RIIS_UNAVAILABLE, "options.instructions is ", instructions, ", which this processor lacks");
   return set;
 }
 
@@ -76,8 +78,8 @@ void get_fields(const riis::NodeFields &made, std::int64_t n, riis_mark_fields *
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   riis::write_struct<fields_size>(
       fields, struct_size, "fields",
-      riis_mark_fields{n, array(made.point), array(made.normal), array(made.barycentric),
-                       array(made.uv), array(made.velocity), array(made.side), array(made.rim), array(made.patch_id)});
+      riis_mark_fields{n, array(made.point), array(made.normal), array(made.barycentric), array(made.uv),
+                       array(made.velocity), array(made.side), array(made.rim), array(made.patch_id)});
 }
 
 void check_n_nodes(std::int64_t n_nodes, const riis::MarkResult &result) {
@@ -96,6 +98,23 @@ const double *require_of_nodes(const double *array, const char *name, std::int64
   return n_nodes == 0 ? array : require(array, name);
 }
 
+riis_mark_options whole_of(const riis_mark_options *options) {
+  const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
+  riis::check_reserved("options.reserved", whole.reserved);
+  riis::check_reserved("options.reserved2", whole.reserved2);
+  return whole;
+}
+
+int threads_of(const riis_mark_options &options) {
+  return riis::threads_asked_for(options.n_threads, "options.n_threads");
+}
+
+riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *mesh, const riis_mark_options &options) {
+  check_search(options.search);
+  return {surface,           mesh->mesh,          limit_of(options, surface.half_thickness()),
+          options.node_mask, threads_of(options), instructions_asked_for(options.instructions)};
+}
+
 // Checks the surface first, then the mesh, the result and the options.
 riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *result,
                                     const riis_mark_options *options, std::int32_t &search,
@@ -103,32 +122,49 @@ riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh
   const riis::Surface &content = riis::content_of(surface);
   require_handle(mesh, "mesh");
   require_handle(result, "result");
-  const riis_mark_options whole = riis::completed<options_size>(options, "options", default_options);
-  const riis::SearchRequest request{content,
-                                    mesh->mesh,
-                                    limit_of(whole, content.half_thickness()),
-                                    whole.node_mask,
-                                    riis::threads_asked_for(whole.n_threads, "options.n_threads"),
-                                    instructions_asked_for(whole.instructions)};
-  check_search(whole.search);
-  riis::check_reserved("options.reserved", whole.reserved);
-  riis::check_reserved("options.reserved2", whole.reserved2);
+  const riis_mark_options whole = whole_of(options);
+  const riis::SearchRequest request = request_of(content, mesh, whole);
   search = whole.search;
   riis::put(fields, whole.fields);
   return request;
 }
 
+const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *purpose) {
+  if (!mesh.adjacency().has_value())
+    riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, ", purpose, ": see riis_mesh_set_adjacency");
+  return *mesh.adjacency();
+}
+
+// Refuses a result that was not marked with this mesh, as far as its size shows it.
+void check_is_of_mesh(const riis::Mesh &mesh, const riis::MarkResult &result) {
+  if (!result.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
+  if (result.stats.n_nodes != mesh.nodes().n)
+    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ",
+               mesh.nodes().n);
+}
+
 // Refuses a result that was not marked with this surface and mesh, as far as its sizes show it.
 void check_is_of_marking(const riis::SearchRequest &request, const riis::MarkResult &result) {
-  if (!request.mesh.adjacency().has_value())
-    riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges may leak: see riis_mesh_set_adjacency");
-  if (!result.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "result was never marked with: call riis_mark_nodes first");
-  if (result.stats.n_nodes != request.mesh.nodes().n)
-    riis::fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with ", result.stats.n_nodes, " nodes, mesh has ",
-               request.mesh.nodes().n);
+  require_adjacency(request.mesh, "whose edges may leak");
+  check_is_of_mesh(request.mesh, result);
   if (result.half_thickness != request.surface.half_thickness())
     riis::fail(RIIS_INVALID_ARGUMENT, "result is of a surface with the half thickness ", result.half_thickness,
                ", surface has ", request.surface.half_thickness(), ": mark the nodes again");
+}
+
+// Checks an end of a passage, `name`.
+riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &request, const char *name, std::int64_t n,
+                                                const std::int64_t *ids) {
+  const std::int64_t n_nodes = request.mesh.nodes().n;
+  if (n < 1) riis::fail(RIIS_INVALID_ARGUMENT, "n_", name, " is ", n, "; it must be at least 1");
+  require(ids, name);
+  for (std::int64_t i = 0; i < n; ++i) {
+    if (ids[i] < 0 || ids[i] >= n_nodes)
+      riis::fail(RIIS_INVALID_ARGUMENT, name, "[", i, "] is ", ids[i], "; the mesh has ", n_nodes, " nodes, from 0");
+    if (request.is_masked_out(ids[i]))
+      riis::fail(RIIS_INVALID_ARGUMENT, name, "[", i, "] is node ", ids[i], ", which options.node_mask leaves out");
+  }
+  return {ids, n};
 }
 
 }  // namespace
@@ -366,6 +402,38 @@ riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64
     riis::put(node_id, empty ? nullptr : edges.node_id.data());
     riis::put(length, empty ? nullptr : edges.length.data());
     riis::put(distance, empty ? nullptr : edges.distance.data());
+  });
+}
+
+riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_mark_options *options,
+                                    const riis_mark_result *result, int64_t n_nodes, int64_t *label,
+                                    int64_t *n_regions) {
+  return guarded([&] {
+    const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
+    const riis::MarkResult &content = require_handle(result, "result")->result;
+    const riis_mark_options whole = whole_of(options);
+    const int n_threads = threads_of(whole);
+    const riis::Adjacency &adjacency = require_adjacency(nodes, "whose edges join nodes");
+    check_is_of_mesh(nodes, content);
+    check_n_nodes(n_nodes, content);
+    if (n_nodes > 0) require(label, "label");
+    riis::put(n_regions, riis::label_open_regions({adjacency, whole.node_mask, content.marked_nodes().node_id},
+                                                  n_threads, {label, n_nodes}));
+  });
+}
+
+riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
+                              int64_t n_from, const int64_t *from, int64_t n_to, const int64_t *to,
+                              riis_passage *passage, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    require_handle(mesh, "mesh");
+    const riis::SearchRequest request = request_of(content, mesh, whole_of(options));
+    riis::check_struct_size<passage_size, riis_passage>(struct_size, "passage");
+    require(passage, "passage");
+    require_adjacency(request.mesh, "whose edges join nodes");
+    const riis::PassageEnds ends{checked_end(request, "from", n_from, from), checked_end(request, "to", n_to, to)};
+    riis::write_struct<passage_size>(passage, struct_size, "passage", riis::find_passage(request, ends));
   });
 }
 }

@@ -3,6 +3,7 @@
 // the caller does not know takes its default on the way in and is not written on the way out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -70,11 +71,18 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// Returns the number of threads that an option asks for. 0 stands for the processors that the calling thread may use.
+// Returns the number of threads that an option requests. 0 stands for the processors that the calling thread may use.
 inline int threads_asked_for(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");
   return n_threads ? n_threads : default_thread_count();
+}
+
+// Where an option leaves the number open (0), returns as many threads as pay for their start.
+inline int threads_for_triangles(std::int32_t n_threads, std::int64_t n_triangles) {
+  if (n_threads > 0) return n_threads;
+  constexpr std::int64_t triangles_per_thread = 4096;
+  return static_cast<int>(std::min<std::int64_t>(1 + n_triangles / triangles_per_thread, default_thread_count()));
 }
 
 }  // namespace riis

@@ -118,12 +118,10 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Where the options leave the number open, takes as many threads as pay for their start. The last content's size is the guide.
+// The last content's size is the guide for options that leave the number open.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
-  if (options.n_threads > 0) return options.n_threads;
-  constexpr std::int64_t triangles_per_thread = 4096;
-  const std::int64_t n_triangles = surface.surface ? surface.surface->triangles().n_triangles() : 0;
-  return static_cast<int>(std::min<std::int64_t>(1 + n_triangles / triangles_per_thread, riis::default_thread_count()));
+  return riis::threads_for_triangles(options.n_threads,
+                                     surface.surface ? surface.surface->triangles().n_triangles() : 0);
 }
 
 // A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
@@ -144,6 +142,7 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
   surface.options = options;
   surface.seconds_triangles = seconds.triangles;
   surface.seconds_scene = seconds.scene;
+  surface.crossings = {};
   if (!surface.before) return;
   surface.before->measure_by(nullptr, 0);
   if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();

@@ -40,7 +40,7 @@ constexpr int smallest = 6, largest = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest;
 
 // Each thread takes from a pool of its own first, so that threads seldom wait for each other. A thread may give back what another
-// took; so a thread whose pool is empty looks into the others before it asks the system.
+// took; so a thread whose pool is empty looks into the others before it goes to the system.
 constexpr unsigned n_pools = 16;
 struct alignas(64) Pool {
   std::mutex mutex;

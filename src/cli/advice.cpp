@@ -12,8 +12,8 @@
 namespace riis::cli {
 namespace {
 
-// A mesh fits the valve in it if it is from half as large to 40 times as large, its edges are up to 0.3 of the valve, and both
-// overlap.
+// A mesh fits its valve under three conditions. It is half as large to 40 times as large, its edges are up to 0.3 of the valve,
+// and both overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
 // Shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
@@ -48,7 +48,7 @@ bool edges_fit_at(double factor, const Situation &s) {
   return s.options.has_half_thickness || !is_parametric(s.options) || !is_too_small(s.half_thickness / factor, s);
 }
 
-// The factor by which the mesh's lengths must grow to fit the surface's. None if they fit, or if no power of ten helps.
+// Returns the factor by which the mesh's lengths must grow to fit the surface's, or none if they fit or no power of ten helps.
 std::optional<double> missing_factor(const Situation &s) {
   if (sizes_fit_at(1, s) && edges_fit_at(1, s) && overlap_at(1, s)) return std::nullopt;
   // Sizes that differ this much are not in one unit, whatever the places.
@@ -69,7 +69,7 @@ std::optional<double> missing_factor(const Situation &s) {
   return best;
 }
 
-// The situation after the surface was scaled to go with the mesh.
+// Returns the situation after the surface was scaled to go with the mesh.
 Situation rescaled(const Situation &s, double factor) {
   Situation changed = s;
   for (int k = 0; k < 3; ++k) {
@@ -80,7 +80,8 @@ Situation rescaled(const Situation &s, double factor) {
   return changed;
 }
 
-// A power of ten times the half thickness that fits; if none does, the mesh's edge; 0 if that is too large as well.
+// Returns a power of ten times the half thickness that fits. If none fits, it returns the edge of the mesh, or 0 if that also
+// does not fit.
 double better_half_thickness(const Situation &s) {
   const auto fits = [&](double half_thickness) {
     return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
@@ -98,7 +99,7 @@ double better_half_thickness(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// The options that make the scale, and what the sizes look like then.
+// What the sizes look like, and the options that make the scale.
 struct Cure {
   std::string look, write;
 };
@@ -124,7 +125,7 @@ Cure cure_for_scale(const Options &options, double scale) {
   return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
 }
 
-// The user's own options for the scale, which must go.
+// Names the user's own options for the scale, which must go.
 std::string in_place_of(const Options &options) {
   if (options.unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);

@@ -9,18 +9,19 @@
 
 namespace riis::cli {
 
-// The half thickness is larger than a quarter of the surface, or so small that it falls between the mesh's nodes.
+// These tell whether the half thickness is larger than a quarter of the surface, or so small that it falls between the mesh's
+// nodes.
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 
-// If the sizes of a mesh and a surface look like different units: says which, and what to write, such as "the mesh looks as if
+// Says which units the sizes of a mesh and a surface look like, if these differ, and what to write, such as "the mesh looks as if
 // it were in metres, ...: write --unit m".
 std::optional<std::string> advice_on_units(const Situation &situation);
 
-// The same for a half thickness that is too large or too small.
+// Says whether the half thickness is too large or too small, and what to write.
 std::optional<std::string> advice_on_half_thickness(const Situation &situation);
 
-// A number as a user would write it.
+// Returns a number as a user would write it.
 std::string shown(double number);
 
 }  // namespace riis::cli

@@ -65,7 +65,7 @@ void write_case_files(const Options &options, const std::vector<MovingValve> &va
   }
 }
 
-// A line for each valve, and the files.
+// Prints a line for each valve, and the files.
 void print_case(const Case &all, const std::vector<MovingValve> &valves, const Report &report) {
   if (all.options.quiet) return;
   std::string text = "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";

@@ -22,7 +22,7 @@ struct Case {
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
 };
 
-// The valve of the command line with --times and --cycle.
+// Returns the command line's valve, with --times and --cycle, as a case.
 Case case_of_command_line(const Options &options);
 
 // Marks the mesh at one time. Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.

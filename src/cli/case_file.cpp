@@ -68,7 +68,7 @@ class CaseReader {
     }
   }
 
-  // Path in the file, as seen from here. "" if the key is not there.
+  // Returns a path of the case, which is relative to the case's folder, or "" if the key is not there.
   std::string file_of(const CaseValues &values, const char *key) {
     const std::string text = values.text(key);
     if (text.empty()) return "";
@@ -171,7 +171,7 @@ class CaseReader {
     set_law(values, source.valve.get(), source);
   }
 
-  // An object, or the path of a file with one.
+  // Sets parameters from an object, or from the file whose path stands there.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -180,7 +180,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets also the largest opening that the valve will have, for the check whether it can open.
+  // Sets the law, and the valve's largest opening, for the check whether it can open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -203,7 +203,7 @@ class CaseReader {
       source.file = read_surface(source.options, seconds);
       return;
     }
-    if (!all_.is_series()) values.refuse("surface", "one that moves needs times, in the file or by --times");
+    if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
     source.options.period = values.above_zero("period").value_or(0);
     KeyframeFiles read = read_keyframes(source.options, seconds);
     source.keyframes = std::move(read.keyframes);

@@ -7,7 +7,7 @@
 
 namespace riis::cli {
 
-// By --case. The mesh, the times and the distance limit of the command line, if given, take the place of the file's.
+// Reads the case of --case. A mesh, times and distance limit on the command line take the place of the file's.
 Case read_case(const Options &options);
 
 }  // namespace riis::cli

@@ -33,7 +33,7 @@ class CaseValues {
   std::vector<double> numbers(const char *key, std::size_t n) const;
   bool flag(const char *key) const;  // false if the key is not there
   std::optional<Unit> unit(const char *key) const;
-  // The position of a text in the list, or the first if the key is not there.
+  // Returns the position of a text in the list, or 0 if the key is not there.
   std::size_t choice(const char *key, const std::vector<std::string> &names) const;
 
   [[noreturn]] void refuse(const std::string &key, const std::string &reason) const;

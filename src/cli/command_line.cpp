@@ -15,22 +15,23 @@
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
 #include "cli/series_options.hpp"
+#include "cli/state_options.hpp"
 #include "cli/valve_file.hpp"
 
 namespace riis::cli {
 namespace {
 
-// At the position of their RIIS_SEARCH_*.
+// Each name stands at the position of its RIIS_SEARCH_*.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 
-// At the position of their RIIS_DISTANCE_*.
+// Each name stands at the position of its RIIS_DISTANCE_*.
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
 // CLI11 collects text; numbers are parsed here, whatever the locale.
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
-  std::string distance_tolerance, unit, surface_unit, steps, time, period;
+  std::string distance_tolerance, unit, surface_unit, steps, time, period, state_count;
   SeriesTexts series;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string triangulation = triangulation_names()[RIIS_TRIANGULATION_ADAPTED];
@@ -47,9 +48,9 @@ int32_t position_of(const std::string &name, const std::vector<std::string> &nam
 void declare_motion(CLI::App &app, Texts &texts, CLI::Option *surface) {
   const char *group = "Surface";
   app.add_option("--time", texts.time, "Time at which to take a motion, --surface FILE.pvd")
-                          ->type_name("T")
-                          ->group(group)
-                          ->needs(surface);
+      ->type_name("T")
+      ->group(group)
+      ->needs(surface);
   app.add_option("--period", texts.period,
                  "Period of that motion or of --cycle; without one it rests before its first and behind its last time")
       ->type_name("P")
@@ -63,13 +64,14 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
                      "Surface from a file (.vtp, .vtu, .stl) in place of a valve, or its motion from a .pvd file")
           ->type_name("FILE")
           ->group(group);
-  app.add_option(
-         "--leaflets", options.leaflets,
-         "Leaflets of --surface: its connected pieces, or the values of a cell array (default riis_leaflet, if present)")
+  app.add_option("--leaflets", options.leaflets,
+                 "Leaflets of --surface: its connected pieces, or the values of a cell array (default riis_leaflet, if "
+                 "present)")
       ->type_name("connected|ARRAY")
       ->group(group)
       ->needs(surface);
-  app.add_option("--valve", options.valve, "Kind of the parametric valve, aortic (default) or mitral, or a file of patches")
+  app.add_option("--valve", options.valve,
+                 "Kind of the parametric valve, aortic (default), mitral, trileaflet or bileaflet, or a file of patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);
@@ -77,7 +79,8 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("X")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--params,--params-closed", options.params, "Valve parameters from a JSON file; those of the closed state")
+  app.add_option("--params,--params-closed", options.params,
+                 "Valve parameters from a JSON file; those of the closed state")
       ->type_name("FILE.json")
       ->group(group)
       ->excludes(surface);
@@ -104,8 +107,9 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("F")
       ->group(group)
       ->excludes(surface);
-  app.add_option("--triangulation", texts.triangulation,
-                 "Triangles of a valve that moves: adapted to each opening (default), or fixed, the same at every opening")
+  app.add_option(
+         "--triangulation", texts.triangulation,
+         "Triangles of a valve that moves: adapted to each opening (default), or fixed, the same at every opening")
       ->type_name("HOW")
       ->check(CLI::IsMember(triangulation_names()))
       ->group(group)
@@ -120,9 +124,10 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
 
 void declare_placement(CLI::App &app, Texts &texts) {
   const char *group = "Placement: x -> scale * rotation * x + translation";
-  CLI::Option *scale = app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (default 1)")
-                           ->type_name("S")
-                           ->group(group);
+  CLI::Option *scale =
+      app.add_option("--scale", texts.scale, "Factor from the surface's unit to the mesh's (default 1)")
+          ->type_name("S")
+          ->group(group);
   app.add_option("--unit", texts.unit, "Unit of the mesh, in place of --scale")
       ->type_name("UNIT")
       ->check(CLI::IsMember(unit_names()))
@@ -132,8 +137,12 @@ void declare_placement(CLI::App &app, Texts &texts) {
       ->type_name("UNIT")
       ->check(CLI::IsMember(unit_names()))
       ->group(group);
-  app.add_option("--rotate", texts.rotate, "Rotate about an axis by an angle in degrees")->type_name("X,Y,Z,DEG")->group(group);
-  app.add_option("--translate", texts.translate, "Translate by a vector in the mesh's unit")->type_name("X,Y,Z")->group(group);
+  app.add_option("--rotate", texts.rotate, "Rotate about an axis by an angle in degrees")
+      ->type_name("X,Y,Z,DEG")
+      ->group(group);
+  app.add_option("--translate", texts.translate, "Translate by a vector in the mesh's unit")
+      ->type_name("X,Y,Z")
+      ->group(group);
 }
 
 void declare_marking(CLI::App &app, Texts &texts) {
@@ -142,11 +151,13 @@ void declare_marking(CLI::App &app, Texts &texts) {
                  "Mark nodes up to this distance (default 0.1 times the scale; with --unit 0.1 cm)")
       ->type_name("L")
       ->group(group);
-  app.add_option("--distance-limit", texts.distance_limit, "Report distances up to this one (default the half thickness)")
+  app.add_option("--distance-limit", texts.distance_limit,
+                 "Report distances up to this one (default the half thickness)")
       ->type_name("L")
       ->group(group);
-  app.add_option("--resistance", texts.resistance,
-                 "Write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
+  app.add_option(
+         "--resistance", texts.resistance,
+         "Write riis_resistance, K of each node: R/eps times the delta function, for this R in mass/(length time)")
       ->type_name("R")
       ->group(group);
   app.add_option("--far-distance", texts.far_distance, "riis_distance of nodes beyond the limit (default 1e30)")
@@ -206,15 +217,18 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("OUT.png")
       ->allow_extra_args(false)
       ->group(group);
-  app.add_option("--view", texts.views, "View of a --picture, side, top or oblique (default); one for each, in their order")
+  app.add_option("--view", texts.views,
+                 "View of a --picture, side, top or oblique (default); one for each, in their order")
       ->type_name("VIEW")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(view_names()))
       ->group(group);
-  app.add_option("--stats", options.stats, "Write counts and seconds as JSON; - is stdout, which then holds nothing else")
+  app.add_option("--stats", options.stats,
+                 "Write counts and seconds as JSON; - is stdout, which then holds nothing else")
       ->type_name("FILE.json|-")
       ->group(group);
-  app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")->group(group);
+  app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")
+      ->group(group);
 }
 
 // RIIS_AUTO is a negative number, and a user's number must not pass for it.
@@ -272,6 +286,7 @@ void parse_units(const Texts &texts, Options &options) {
   options.surface_unit = unit_of(texts.surface_unit);
   options.has_scale = !texts.scale.empty();
   options.has_half_thickness = !texts.half_thickness.empty();
+  options.has_tolerance = !texts.tolerance.empty();
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
   if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre) {
@@ -335,12 +350,13 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 // Refuses options without effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
   check_series_purpose(options, given);
+  check_states_purpose(options, given);
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
-  static const std::set<std::string> of_mesh = {
-      "--output",         "--stats",        "--search",   "--threads",
-      "--distance-limit", "--resistance", "--far-distance", "--distance", "--distance-tolerance",
-      "--allow-none",     "--steps"};
+  static const std::set<std::string> of_mesh = {"--output",       "--stats",          "--search",
+                                                "--threads",      "--distance-limit", "--resistance",
+                                                "--far-distance", "--distance",       "--distance-tolerance",
+                                                "--allow-none",   "--steps"};
   const bool prints = options.print_params || options.describe_params;
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {
@@ -355,10 +371,11 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
   }
   // At the default opening of most valves the file would have no effect, and nobody would see it.
-  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings) && options.series.cycle.empty()) {
-    refuse("--params-open needs --opening or --cycle");
+  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings) && options.series.cycle.empty() &&
+      options.states.empty()) {
+    refuse("--params-open needs --opening, --cycle or --states");
   }
-  if (prints || !options.series.case_file.empty()) return;
+  if (prints || !options.series.case_file.empty() || !options.states.empty()) return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
@@ -394,8 +411,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// The words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an unknown
-// option is also left over, or passes for the mesh, so only the options are named then.
+// Returns the words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an
+// unknown option is also left over, or passes for the mesh. So only the options are named then.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -453,6 +470,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   declare_steps(app, texts);
   declare_output(app, options, texts);
   declare_series(app, options.series, texts.series);
+  declare_states(app, options, texts.state_count);
   check_equals_signs(argc, argv);
   try {
     app.parse(argc, argv);
@@ -481,6 +499,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   parse_mark_options(texts, options.mark_options);
   options.pictures = pair_pictures(texts);
   options.n_steps = parse_steps(texts.steps);
+  parse_states(texts.state_count, options);
   check_purpose(options, given);
   return options;
 }

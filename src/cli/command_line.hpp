@@ -32,7 +32,7 @@ struct SeriesOptions {
 
 // At the position of their RIIS_TRIANGULATION_*.
 const std::vector<std::string> &triangulation_names();
-// The views, at the position of their RIIS_VTK_VIEW_*.
+// Returns the names of the views, each at the position of its RIIS_VTK_VIEW_*.
 const std::vector<std::string> &view_names();
 
 struct Options {
@@ -46,7 +46,8 @@ struct Options {
   std::optional<double> opening;      // from 0 to 1
   riis_surface_options surface_options;
   std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
-  bool has_scale = false, has_half_thickness = false;  // the user gave them as numbers
+  // The user gave them as numbers.
+  bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::string
       leaflets;  // of the surface's file: "connected", the name of a cell array, or "" for the array riis_leaflet
   riis_mark_options mark_options;
@@ -59,6 +60,8 @@ struct Options {
   bool replace = false;         // arrays of these names
   bool allow_none = false;
   SeriesOptions series;
+  std::string states;           // the table of --states; "": not wanted
+  std::int32_t n_states = 101;  // openings in it
   bool print_params = false, describe_params = false;
   bool quiet = false;
 };

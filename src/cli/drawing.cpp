@@ -36,7 +36,8 @@ void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vt
 
 std::vector<const char *> leaflet_names(const Options &options) {
   if (!options.surface.empty()) return {};
-  if (options.valve == "aortic") return {"right", "left", "non-coronary"};
+  if (options.valve == "aortic" || options.valve == "trileaflet") return {"right", "left", "non-coronary"};
+  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
   if (options.valve == "mitral") return {"anterior", "posterior"};
   return {};
 }

@@ -12,10 +12,10 @@
 
 namespace riis::cli {
 
-// The leaflets' names of a kind of valve; none for files, whose leaflets have numbers.
+// Returns the names of a valve's leaflets, or none for files, whose leaflets have numbers.
 std::vector<const char *> leaflet_names(const Options &options);
 
-// Such as "Mitral valve"; a file's name without folders.
+// Returns a title such as "Mitral valve", or a file's name without folders.
 std::string title_of_valve(const Options &options);
 
 // A file has its name without folders as title. A kind of valve has its name with a capital, like the other captions.

@@ -15,6 +15,7 @@ const char *const footer = R"(Examples:
   riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
   riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
+  riis-mark --valve mitral --states states.csv
   riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
   riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
   riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
@@ -25,8 +26,8 @@ Marked mesh
   can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
 
 Units
-  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the aortic and of
-  the mitral valve are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
+  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
+  valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
   own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
   program knows no units, and --scale is the factor from the surface's unit to the mesh's.
 
@@ -41,10 +42,10 @@ Parameters
   left to right. --opening comes last, and excludes --set opening.
 
 Opening
-  The mitral valve's parameters make it closed and open. It is open unless --opening says otherwise. The aortic valve stays at
-  opening 0 without --params-open. With --params-open, the options above make the closed state. The defaults with that file's
+  The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
+  others are at 0. With --params-open, the options above make the closed state. The defaults with that file's
   parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
-  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open.
+  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
 
 Series in time
   --times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
@@ -58,14 +59,14 @@ Series in time
   A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
   the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
   the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
-  and needs the program ffmpeg. Leaks are looked for where the valve is least open.
+  and needs the program ffmpeg. Leaks are searched at the time when the valve is least open.
 
 Cases
   --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
   {"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
    "times": "0:0.8:0.01",
    "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
-              {"name": "aortic", "valve": "aortic", "open_parameters": {"leaflet_radius_in": 1},
+              {"name": "aortic", "valve": "trileaflet",
                "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
   Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
   A valve has "valve", a kind or a file of patches, or "surface", a file. A surface stays at rest unless the file is a .pvd,
@@ -76,13 +77,22 @@ Cases
     {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
     {"opening_start": 0.4, "opening_seconds": 0.05, "closing_start": 0.7, "closing_seconds": 0.05, "closed": 0, "open": 1,
      "period": 0.8}
-  Of several valves each has its arrays, NAME_marked and so on; riis_resistance and riis_momentum are sums over the valves.
+  Each of several valves has its own arrays, NAME_marked and so on; riis_resistance and riis_momentum are sums over the valves.
   Without times there is one mesh, --output marked.vtu.
 
 Leaks
   The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
   edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
   between leaflets.
+
+States
+  --states measures the valve in its own frame at 101 openings, or as many as --state-count says, and takes no MESH. The table
+  has a line for each opening: the length of each free edge, the area of each leaflet, both also as a share of their closed
+  values, and the area of the orifice. The summary on stdout names the free edges that leave 10 % of their closed length. Free
+  edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc that the leaflets leave
+  uncovered along the axis z. The disc is that of root_radius when closed, or of the housing's radius. Valves that have neither
+  take the inside of the free sides v = 0, such as the annulus. Columns that a valve has no measure for are left out. The
+  tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
 
 Valve from patches
   --valve FILE.json is a valve from patches, by the curves that bound them:
@@ -110,7 +120,7 @@ Searches
   tetrahedron, pyramid, wedge, hexahedron or voxel.
 
 Distances
-  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance asks for.
+  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
   --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
   and here for comparison.
 
@@ -130,6 +140,7 @@ std::string short_help() {
   return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
   riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
   riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
+  riis-mark MESH.vtu --valve bileaflet --opening 1 --output MARKED.vtu      a mechanical prosthesis, open
   riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
 riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
 )";

@@ -14,7 +14,7 @@ namespace riis::cli {
 
 // One more than the largest id.
 int32_t n_leaflets_of(const riis_surface *surface);
-// The first leaflet of each valve among those of all, and the number of all.
+// Returns each valve's first leaflet among the leaflets of all valves, and the number of all.
 std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
 Surface joined_surface(const std::vector<MovingValve> &valves);
 

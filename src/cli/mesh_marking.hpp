@@ -14,7 +14,7 @@
 namespace riis::cli {
 
 MeshFile read_mesh(const Options &options, Seconds &seconds);
-// The nodes of the file, which outlives the mesh. path names the file in refusals.
+// Makes a mesh of the nodes of the file, which outlives the mesh. path names the file in refusals.
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
 MarkResult new_result();
 
@@ -24,7 +24,7 @@ bool needs_adjacency(int32_t search);
 // Not even --quiet silences this: some marks may be missing.
 void warn_of_incomplete_marks();
 
-// The program replaces no array of the user's by chance.
+// Refuses to replace an array of the mesh without --replace.
 void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
 
 // PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and those of the fields.

@@ -11,7 +11,7 @@
 
 namespace riis::cli {
 
-// A --surface that ends in .pvd is a motion.
+// Tells whether --surface is a motion, which ends in .pvd.
 bool is_motion_file(const std::string &surface);
 
 // Reads --time and --period. Fails if a motion lacks its time, and for either without a motion.
@@ -24,7 +24,7 @@ struct KeyframeFiles {
 };
 KeyframeFiles read_keyframes(const Options &options, Seconds &seconds);
 
-// The surface at options.time, with velocities.
+// Makes the surface at options.time, with velocities.
 Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes);
 
 }  // namespace riis::cli

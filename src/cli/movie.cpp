@@ -25,7 +25,7 @@ extern char **environ;
 namespace riis::cli {
 namespace {
 
-// The program by that name on the PATH; "" if there is none.
+// Returns the program of that name on the PATH, or "" if there is none.
 std::string program_on_path(const std::string &name) {
   const char *path = std::getenv("PATH");
   std::string folders = path ? path : "";
@@ -44,14 +44,14 @@ std::string program_on_path(const std::string &name) {
   throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
 }
 
-// ffmpeg counts in the names of the frames.
+// Returns the name of a frame's file, in which ffmpeg counts.
 std::string frame_name(std::size_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "frame_%06zu.png", number);
   return text;
 }
 
-// A pattern of ffmpeg, in which % has a meaning.
+// Returns ffmpeg's pattern for the frames. A % of the folder is doubled, because it has a meaning there.
 std::string frame_pattern(const std::string &folder) {
   std::string pattern;
   for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
@@ -60,7 +60,7 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path) {
   if (has_ending(path, ".gif")) {
-    // A palette of the whole movie's colours. Loops without end.
+    // The palette has the colours of the whole movie, which loops without end.
     return {
         "-filter_complex",
         "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",

@@ -18,7 +18,7 @@ class Movie {
   Movie(const Movie &) = delete;
   Movie &operator=(const Movie &) = delete;
 
-  // The path of the next frame, a .png file for the caller to write.
+  // Returns the path of the next frame, a .png file for the caller to write.
   std::string next_frame();
   // Makes the movie of the frames. Afterwards it is complete or as it was before.
   void encode() const;

@@ -48,7 +48,7 @@ class MovingValve {
 void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                        const riis_vtk_mesh *file);
 
-// The valves of a case at its first time, if it has one, each tried with its options.
+// Makes the valves of a case at its first time, if it has one, and tries each with its options.
 std::vector<MovingValve> moving_valves(Case &all);
 
 }  // namespace riis::cli

@@ -16,7 +16,7 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
 std::vector<double> parse_list(const std::string &text, const std::string &subject, std::size_t n,
                                const std::string &form);
 
-// The other way: the shortest text that stands for the number, in any locale.
+// Returns the shortest text that stands for the number, in any locale.
 std::string shortest(double number);
 
 }  // namespace riis::cli

@@ -10,7 +10,7 @@
 namespace riis::cli {
 namespace {
 
-// A law is data of the user's, also where it is out of range.
+// Refuses a law as bad data: its values are the user's, also if they are out of range.
 void check_law(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_bad_data, subject + ": " + riis_last_error()};
   check(status, subject);

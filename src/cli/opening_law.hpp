@@ -37,10 +37,10 @@ class OpeningLaw {
   std::string subject_;
 };
 
-// The largest opening at these times; that at any time if there are none, which only a constant law has.
+// Returns the largest opening at these times. Without times the law must be constant, and its opening is returned.
 double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 
-// The names of RIIS_INTERPOLATION_*, at their positions.
+// Returns the names of RIIS_INTERPOLATION_*, each at its position.
 const std::vector<std::string> &interpolation_names();
 
 }  // namespace riis::cli

@@ -43,7 +43,7 @@ void check_place(const std::string &path) {
   if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
   const fs::path folder = folder_of(place_of(path));
   if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
-  // A file is replaced by one that is written beside it.
+  // A new file is written beside the old one and then takes its place.
   if (!is_special(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
     cannot_be_written(path, "the folder " + folder.string() + ": " + system_text(errno));
   }
@@ -70,6 +70,7 @@ std::vector<NamedFile> outputs_of(const Options &options) {
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
   outputs.push_back({"--series-table", options.series.table});
+  if (options.states != "-") outputs.push_back({"--states", options.states});
   return outputs;
 }
 
@@ -88,7 +89,7 @@ bool may_replace(const NamedFile &output, const NamedFile &input) {
          (output.option == "--surface-output" && input.option == "--surface");
 }
 
-// The folders of a series' files.
+// Returns the folders of a series' files.
 std::vector<NamedFile> folders_of(const Options &options) {
   if (options.series.times.empty()) return {};
   std::vector<NamedFile> folders;
@@ -180,6 +181,7 @@ void check_outputs(const Options &options, const std::vector<std::string> &more_
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
   if (!options.series.table.empty()) check_place(options.series.table);
+  if (!options.states.empty() && options.states != "-") check_place(options.states);
   for (const std::string &list : {options.output, options.surface_output})
     if (is_series && !list.empty()) SeriesFiles(list, "", 1).check_folder();
   check_movie(options.series.movie);

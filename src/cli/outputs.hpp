@@ -17,7 +17,8 @@ void check_outputs(const Options &options, const std::vector<std::string> &more_
 
 // Whether the path ends so, in capitals or not.
 bool has_ending(const std::string &path, const std::string &ending);
-// The place of the file itself: links to existing files are followed. Its folder, or "." if it names none.
+// place_of returns the place of the file itself: links to existing files are followed. folder_of returns its folder, or "." if
+// it names none.
 std::filesystem::path place_of(const std::string &path);
 std::filesystem::path folder_of(const std::filesystem::path &place);
 

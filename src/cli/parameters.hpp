@@ -15,7 +15,7 @@ namespace riis::cli {
 // first, so the order in the file does not matter. A name given twice is refused.
 void set_from_json_file(riis_valve *valve, const std::string &path);
 
-// The same from a value. path, a file or a place in one, goes before refusals.
+// Does the same from a value. path, a file or a place in one, goes before refusals.
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path);
 
 // Applies one --set.
@@ -23,7 +23,7 @@ void set_from_text(riis_valve *valve, const std::string &setting);
 
 // All parameters of the valve with their values.
 std::string json_template(const riis_valve *valve);
-// The same as a table for people, with a line for each parameter: name, value, unit, range, description.
+// Returns the parameters as a table for people, with a line for each parameter: name, value, unit, range, description.
 std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::cli

@@ -16,7 +16,7 @@ struct Refusal {
   std::string text;
 };
 
-// The library's message, with the option of the command line in place of the struct field that it begins with.
+// Returns the library's message with the command line's option in place of the struct field that it begins with.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {
       {"options.scale ", "--scale "},

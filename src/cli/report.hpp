@@ -47,10 +47,10 @@ struct Report {
   std::optional<StepTimes> step;
 };
 
-// Such as "15,745", "1 node".
+// These return texts such as "15,745" and "1 node".
 std::string grouped(int64_t n);
 std::string counted(int64_t n, const char *singular);
-// Such as "mitral valve, opening 0.5".
+// Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);

@@ -18,6 +18,7 @@
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
+#include "cli/states.hpp"
 #include "cli/steps.hpp"
 #include "cli/valve_source.hpp"
 #include "cli/warnings.hpp"
@@ -151,9 +152,13 @@ ExitCode run_single(const Options &options) {
 }  // namespace
 
 ExitCode run(const Options &options) {
+  if (!options.states.empty()) {
+    run_states(options);
+    return exit_fine;
+  }
   const bool has_case = !options.series.case_file.empty();
   if (!has_case && options.series.times.empty()) return run_single(options);
-  // Before the case's own files are read, which may be many.
+  // This comes before the case's own files are read, which may be many.
   check_movie(options.series.movie);
   Case all = has_case ? read_case(options) : case_of_command_line(options);
   return run_case(all);

@@ -34,7 +34,7 @@ int64_t n_nodes_of(const riis_vtk_mesh *file) {
   return n;
 }
 
-// The arrays of a series. The part of a mesh also tells the ids of its nodes in the whole mesh.
+// Returns the names of a series' arrays. The part of a mesh also tells the ids of its nodes in the whole mesh.
 std::vector<std::string> names_of_series(const Case &all) {
   std::vector<std::string> names;
   for (const ValveSource &valve : all.valves) {
@@ -49,7 +49,7 @@ std::vector<std::string> names_of_series(const Case &all) {
   return names;
 }
 
-// Such as "12.3 MB".
+// Returns a text such as "12.3 MB".
 std::string bytes_text(double n) {
   const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
   std::size_t unit = 0;
@@ -73,7 +73,7 @@ class Writing {
         surfaces_(all.options.surface_output, ".vtp", times().size()),
         table_(all) {}
 
-  // The size of all files, from those of the first step.
+  // Prints the size of all files, by the files of the first step.
   void announce(int64_t n_nodes_of_mesh) {
     if (all_.options.quiet || !meshes_.is_wanted()) return;
     set_arrays(0);
@@ -86,7 +86,7 @@ class Writing {
                  meshes_.folder().c_str());
   }
 
-  // Ends early, after a whole step, if a signal waits.
+  // Writes all steps. Ends early, after a whole step, if a signal waits.
   void run(Report &report) {
     if (meshes_.is_wanted()) meshes_.make_folder();
     if (surfaces_.is_wanted()) surfaces_.make_folder();
@@ -112,7 +112,7 @@ class Writing {
  private:
   const std::vector<double> &times() const { return all_.options.series.times; }
 
-  // The first time has no time before it, and takes the first step's length.
+  // Returns the time before a step. The first time takes the length of the first step.
   double time_before(std::size_t step) const {
     return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
   }
@@ -176,12 +176,12 @@ MeshFile copy_of(const riis_vtk_mesh *file) {
   return part_of(file, all);
 }
 
-// The first time at which the valve is least open.
+// Returns the first time at which the valve is least open.
 double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &times) {
   return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
 }
 
-// Only a valve that is as closed as it will be can stop the flow.
+// Warns of leaks at the time when each valve is least open: only then can it be meant to stop the flow.
 void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
                            const riis_vtk_mesh *file) {
   for (MovingValve &valve : valves) {
@@ -202,7 +202,7 @@ void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *fil
   }
 }
 
-// What a user reads at the end.
+// Prints the summary that a user reads at the end.
 void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;

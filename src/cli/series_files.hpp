@@ -21,7 +21,7 @@ class SeriesFiles {
   void check_folder() const;
   // Makes the folder if it is not there.
   void make_folder() const;
-  // The file of a step. part, a valve's name or "", tells several files of one step apart.
+  // Returns the path of a step's file. part, a valve's name or "", tells several files of one step apart.
   std::string path_of(std::size_t step, const std::string &part) const;
   // Notes a file that is whole.
   void add(double time, std::size_t part_number, const std::string &path);

@@ -17,7 +17,7 @@
 namespace riis::cli {
 namespace {
 
-// The most digits behind the point that one of the times has, so that the numbers of a movie do not jump.
+// Returns the most digits behind the point that one of the times has. So the numbers of a movie do not jump.
 int decimals_of(const std::vector<double> &times) {
   constexpr std::size_t most = 6;
   std::size_t n = 0;
@@ -57,7 +57,7 @@ struct JoinedMarks {
   std::vector<double> marked, distance, leaflet;
 };
 
-// The names of all leaflets; numbers where a valve's have no names.
+// Returns the names of all leaflets, or their numbers if a valve's leaflets have no names.
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {

@@ -11,15 +11,15 @@
 
 namespace riis::cli {
 
-// time, opening, n_marked, largest_speed, seconds. Of several valves each has its columns, NAME_opening and so on.
+// time, opening, n_marked, largest_speed, seconds. Each of several valves has its own columns, NAME_opening and so on.
 class SeriesTable {
  public:
   explicit SeriesTable(const Case &all);
   void add(double time, const std::vector<MovingValve> &valves, double seconds);
   const std::string &text() const { return text_; }
-  // The most marked nodes of all valves and times.
+  // Returns the most marked nodes of all valves and times.
   int64_t most_marked() const;
-  // A line for each valve: its openings, marked nodes and speed.
+  // Returns a line for each valve: its openings, marked nodes and speed.
   std::string summary() const;
 
  private:

@@ -72,7 +72,7 @@ class Reader {
     return patches;
   }
 
-  // The open state's curves in the order of the closed state's.
+  // Returns the open state's curves in the order of the closed state's.
   Curves open_curves_of(const Json &open, const Curves &closed) const {
     check_object(open, "\"open\"", {"curves"});
     const Curves found = curves_of(open, "open: ");
@@ -174,7 +174,7 @@ class Reader {
   const std::string &path_;
 };
 
-// The library counts curves and names sides by their parameter. Here both get the names of the file.
+// Puts the file's names into the library's message, which counts curves and names sides by their parameter.
 std::string with_names(std::string text, const Curves &curves, const Patches &patches) {
   std::smatch match;
   if (std::regex_search(text, match, std::regex("curve ([0-9]+)"))) {

@@ -9,7 +9,7 @@
 
 namespace riis::cli {
 
-// A --valve that ends in .json is a file, not a kind.
+// Tells whether --valve is a file, which ends in .json, and not a kind.
 bool is_valve_file(const std::string &valve);
 
 // {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},

@@ -24,13 +24,13 @@ struct ValveSource {
 
 // subject goes before the refusal of a kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
-// By --valve, --params and the options that go with them.
+// Makes the valve of --valve, --params and the options that go with them.
 Valve make_valve(const Options &options);
 double opening_of(const riis_valve *valve);
 
 // Adds to the component's refusal of a mesh the command that makes a readable file of it.
 void check_mesh_read(riis_status status, const std::string &path);
-// By --surface and --leaflets.
+// Reads the surface of --surface and --leaflets.
 SurfaceFile read_surface(const Options &options, Seconds &seconds);
 
 // Which velocities a surface from a file has.

@@ -30,7 +30,7 @@ double Minimizer::lower_bound(const Bounds &box, Vec3 p) const {
 
 bool Minimizer::may_be_within(Vec3 p, double limit) const { return lower_bound(box_, p) <= limit; }
 
-void Minimizer::ask(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const {
+void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const {
   const PlacedPatch &of = view(patches_.patches)[patch];
   const Measures &measures = view(measures_)[patch];
   const auto to_surface = [&](Parameters at) { return of.at(at.u, at.v) - p; };
@@ -61,11 +61,11 @@ ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   }
   ClosestOnPatches best;
   if (!(nearest <= limit)) return best;
-  ask(first, p, best);
+  query(first, p, best);
   for (std::int64_t i = 0; i < measures.size(); ++i) {
     if (i == first) continue;
     const double bound = lower_bound(measures[i].box, p);
-    if (bound <= limit && bound <= std::sqrt(best.distance_sq)) ask(i, p, best);
+    if (bound <= limit && bound <= std::sqrt(best.distance_sq)) query(i, p, best);
   }
   return std::sqrt(best.distance_sq) <= limit ? best : ClosestOnPatches{};
 }

@@ -27,7 +27,8 @@ class Minimizer final : public PatchDistance {
     double width, height;  // bounds of |S_u| and |S_v|
   };
 
-  void ask(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const;
+  // Replaces `best` if the patch's local minimum is less.
+  void query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const;
   double lower_bound(const Bounds &box, Vec3 p) const;
 
   double enough_;

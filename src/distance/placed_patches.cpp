@@ -24,8 +24,8 @@ Vec3 PlacedPatch::normal_at(double u, double v) const {
 
 PlacedPatches::PlacedPatches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {
   std::size_t number = 0;
-  for (const QuadGrid &grid : make_grids(set, max_error)) {
-    const double error = *std::max_element(grid.errors.begin(), grid.errors.end());
+  for (const QuadGrid &grid : make_grids(set, error_left(set, max_error))) {
+    const double error = *std::max_element(grid.errors.begin(), grid.errors.end()) + set.deviation;
     for (const PatchImage &image : set.patches[number].images) {
       QuadGrid placed{grid.u, grid.v, {}, {}};
       placed.points.reserve(grid.points.size());

@@ -92,7 +92,7 @@ double short_quadrature(const Speed &speed, double t0, double t1) {
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates over steps so short that the rule with 8 points is exact to rounding for all curves but those that nearly stop.
+// Integrates over steps so short that the rule with 8 points is exact to rounding, except for curves that nearly stop.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);

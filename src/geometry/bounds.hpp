@@ -26,7 +26,7 @@ struct Bounds {
   Vec3 half_extent() const { return 0.5 * upper - 0.5 * lower; }
 };
 
-// True if they have a point in common.
+// Returns true if the boxes have a point in common.
 inline bool overlap(const Bounds &a, const Bounds &b) {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
          a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;

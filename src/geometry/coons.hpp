@@ -37,8 +37,8 @@ struct GridLines {
 struct QuadGrid {
   Vector<double> u, v;    // ascending from 0 to 1
   Vector<Vec3> points;    // points[j * u.size() + i] at (u[i], v[j])
-  Vector<double> errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: how far it
-                          // may be, at equal (u,v), from the patch of the curves that the sides stand for
+  Vector<double> errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: a bound
+                          // of its distance, at equal (u,v), from the patch between the exact curves
 
   Vector<Vec3> displacements{};  // of the points since an earlier state (surface/displacement.hpp); empty without one
 

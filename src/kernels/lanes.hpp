@@ -5,7 +5,7 @@
 // functions with code of their own.
 #pragma once
 
-// RIIS_PORTABLE_LANES asks for the code of processors without any of these instruction sets. Tests run it where there are some.
+// RIIS_PORTABLE_LANES requests the code of processors without any of these instruction sets. Tests run it where there are some.
 #if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
 #define RIIS_SSE2
 #include <immintrin.h>

@@ -20,7 +20,7 @@ constexpr double degree = pi / 180;
 
 void check_time(double time) { check_range("", "time", time, -largest, largest); }
 
-// A ramp from 0 at x = 0 to 1 at x = 1 whose first two derivatives are 0 at both ends: neither the velocity nor the
+// Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the velocity nor the
 // acceleration of the valve jumps.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : x * x * x * (10 + x * (-15 + 6 * x)); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
@@ -74,7 +74,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
 
 namespace {
 
-// The time since the state before. Values that drive the law are checked, too.
+// Returns the time since the state before. It also checks the values that drive the law.
 double checked_step(double before, double time, double pressure_difference, double flow) {
   check_range("before", "time", before, -largest, largest);
   check_range("", "time", time, before, largest);
@@ -83,7 +83,7 @@ double checked_step(double before, double time, double pressure_difference, doub
   return time - before;
 }
 
-// A filter of first order: NaN stands for no value yet.
+// Returns the new value of a filter of first order. The value before is NaN if there was none.
 double filtered(double before, double now, double step, double filter_seconds) {
   if (std::isnan(before) || filter_seconds == 0) return now;
   return before - std::expm1(-step / filter_seconds) * (now - before);
@@ -115,7 +115,7 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_seconds);
     now.flow = filtered(before.flow, flow, step, law.filter_seconds);
   }
-  // A valve that has just turned stays so for a while, whatever the noise of a solver.
+  // A valve that has just turned does not turn back for a while, so the noise of a solver does not matter.
   const bool may_turn = std::isnan(before.since) || time - before.since >= law.dwell_seconds;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -123,7 +123,7 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
     now.since = time;
   }
-  // The valve moves by the phase that it had during the step: the turn is known at its end only.
+  // The valve moves by the phase that it had during the step, because a turn is known only at the step's end.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
   const double per_second = is_opening ? 1 / law.opening_seconds : -1 / law.closing_seconds;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
@@ -151,7 +151,7 @@ class AngleLaw {
   };
   AngleLaw(const riis_opening_angle &law, Drive from, Drive to) : law_(law), from_(from), to_(to) {}
 
-  // The derivative at a share of the step.
+  // Returns the derivative of a motion at a share of the step.
   Motion derivative(Motion at, double share) const {
     const double pressure = (1 - share) * from_.pressure_difference + share * to_.pressure_difference;
     const double flow = (1 - share) * from_.flow + share * to_.flow;
@@ -160,7 +160,7 @@ class AngleLaw {
                          law_.vortex_gain * std::max(flow, 0.0) * std::sin(2 * at.angle)};
   }
 
-  // Bounds how fast the motion changes, for the number of steps.
+  // Bounds how fast the motion changes. The number of steps follows from it.
   double fastest() const {
     const double pressure = std::max(std::abs(from_.pressure_difference), std::abs(to_.pressure_difference));
     const double flow = std::max(std::abs(from_.flow), std::abs(to_.flow));
@@ -173,7 +173,7 @@ class AngleLaw {
   Drive from_, to_;
 };
 
-// One step of the classical method of Runge and Kutta, from one share of the caller's step to another.
+// Takes one step of the classical Runge-Kutta method, from one share of the caller's step to another.
 Motion runge_kutta(const AngleLaw &law, Motion at, double from, double to, double seconds) {
   const double middle = 0.5 * (from + to);
   const Motion k1 = law.derivative(at, from), k2 = law.derivative(at + (0.5 * seconds) * k1, middle),
@@ -181,7 +181,7 @@ Motion runge_kutta(const AngleLaw &law, Motion at, double from, double to, doubl
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// The stops of the leaflet take all of its speed.
+// Keeps the leaflet between its stops, which take all of its speed.
 Motion stopped(Motion at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -205,11 +205,11 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   check_range("before", "angle_rate", before.angle_rate, -largest, largest);
   const double step = checked_step(before.time, time, pressure_difference, flow);
 
-  // A first state has no drive: that of now stands for it.
+  // A first state has no drive, so the present drive stands for it.
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The error of the method falls with the fourth power of this, so that it is far below that of the drive.
+  // The method's error falls with the fourth power of this length. So it is far below the error of a drive that is linear.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

@@ -50,8 +50,8 @@ struct ClusterScratch {
   void prepare(int n_threads);
 };
 
-// Returns false where single precision does not separate near from far. The limit, the mesh or the mesh's distance from the
-// surface is then about a million times the surface's size, or the mesh is extremely small beside the surface.
+// Returns false if single precision does not separate near from far. Either the limit, the mesh or its distance from the surface
+// is then about a million times the surface's size, or the mesh is extremely small beside the surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
 // The clusters must belong to the request's mesh, and separates_in_single_precision must be true of them.

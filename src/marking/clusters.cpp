@@ -49,7 +49,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   const std::int64_t n_clusters = n_of(n_nodes, nodes_per_cluster);
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
-    // The memory is not filled with zeros: the thread that first writes a page should be the one that uses it.
+    // The memory is not filled with zeros: the thread that uses a page should be the first to write it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);

@@ -24,7 +24,7 @@ struct TriangleDistances {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
 
-  // The absolute part of a distance's error; the rest is in proportion to the distance and to p.
+  // Returns the absolute part of a distance's error. The rest is in proportion to the distance and to p.
   double rounding() const { return scene.rounding(); }
 };
 

@@ -16,7 +16,7 @@ namespace riis {
 // No memory holds the coordinates of so many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
-// A node within the distance limit. `triangle` is a position in the surface's set of triangles. Where another method measures the
+// A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
 // distances, it is the position of a patch.
 struct FoundNode {
   std::uint64_t node : 40, triangle : 24;

@@ -26,13 +26,13 @@ struct MarkResult {
   NodeList within;          // nodes within the distance limit
   NodeList marked;          // used only where the limit is wider than the half thickness; elsewhere `within` has them
   bool was_marked = false;  // false for an empty result
-  std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking was asked for
+  std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking kept
   NodeFields fields_within;
-  NodeFields fields_marked;  // used as `marked` is
+  NodeFields fields_marked;  // used only where `marked` is
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  int n_threads = 1;  // as the caller asked for
+  int n_threads = 1;  // that the caller requested
   riis_mark_stats stats{};
   LeakingEdges leaking;  // empty until a search for leaks follows the marking
 

@@ -23,7 +23,7 @@ class Mesh {
   Mesh(const StridedPoints &nodes, const Bounds &bounds) : nodes_(nodes), bounds_(bounds) {}
 
   const StridedPoints &nodes() const { return nodes_; }
-  // The box of the nodes as they were given.
+  // Returns the box of the nodes as they were last given.
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
@@ -41,17 +41,17 @@ class Mesh {
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // The nodes in balls. Several threads may call this and the two functions below at once.
+  // Returns the nodes in balls. Several threads may call this and the two functions below at once.
   const NodeBalls &balls(int n_threads) const;
-  // The nodes in clusters. The mesh must have at most max_clustered_nodes.
+  // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
-  // The edges in blocks of rows. The mesh must have an adjacency.
+  // Returns the edges in blocks of rows. The mesh must have an adjacency.
   const EdgeBlocks &edges(int n_threads) const;
 
   // Records a marking of these nodes. Returns true if clusters pay: a marking was recorded before, or clusters were made.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
-  // The surfaces that the caller was warned about because their sizes do not fit this mesh.
+  // Returns the surfaces that the caller was warned about because their sizes do not fit this mesh.
   Warned &warned() const { return warned_; }
 
  private:

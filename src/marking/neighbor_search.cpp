@@ -32,7 +32,7 @@ class NeighborSearch {
     walked_.prepare(nodes_.n, request.n_threads);
   }
 
-  // Adds a node to begin with. Each is queried once, however often it is added.
+  // Adds a node to begin at. A node is queried once, however often it is added.
   void begin_at(std::int64_t node) {
     if (!request_.is_masked_out(node) && walked_.claim(node)) view(walked_.queue)[n_queued_++] = node;
   }
@@ -56,7 +56,7 @@ class NeighborSearch {
       };
       for (std::int64_t k = range.begin; k < range.end; ++k) {
         const std::int64_t node = view(walked_.queue)[k];
-        if (!ask(node, thread)) continue;
+        if (!query(node, thread)) continue;
         adjacency_.for_each_neighbor(node, [&](std::int64_t j) {
           if (request_.is_masked_out(j) || !walked_.claim(j)) return;
           next.push_back(j);
@@ -121,7 +121,7 @@ class NeighborSearch {
         for (std::int64_t k = range.begin; k < range.end; ++k) {
           const std::int64_t node = view(balls.order)[k];
           if (request_.is_masked_out(node) || walked_.is_claimed(node) || is_far(balls, near, node)) continue;
-          ask(node, thread);
+          query(node, thread);
         }
       }
       n_unreached_.fetch_add(view(found).size() - n_before, std::memory_order_relaxed);
@@ -137,7 +137,7 @@ class NeighborSearch {
 
  private:
   // Queries the distance of a node. If it is within the limit, adds the node to the found ones and returns true.
-  bool ask(std::int64_t node, int thread) {
+  bool query(std::int64_t node, int thread) {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!distances_.may_be_within(p, limit_)) return false;
     ++view(walked_.threads)[thread].n_queries;

@@ -43,7 +43,7 @@ class NeighborScratch {
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);
-  // True for the first thread that claims the node.
+  // Returns true for the first thread that claims the node.
   bool claim(std::int64_t node) {
     std::atomic<std::uint8_t> &mark = marks_.get()[node];
     return mark.load(std::memory_order_relaxed) != walk_ && mark.exchange(walk_, std::memory_order_relaxed) != walk_;

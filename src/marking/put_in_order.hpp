@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns the lists of several threads into lists that ascend by node.
-// In: found nodes. Out: the nodes within the limit. Where the limit is wider than the half thickness, also the marked nodes.
+// In: found nodes. Out: the nodes within the limit. If the limit is wider than the half thickness, the marked nodes come also.
 #pragma once
 
 #include <cstdint>

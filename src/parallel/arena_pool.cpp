@@ -21,7 +21,7 @@ struct Pool {
   std::int64_t n_keepers = 0;
   std::size_t n_arenas = 0;
   PooledArena *idle = nullptr;  // a list, since giving back must not need memory
-  pid_t process = 0;            // the one that made them
+  pid_t process = 0;            // that made them
 };
 Pool pool;
 static_assert(std::is_trivially_destructible_v<Pool>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arenas that walks run in. An arena is kept for the next walk, because TBB frees an arena only after the workers that it
-// called have come and have found nothing to do. On a busy machine the workers do not come to a short walk. With a new arena
+// The arenas that walks run in. An arena is kept for the next walk. TBB frees an arena only after the workers that it called
+// have come and have found nothing to do. On a busy machine the workers do not come to a short walk. With a new arena
 // for each walk, the process grew by some kilobytes a walk without end (TBB 2021.8).
 #pragma once
 

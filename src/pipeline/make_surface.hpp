@@ -31,7 +31,7 @@ struct ValveAccuracy {
   const FixedTriangulation *fixed;  // null: triangles as large as the opening allows
 };
 
-// The state of a valve before the one that a surface is made of, for the velocity of the surface.
+// A valve's state before the present one. It gives the surface its velocity.
 struct ValveMotion {
   const Valve &before;
   Placement placement_before;
@@ -43,7 +43,7 @@ struct SurfaceSeconds {
 };
 
 // Both replace the content of `surface` and reuse its memory. After a failure the surface can only be made again.
-// The first fails as the stages of the pipeline do, and with RIIS_INVALID_PARAMETER for a valve without area or for a motion
+// The first fails as the stages of the pipeline do. RIIS_INVALID_PARAMETER also refuses a valve without area and a motion
 // between two valves of different builds. Without a motion the vertices have no velocity.
 SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, Surface &surface);

@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// The state before the one that is triangulated, and the time between them.
+// The state before the triangulated one, and the time between them.
 struct Motion {
   const PatchSet &patches_before;
   Placement placement_before;
@@ -25,9 +25,9 @@ struct MovedPatch {
   const Vector<Vec3> *offsets;  // O on each u line now; null for a Coons patch
 };
 
-// Returns S_now(u,v) - S_before(u,v) for every point of the grid, in the order of QuadGrid::points. Both are points of the
-// smooth patches on their sides and the same combination of these inside, so the label (u,v) is the only thing that the two
-// states share: a change of the triangles does not matter. Exactly 0 where neither the sides nor the bulge changed.
+// Returns S_now(u,v) - S_before(u,v) for every point of the grid, in the order of QuadGrid::points. On their sides
+// both are points of the smooth patches, and inside they are the same combination of these. The two states share only the label
+// (u,v), so a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
 Vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines);
 
 // The motion of one image of a patch in space: that of the patch, of the image and of the placement together.

@@ -399,7 +399,7 @@ bool Build::counts_as(const PatchSet &set) const {
 }
 
 PatchSet Build::counted(const PatchSet &set) const {
-  PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches};
+  PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches, set.seams, set.deviation};
   for (std::size_t i = 0; i < patches_.size(); ++i)
     for (const auto side : {&Patch::v0, &Patch::v1, &Patch::u0, &Patch::u1}) {
       const Side &from = set.patches[i].*side, &to = patches_[i].*side;

@@ -17,7 +17,7 @@ struct PatchPlan {
 
   GridLines lines;  // of a Coons patch
 
-  // Of a patch of arcs: the lines in u and the joints of the base that they move with, both at one of the openings. Between two
+  // A patch of arcs has the lines in u and the joints of the base that they move with, both at one of the openings. Between two
   // joints a line keeps its share of the way. Without joints the lines stay.
   Vector<double> u, joints;
   Vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error

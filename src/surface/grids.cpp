@@ -175,6 +175,13 @@ void check_precision(const PatchSet &set, double max_error) {
          " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error);
 }
 
+double error_left(const PatchSet &set, double max_error) {
+  if (!(set.deviation <= 0.5 * max_error))
+    fail(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to ", set.deviation,
+         ", which is more than half of tolerance * half_thickness before scaling, ", max_error);
+  return max_error - set.deviation;
+}
+
 double rows_for(double offset, double max_error) {
   return std::max(1.0, std::ceil(std::sqrt(0.5 * offset / (row_share * max_error))));
 }

@@ -14,8 +14,8 @@ namespace riis {
 // u curve, a v curve and merged grid lines, each bounded as below. At least 1 - 2 * (curve_share + merge_share) is left
 // for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// A point of a patch of arcs inherits the mean of two curves' errors, at most half of the error of O, and the error of
-// the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
+// The error of a point of a patch of arcs has three parts: the mean of two curves' errors, at most half of the error of O, and
+// the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 // Returns the rows that keep the chords of arcs with offsets up to `offset` within their share of max_error.
@@ -30,6 +30,10 @@ Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<
 
 // Fails with RIIS_LIMIT_EXCEEDED if lengths or coordinates of curves round by too much for max_error.
 void check_precision(const PatchSet &set, double max_error);
+
+// Returns max_error less the deviation of the curves from the shape that they stand for. Fails with RIIS_LIMIT_EXCEEDED if
+// the deviation takes more than half of it.
+double error_left(const PatchSet &set, double max_error);
 
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
 void check_count(double n_triangles, double max_error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Angle-weighted normals of vertices and edges tell on which side of a surface a point is, even if the closest point
-// lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
+// Angle-weighted normals of vertices and edges tell on which side of a surface a point is. They do so even if the closest
+// point lies on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted
 // pseudonormal", IEEE TVCG 11(3), 2005). On an open surface, "side" can only mean the side of the nearest piece.
 // The rim of the surface comes from the same edges and vertices.
 // In: triangles. Out: a normal for any closest point, and whether that point is on the rim.

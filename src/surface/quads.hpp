@@ -53,7 +53,7 @@ struct LevelledGrid {
 // Takes the levels of a plan, if there is one.
 LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned);
 
-// Lifts levels to those that the quads of a grid need for max_error. An empty list stands for levels of 0.
+// Lifts levels to the levels that the quads of a grid need for max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

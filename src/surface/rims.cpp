@@ -16,25 +16,14 @@ struct Use {
   PatchRim side;
 };
 
-bool are_equal(const Rotation &a, const Rotation &b) {
-  return a.row_x == b.row_x && a.row_y == b.row_y && a.row_z == b.row_z;
-}
-
-bool lies_in_mirror(const Curve &curve, Mirror mirror) {
-  if (mirror == Mirror::none) return false;
+// Returns whether both images put the curve in the same place: control points are equal there, to the last bit.
+bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
   for (const Bezier &piece : curve.pieces())
     for (int i = 0; i <= piece.degree; ++i) {
       const Vec3 q = view(piece.control)[i];
-      if ((mirror == Mirror::in_x ? q.x : q.y) != 0) return false;
+      if (!(place(a, q) == place(b, q))) return false;
     }
   return true;
-}
-
-// Returns whether both uses put the curve in the same place.
-bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
-  if (!are_equal(a.rotation, b.rotation) || !(a.translation == b.translation)) return false;
-  return a.mirror == b.mirror || (lies_in_mirror(curve, a.mirror == Mirror::none ? b.mirror : a.mirror) &&
-                                  (a.mirror == Mirror::none || b.mirror == Mirror::none));
 }
 
 }  // namespace
@@ -63,6 +52,14 @@ Vector<std::uint8_t> rim_sides(const PatchSet &set) {
       if (!is_shared) of_patch = static_cast<std::uint8_t>(of_patch | use->side);
     }
     first = last;
+  }
+  for (const Seam &seam : set.seams) {
+    const auto &images = set.patches[seam.patch].images;
+    for (const std::size_t i : {seam.image, seam.twin})
+      if (seam.is_whole_side) {
+        std::uint8_t &of_patch = view(sides)[images[i].patch_id];
+        of_patch = static_cast<std::uint8_t>(of_patch & ~rim_v1);
+      }
   }
   return sides;
 }

@@ -15,9 +15,9 @@ namespace riis {
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8 };
 
 // Returns the sides on the rim for each patch_id. Two patches share a side if it is the same curve and their images have the
-// same place. A patch shares a side with its own mirror image if the curve lies in the mirror's plane, and with itself if two
-// of its sides are one curve. Where patches only meet inside a side, as along the bending curve, nothing depends on vertices:
-// a T-junction is no rim.
+// same place. A patch shares a side with its own mirror image if the curve lies in the mirror's plane. It shares a side with
+// itself if two of its sides are one curve. Images also share the sides at which they are sewn together (Seam). Patches may also
+// meet inside a side, as along the bending curve. Nothing depends on vertices there, so a T-junction is no rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // Returns whether edge k, from corner k to the next, of a triangle lies on a side on the rim.

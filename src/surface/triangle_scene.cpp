@@ -33,8 +33,8 @@ struct Release {
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-// One device for all surfaces of the process, there as long as one of them is: creating one costs more than a small
-// scene. The default configuration leaves threads to the caller's TBB settings.
+// Returns the one device of all surfaces of the process, which lives as long as one of them: a device costs more than a
+// small scene. The default configuration leaves threads to the caller's TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -49,11 +49,11 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// Beyond this many half extents from the centre single precision separates nothing: all triangles are asked.
+// Beyond this many half extents from the centre single precision separates nothing: all triangles are queried.
 constexpr double far_away = 1e6;
 
-// The radius, in the frame's units, that makes Embree visit every triangle whose distance from q, as the kernel computes it, is at
-// most `distance`. Embree compares float sums of squares of the float point to outward-rounded boxes with the radius'
+// Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
+// `distance`. Embree compares float sums of squares of the float point to outward-rounded boxes with the radius'
 // square. With unit roundoff e = 2^-24 the point is off by at most sqrt(3) e max|q|; the subtractions, squares and sums are
 // right to a factor 1 + 6 e, the radius' square to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and 4 e max|q| cover these, with
 // the rounding of this function itself; `rounding` covers the kernel's; 2^-60 keeps the radius' square a normal float.
@@ -83,8 +83,8 @@ struct Query {
   ClosestTriangle best;
 };
 
-// Asks one triangle; true if it is the closest so far.
-bool ask(Query &query, std::int64_t triangle) {
+// Queries one triangle. Returns true if it is the closest so far.
+bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
   const double distance_sq =
       closest_point_on_triangle(query.p, {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}).distance_sq;
@@ -105,7 +105,7 @@ void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
   bounds->upper_z = group.upper[2];
 }
 
-// Within a group the filter leaves out what is farther than the radius: its distances are right to its error.
+// Queries the triangles of a group. The filter leaves out triangles farther than the radius: its distances are right to its error.
 bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);
   const TriangleGroups &groups = query.in->groups;
@@ -118,7 +118,7 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   const float reach = arguments->query->radius + 2 * error;
   bool is_closer = false;
   for (int i = 0; i < bounds.n; ++i)
-    if (distance_sq[i] <= reach * reach) is_closer = ask(query, bounds.triangle[i]) || is_closer;
+    if (distance_sq[i] <= reach * reach) is_closer = query_triangle(query, bounds.triangle[i]) || is_closer;
   if (!is_closer) return false;
   const float radius =
       inflated_radius(std::sqrt(query.best.distance_sq) * groups.frame.scale, query.q, query.in->rounding);
@@ -132,7 +132,7 @@ struct Collected {
   bool is_out_of_memory;
 };
 
-// Embree swallows exceptions.
+// Collects a group that Embree found. No exception may pass through Embree, so a lack of memory is noted.
 bool add_group(RTCPointQueryFunctionArguments *arguments) {
   auto &collected = *static_cast<Collected *>(arguments->userPtr);
   try {
@@ -143,8 +143,8 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
   return false;
 }
 
-// The kernel computes a point of the triangle, each coordinate right to a few units of rounding of the largest coordinate,
-// and from it a distance right to rounding of its own: 16 units cover the former with room.
+// Bounds the rounding of a distance. The kernel computes a point of the triangle, each coordinate right to a few units of
+// rounding of the largest coordinate. The distance from it is right to its own rounding. 16 units cover the former with room.
 double rounding_of_distances(const Bounds &bounds) {
   const Vec3 a = bounds.lower, b = bounds.upper;
   return 0x1p-49 * std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
@@ -177,7 +177,7 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
     rtcSetGeometryBoundsFunction(in.geometry.get(), bounds_of_group, nullptr);
     rtcAttachGeometry(in.scene.get(), in.geometry.get());
   } else {
-    // What moves is built more often, and asked less each time. The same groups keep their tree, with other boxes.
+    // A scene that moves is built more often, and queried less each time. The same groups keep their tree, with other boxes.
     rtcSetSceneFlags(in.scene.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(in.scene.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(in.geometry.get(),
@@ -207,15 +207,15 @@ ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet inst
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}};
   if (!(largest <= far_away)) {
-    // Also where the frame's units overflow. The surface is farther than its own size: most limits end here.
+    // The frame's units may overflow here. The surface is farther away than its own size, so most limits end here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
-    for (std::int64_t i = 0; i < n; ++i) ask(query, i);
+    for (std::int64_t i = 0; i < n; ++i) query_triangle(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // No limit that culls: some triangle's distance is one.
-      ask(query, 0);
+      // This limit culls nothing, so the distance of some triangle takes its place.
+      query_triangle(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }
     RTCPointQuery sphere;
@@ -241,7 +241,7 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   sphere.y = point[1];
   sphere.z = point[2];
   sphere.time = 0;
-  // Embree's own rounding, as in inflated_radius.
+  // The radius covers Embree's own rounding, as in inflated_radius.
   sphere.radius =
       radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   RTCPointQueryContext context;
@@ -260,7 +260,7 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
   const Vec3 from = all.frame(a), to = all.frame(b), middle = 0.5 * (from + to);
   const double radius = 0.5 * distance(from, to);
   const double largest = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z), radius});
-  if (!(largest <= far_away)) {  // also where the frame's units overflow
+  if (!(largest <= far_away)) {  // the frame's units may overflow here
     for (std::size_t i = 0; i < all.bounds.size(); ++i) found.push_back(static_cast<std::int32_t>(i));
   } else {
     const float point[3] = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles in an Embree scene, asked for closest points. The only file, with its .cpp, that names Embree.
+// Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp name Embree.
 // In: a triangle set, a point, a limit. Out: the closest triangle, equal to the brute force over the same kernel.
 //
-// Embree works in single precision. Here it only culls: coordinates are recentred and scaled by a power of two to the
-// size of the surface, boxes are rounded outwards, radii inflated by more than Embree's rounding; every candidate is
-// decided in double.
+// Embree works in single precision and only culls here. Coordinates are recentred and scaled by a power of two to the size of
+// the surface. Boxes are rounded outwards, and radii are inflated by more than Embree's rounding. Every candidate is decided in
+// double.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ class TriangleScene {
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
 
-  // Keeps a copy of the corners; the set may go. Again for triangles that moved, with the memory of those before. Fails with
-  // RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY as Embree says, and is of no use then.
+  // Makes the scene from a copy of the corners; the set may go. A second call, for triangles that moved, uses the memory of the
+  // first. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY, as Embree says. The scene is then fit for destruction only.
   void make(const TriangleSet &set, int n_threads);
 
-  // The closest triangle to p, if its distance is at most limit (>= 0, may be infinite); triangle -1 if there is none.
-  // p is finite with coordinates up to max_coordinate. May be called by several threads at once.
+  // Returns the closest triangle to p, or triangle -1 if none is within the limit (>= 0, may be infinite). p is finite, with
+  // coordinates up to max_coordinate. Several threads may call it at once.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set()) const;
 
-  // False only where no triangle is within the limit of p: a cheap question to the bounds, in double.
+  // Returns false only if no triangle is within the limit of p. It compares p with the bounds, in double, which is cheap.
   bool may_be_within(Vec3 p, double limit) const;
 
   const Bounds &bounds() const { return bounds_; }
@@ -43,8 +43,8 @@ class TriangleScene {
   // the point's coordinates are below 4e6.
   void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
 
-  // Calls visit(triangle) for triangles, by their positions in the set, among which are all that meet the segment from a to b.
-  // `found` is room. Coordinates are up to max_coordinate.
+  // Calls visit(triangle) for at least all triangles that meet the segment from a to b, by their positions in the set. `found`
+  // is scratch memory. Coordinates are up to max_coordinate.
   template <class Visit>
   void for_each_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found, const Visit &visit) const {
     found.clear();
@@ -54,7 +54,8 @@ class TriangleScene {
       for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
-  // How far a distance, as it is computed, may be off, beyond what is in proportion to it and to p: the triangles' coordinates round.
+  // Bounds how far a computed distance may be off because the triangles' coordinates round. Errors in proportion to the distance
+  // and to p come on top.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public for Embree's callbacks
@@ -64,7 +65,7 @@ class TriangleScene {
   void collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const;
 
   Bounds bounds_{};
-  double rounding_ = 0;  // of any distance to any point of the surface, beyond what is relative to the distance
+  double rounding_ = 0;  // as rounding() returns it
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -20,6 +20,8 @@ namespace {
 struct Piece {
   const LevelledGrid *levelled;
   const PatchImage *image;
+  const PatchImage *twin;  // null without a seam
+  const Seam *seam;
   std::int64_t first_vertex, first_triangle;
   std::int64_t n_triangles = 0;  // without triangles that turned out to have no area; there may be room for more
   std::int64_t n_zero_area = 0;
@@ -112,7 +114,8 @@ class PieceBuilder {
 
   void add_vertex(Vec3 p, double u, double v) {
     const std::int64_t at = piece_.first_vertex + n_vertices_++;
-    const Vec3 placed = place(how_.placement, place(*piece_.image, p));
+    const PatchImage &image = piece_.seam && piece_.seam->has(u, v) ? *piece_.twin : *piece_.image;
+    const Vec3 placed = place(how_.placement, place(image, p));
     double *xyz = set_.xyz.data() + 3 * at, *uv = set_.uv.data() + 2 * at;
     xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
     uv[0] = u, uv[1] = v;
@@ -256,6 +259,13 @@ Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces, const Vector<L
   return vanished;
 }
 
+// Returns the seam of an image, or null.
+const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
+  for (const Seam &seam : set.seams)
+    if (seam.patch == patch && seam.image == image) return &seam;
+  return nullptr;
+}
+
 // Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
 // there are none.
 Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
@@ -265,8 +275,10 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   double error_bound = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     error_bound = std::max(error_bound, grids[i].error_bound);
-    for (const PatchImage &image : set.patches[i].images) {
-      pieces.push_back({&grids[i], &image, n_vertices, n_triangles});
+    const auto &images = set.patches[i].images;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      const Seam *seam = seam_of(set, i, k);
+      pieces.push_back({&grids[i], &images[k], seam ? &images[seam->twin] : nullptr, seam, n_vertices, n_triangles});
       n_triangles += grids[i].n_triangles;
       n_vertices += grids[i].n_vertices;
       check_count(static_cast<double>(n_triangles), how.max_error);
@@ -284,7 +296,7 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   Vector<std::size_t> vanished = vanished_patches(pieces, grids);
   if (!vanished.empty()) return vanished;
   close_gaps(pieces, how.plan != nullptr, triangles);
-  triangles.error_bound = error_bound * how.placement.scale;
+  triangles.error_bound = (error_bound + set.deviation) * how.placement.scale;
   return vanished;
 }
 
@@ -327,7 +339,9 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
 
 }  // namespace
 
-TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory) {
+TriangleSet triangulate(const PatchSet &set, const Triangulation &asked, TriangleSet memory) {
+  Triangulation how = asked;
+  how.max_error = error_left(set, asked.max_error);
   if (how.motion) check_same_build(set, how.motion->patches_before);
   if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
   Vector<double> tightness(set.curves.size(), 1);
@@ -343,7 +357,8 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleS
   }
 }
 
-bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error) {
+bool is_within(const PatchSet &state, const TriangulationPlan &plan, double asked_error) {
+  const double max_error = error_left(state, asked_error);
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   const Vector<LevelledGrid> grids =
       make_levelled_grids(plan.build.counted(state), {max_error, in_place, false, 1, nullptr, &plan}, {});
@@ -353,7 +368,7 @@ bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_
 
 namespace {
 
-// Lifts the levels to those that a state needs.
+// Lifts the levels to the levels that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
   plan.levels.resize(grids.size());
@@ -372,7 +387,9 @@ Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Tria
 
 }  // namespace
 
-TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads) {
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
+  double max_error = asked_error;
+  for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
   // The rest is for openings between these.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "valve/aortic.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
+#include <string>
 
-#include "base/array_view.hpp"
-#include "base/errors.hpp"
-#include "geometry/placement.hpp"
-#include "valve/patches.hpp"
+#include "valve/cusp.hpp"
 
 namespace riis {
 namespace {
 
-// Positions in the list of specs below: parameters of the whole valve first, then parameters of each cusp.
+// Positions in the list of specs below: parameters of the whole valve first, then parameters of each cusp, then those of the
+// open state.
 // clang-format off
 enum General {
   root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
@@ -28,6 +24,9 @@ enum OfCusp {
 // clang-format on
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
+constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
+// The orifice is then 3.9 cm2, and no free edge changes by more than 5 % (docs/theory.md, section 3).
+constexpr CuspOpening default_opening{0.75, 0.05};
 
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
@@ -48,8 +47,8 @@ ValveKind make_kind() {
     {"t0_bending", length, "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-    opening_spec("0: this state, to 1: the state to open to (riis_valve_set_open_state), without which it stays 0", 0),
-  }, opening, false, check_values, make_patches, nullptr};
+    opening_spec("0: this state, to 1: the open state, that of riis_valve_set_open_state or that of the last two parameters", 0),
+  }, opening, true, check_values, make_patches, nullptr};
   const double table[n_cusps][n_of_cusp] = {
     {0.24, 1.365, 61.0, 1.58,   0.40, 1.390, 47.30, 1.82,      0.0, -1},
     {0.49, 1.495, 58.5, 2.77,   0.74, 1.355, 43.00, 4.12,    119.5, -1},
@@ -70,60 +69,29 @@ ValveKind make_kind() {
       {of + "translation", length, "shift of the cusp after its rotation", 3, {0, 0, value[translation]}, -longest, longest},
     });
   }
+  for (ParameterSpec &spec : cusp_opening_specs(default_opening)) kind.parameters.push_back(std::move(spec));
   return kind;
 }
 // clang-format on
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// Returns the free edge or the bending curve of half a cusp, y >= 0, in the cusp's frame. It runs from the symmetry
-// plane to the end at radius_out and angle, along the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power.
-Bezier profile_curve(double radius_in, double radius_out, double angle, double power, double height, double t0,
-                     double t3) {
-  const auto [sine, cosine] = sine_cosine_degrees(angle);
-  const Vec3 first{radius_in, 0, height}, last{radius_out * cosine, radius_out * sine, height};
-  const double chord_slope = (last.x - radius_in) / last.y;
-  const double first_slope = power > 1 ? 0 : chord_slope, last_slope = power * chord_slope;
-  return Bezier::cubic(first, first + t0 * Vec3{first_slope, 1, 0}, last - t3 * Vec3{last_slope, 1, 0}, last);
-}
-
-// Splits the curve at t and sets the common point to `point`, which is known to be on the curve. Other curves end
-// there, to the last bit.
-std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
-  auto [below, above] = split(curve, t);
-  view(below.control)[below.degree] = point;
-  above.control[0] = point;
-  return {below, above};
-}
-
-// The curves of half a cusp in the cusp's frame. Its symmetry plane is y = 0, the root is at z = 0, and z points to the aorta.
-struct HalfCusp {
-  Bezier leaflet, bending, sinus_below, sinus_above, symmetry_below, symmetry_above;
-};
-
-HalfCusp half_cusp(const ParameterValues &values, std::size_t cusp) {
+CuspShape shape_of(const ParameterValues &values, std::size_t cusp) {
   const auto general = [&](General parameter, std::size_t i = 0) { return values[parameter][i]; };
   const auto own = [&](OfCusp parameter) { return values[position_of(cusp, parameter)][0]; };
-  const double R = general(root_radius), h_l = general(leaflet_height), h_b = general(bending_height), s = h_b / h_l;
+  return {general(root_radius),
+          general(leaflet_height),
+          general(bending_height),
+          general(xq),
+          general(zq),
+          {own(leaflet_radius_in), own(leaflet_radius_out), own(leaflet_angle), own(leaflet_power),
+           general(t0_leaflet, cusp), general(t3_leaflet, cusp)},
+          {own(bending_radius_in), own(bending_radius_out), own(bending_angle), own(bending_power),
+           general(t0_bending, cusp), general(t3_bending, cusp)}};
+}
 
-  HalfCusp half;
-  half.leaflet = profile_curve(own(leaflet_radius_in), own(leaflet_radius_out), own(leaflet_angle), own(leaflet_power),
-                               h_l, general(t0_leaflet, cusp), general(t3_leaflet, cusp));
-  half.bending = profile_curve(own(bending_radius_in), own(bending_radius_out), own(bending_angle), own(bending_power),
-                               h_b, general(t0_bending, cusp), general(t3_bending, cusp));
-
-  // The sinus curve is the quadratic from the root point to the leaflet's end, through the bending curve's end at s.
-  const Vec3 root{R, 0, 0}, L = half.leaflet.last(), B = half.bending.last();
-  const Vec3 through = (1.0 / (2 * s * (1 - s))) * (B - (1 - s) * (1 - s) * root - s * s * L);
-  std::tie(half.sinus_below, half.sinus_above) = split_through(Bezier::quadratic(root, through, L), s, B);
-
-  // The symmetry curve is the cubic from the root point to the leaflet's middle, through the bending curve's middle at s.
-  const Vec3 b = half.bending.first(), D3 = half.leaflet.first();
-  const Vec3 D1{0.5 * (R + b.x) + general(xq) * (R - b.x), 0, 0.5 * h_b + general(zq) * h_b};
-  const double a = 1 - s;
-  const Vec3 D2 = (1.0 / (3 * a * s * s)) * (b - a * a * a * root - 3 * a * a * s * D1 - s * s * s * D3);
-  std::tie(half.symmetry_below, half.symmetry_above) = split_through(Bezier::cubic(root, D1, D2, D3), s, b);
-  return half;
+CuspOpening opening_of(const ParameterValues &values) {
+  return {values[open_radius_ratio][0], values[commissure_expansion][0]};
 }
 
 // Checks lengths against the root radius, and heights against each other.
@@ -144,69 +112,42 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Refuses a curve that reaches far away, and names the parameters that made it. Values that are sound one by one can do
-// that: a high power with a long tangent, or a bending curve near the root.
-void check_reach(const Bezier &curve, const char *what, const char *parameters, std::size_t cusp, double size) {
-  for (int i = 0; i <= curve.degree; ++i) {
-    const double reach = length(view(curve.control)[i]);
-    if (!(reach <= 5 * size))
-      fail(RIIS_INVALID_PARAMETER, "the ", cusp_names[cusp], " cusp's ", what, " curve reaches ", reach,
-           " from the root's middle, more than 5 times ", size,
-           ", the larger of root_radius and leaflet_height: look at ", parameters);
-  }
-}
+std::string name_of(std::size_t cusp) { return std::string("the ") + cusp_names[cusp] + " cusp"; }
 
 // Checks every curve of one state. Curves between two checked states lie between theirs.
 void check_values(const ParameterValues &values) {
   check_together(values);
-  const double size = std::max(values[root_radius][0], values[leaflet_height][0]);
-  const char *of_symmetry = "bending_height, leaflet_height, xq, zq, *_radius_in";
-  const char *of_sinus = "bending_height, leaflet_height, *_radius_out, *_angle";
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const HalfCusp half = half_cusp(values, cusp);
-    check_reach(half.leaflet, "leaflet", "leaflet_power, leaflet_angle, t0_leaflet, t3_leaflet, leaflet_radius_*", cusp,
-                size);
-    check_reach(half.bending, "bending", "bending_power, bending_angle, t0_bending, t3_bending, bending_radius_*", cusp,
-                size);
-    for (const Bezier *curve : {&half.symmetry_below, &half.symmetry_above})
-      check_reach(*curve, "symmetry", of_symmetry, cusp, size);
-    for (const Bezier *curve : {&half.sinus_below, &half.sinus_above})
-      check_reach(*curve, "sinus", of_sinus, cusp, size);
+    const CuspShape shape = shape_of(values, cusp);
+    check_reach(half_cusp(shape), shape, name_of(cusp), "");
   }
 }
 
+// Returns half a cusp of the open state that the valve's own parameters make.
+HalfCusp own_open_half(const ParameterValues &values, std::size_t cusp) {
+  const CuspShape shape = open_shape(shape_of(values, cusp), opening_of(values));
+  const HalfCusp half = half_cusp(shape);
+  check_reach(half, shape, "in the open state, " + name_of(cusp), ", open_radius_ratio, commissure_expansion");
+  return half;
+}
+
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
+  const bool has_own_open_state = &open == &closed;
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const HalfCusp half = half_cusp(closed.values, cusp), open_half = half_cusp(open.values, cusp);
-    const auto add = [&](const Curve &curve) {
-      set.curves.push_back(curve);
-      return Side{set.curves.size() - 1};
-    };
-    const auto add_blended = [&](Bezier HalfCusp::*curve) {
-      return add(blend(half.*curve, open_half.*curve, opening));
-    };
-    const Side root = add(Bezier::point(blend(half.symmetry_below.first(), open_half.symmetry_below.first(), opening)));
-    const Side symmetry_below = add_blended(&HalfCusp::symmetry_below);
-    const Side symmetry_above = add_blended(&HalfCusp::symmetry_above);
-    const Side bending = add_blended(&HalfCusp::bending), leaflet = add_blended(&HalfCusp::leaflet);
-    const Side sinus_below = add_blended(&HalfCusp::sinus_below), sinus_above = add_blended(&HalfCusp::sinus_above);
-
+    HalfCusp half = half_cusp(shape_of(closed.values, cusp));
+    // A valve that stays closed needs no open state.
+    if (opening != 0)
+      half =
+          blend(half, has_own_open_state ? own_open_half(closed.values, cusp) : half_cusp(shape_of(open.values, cusp)),
+                opening);
     // The frame has no control points: its angles and its shift are blended as numbers.
     const auto vector_of = [&](OfCusp parameter) {
       const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
-      return blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
+      return riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
     };
-    const Rotation turn = rotation_xyz(vector_of(rotation));
-    const Vec3 shift = vector_of(translation);
-    const auto images = [&](std::int32_t part) {
-      const auto leaflet_id = static_cast<std::int32_t>(cusp);
-      return Vector<PatchImage>{{Mirror::none, turn, shift, leaflet_id, 4 * leaflet_id + part},
-                                     {Mirror::in_y, turn, shift, leaflet_id, 4 * leaflet_id + part + 2}};
-    };
-    // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face: downstream.
-    set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0)});
-    set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1)});
+    add_cusps(set, half,
+              {{rotation_xyz(vector_of(rotation)), vector_of(translation), static_cast<std::int32_t>(cusp)}});
   }
   return set;
 }

@@ -47,9 +47,22 @@ struct Patch {
   double bulge = 0;
 };
 
+// Two images of one patch that have points of the side v1 in common: the whole side, or only its end at u1. Turning rounds, so
+// the image takes these points from its twin. Both then have the same bits.
+struct Seam {
+  std::size_t patch, image, twin;
+  bool is_whole_side;
+
+  bool has(double u, double v) const { return v == 1 && (is_whole_side || u == 1); }
+};
+
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
+  Vector<Seam> seams = {};  // at most one for each image
+  // Bounds the distance of the patches from the valve's shape, in the Hausdorff sense. It is not 0 for curves that stand
+  // for arcs of circles.
+  double deviation = 0;
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };

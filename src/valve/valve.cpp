@@ -9,7 +9,9 @@
 #include "base/errors.hpp"
 #include "base/nearest_name.hpp"
 #include "valve/aortic.hpp"
+#include "valve/bileaflet.hpp"
 #include "valve/mitral.hpp"
+#include "valve/trileaflet.hpp"
 
 namespace riis {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 // Cuts a name for a message, because it may be anything.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
-// The parameter that may have been meant, with its leaflet's name where the given name has one; "" if none is near.
+// Returns the parameter that may have been meant, or "" if none is near. It has its leaflet's name if the given name has one.
 std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
   const bool names_leaflet = name.find('.') != std::string_view::npos;
   NearestName nearest(name);
@@ -57,8 +59,11 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
 
 const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
+  if (name == "bileaflet") return bileaflet_valve_kind();
   if (name == "mitral") return mitral_valve_kind();
-  fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a kind of valve; there are: aortic, mitral");
+  if (name == "trileaflet") return trileaflet_valve_kind();
+  fail(RIIS_INVALID_PARAMETER, "'", shown(name),
+       "' is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet");
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {
@@ -89,7 +94,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec, name))
       fail(RIIS_INVALID_PARAMETER, "parameter '", spec.name.c_str() + (spec.name.size() - name.size()),
-           "' belongs to one leaflet each: ask for '", spec.name, "'");
+           "' belongs to one leaflet each: name one, as in '", spec.name, "'");
   fail_unknown(*kind_, name);
 }
 
@@ -139,8 +144,7 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
 PatchSet Valve::make_patches() const {
   if (opening() != 0 && !can_open())
     fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
-         " valve has one state only: give it another to open to with riis_valve_set_open_state or riis-mark "
-         "--params-open");
+         " valve has one state only: give it another to open to with riis_valve_set_open_state");
   if (kind_->check_values) {
     kind_->check_values(state_.values);
     if (open_) check_open_values();

@@ -41,7 +41,7 @@ struct ValveKind {
   // Refuses values that do not go together. NULL: all values go together.
   void (*check_values)(const ParameterValues &values);
   // Makes the patches at an opening from 0, the closed state, to 1, the open state, by blending control points. Both
-  // states have been checked; they may be the same.
+  // states have been checked. They are one object if the valve was given no other state to open to.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
   // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
   // states of the kind are built alike.
@@ -70,7 +70,7 @@ class Valve {
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Fails unless the other valve is this one, but for its opening. Names the first parameter that differs.
+  // Fails unless the other valve equals this one in all but the opening. Names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
   // Makes the patches at the current opening.

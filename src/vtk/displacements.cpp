@@ -43,7 +43,7 @@ vtkDataArray *displacements_in(const std::string &path, vtkAbstractArray *abstra
   return array;
 }
 
-// The arrays by their numbers, which are all different.
+// Returns the arrays by their numbers, which are all different.
 std::vector<Displacement> displacements_of(const std::string &path, vtkPointSet *data, const std::string &prefix) {
   std::vector<Displacement> found;
   for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i) {

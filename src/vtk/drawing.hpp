@@ -25,7 +25,7 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 // Each face has the colour that the cell scalars, three bytes each, give it.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
-// The faces with normals at their corners that hide the edges between them, but not the sharp ones.
+// Returns the faces with normals at their corners that hide the edges between them, but not the sharp ones.
 vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData *faces);
 
 // The font of all texts; size is in pixels.

@@ -15,7 +15,7 @@
 namespace riis::vtk {
 namespace {
 
-// The edges that VTK gives for other cells are useless here, or not safe to query.
+// Tells whether VTK's edges of such a cell serve here. Those of other cells are useless, or not safe to query.
 bool has_straight_edges(int type) {
   switch (type) {
     case VTK_TRIANGLE:

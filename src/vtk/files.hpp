@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files before and after VTK sees them: endings, checks whether a file can be read and is complete, and writing beside the final
-// place.
+// Endings of files, checks that a file can be read and is complete, and writing beside the final place. VTK does the rest.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ class FirstCells {
   std::vector<std::size_t> ends_;  // of each cell, in ids_
 };
 
-// The corners of triangles without vertices of their own, as in .stl files. Those at one place in the first file are one vertex.
+// The corners of triangles without vertices of their own, as in .stl files. Corners at one place in the first file are one vertex.
 class MergedCorners {
  public:
   // Merges the vertices of the faces, which are numbered by their first corners.

@@ -23,7 +23,7 @@ struct Frames {
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
 };
 
-// Where the leaflet ids of the faces come from: a cell array, which must be there if it is required.
+// The cell array that gives the faces' leaflet ids. It must be there if it is required.
 struct LeafletArray {
   std::string name;
   bool is_required;

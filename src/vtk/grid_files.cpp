@@ -154,7 +154,7 @@ class WatchedReader : public Reader {
 };
 
 // VTK 9.1 crashes while it writes the message about an array that it cannot read. So the first reader runs with messages off. A
-// second reader, which leaves the arrays out, then says what is wrong with the rest.
+// second reader, which leaves the arrays out, then names the fault of the rest.
 template <class Reader>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Reader> reader;
@@ -187,7 +187,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   const std::int64_t n_cells = check_legacy(path);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
-  // By default the reader keeps only one array of each kind.
+  // The reader's default is to keep only one array of each kind.
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
   reader->ReadAllNormalsOn();

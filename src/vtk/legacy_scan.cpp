@@ -25,7 +25,7 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the bytes of one value in a binary file, or 0 for types of varying size.
+// Returns the bytes of one value in a binary file, 0 for types of varying size, or -1 for an unknown type.
 int size_of_type(const std::string &type) {
   static const std::map<std::string, int> sizes = {{"char", 1},
                                                    {"signed_char", 1},
@@ -49,8 +49,8 @@ int size_of_type(const std::string &type) {
   return found == sizes.end() ? -1 : found->second;
 }
 
-// Tells whether VTK takes the whole word for a number of the type. VTK reads by streams, which refuse infinite or too large
-// numbers.
+// Tells whether VTK takes the whole word for a number of the type. VTK reads by streams, which refuse infinite and too large
+// numbers, and take too small ones.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const char *const first = word.data(), *const last = first + word.size();
@@ -441,7 +441,7 @@ class Scan {
     }
   }
 
-  // A polyhedron has n numbers: the number of its faces, then for each face the number of its points and the points.
+  // Checks the n numbers of a polyhedron: the number of its faces, then for each face the number of its points and the points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell " + std::to_string(cell) + " has broken polyhedron faces"); };
     if (n < 1) broken();

@@ -36,7 +36,7 @@ void make_points_double(vtkUnstructuredGrid *grid) {
   grid->SetPoints(points);
 }
 
-// The core's message names a field of its own struct, but the caller gave a plain argument.
+// Throws the core's error without the name of its struct, because the caller gave a plain argument.
 void check_adjacency(riis_status status, const std::string &structure) {
   if (status == RIIS_OK) return;
   const std::string text = riis_last_error();

@@ -46,7 +46,7 @@ Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::in
   return chosen;
 }
 
-// The cells with a chosen node. Their other nodes are then chosen also.
+// Returns the cells with a chosen node, and also chooses their other nodes.
 std::vector<vtkIdType> cells_around(vtkUnstructuredGrid *grid, Chosen &chosen) {
   const Chosen wanted = chosen;
   std::vector<vtkIdType> cells;
@@ -81,7 +81,7 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Numbers the corners anew. Of a polyhedron the stream of faces holds the corners: number of faces, then each face's size and
+// Numbers the corners anew. A polyhedron's stream of faces holds its corners: number of faces, then each face's size and
 // nodes.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {

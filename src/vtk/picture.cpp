@@ -76,7 +76,7 @@ struct riis_vtk_film {
   riis::vtk::HeldDisplay display;  // held for as long as the scene's window
   std::int32_t view;
   riis::vtk::Bounds bounds;
-  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; NULL without one
+  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; its grid is NULL without one
   riis::vtk::Scene scene;
 };
 

@@ -29,7 +29,7 @@ std::vector<Side> cut_sides(const Sight &sight) {
   return sides;
 }
 
-// The stretches of the side's line that lie inside the boundary, sorted and disjoint.
+// Returns the stretches of the side's line that lie inside the boundary, sorted and disjoint.
 std::vector<Extent> crossings(const View &view, const Side &side, vtkPolyData *boundary) {
   std::vector<Extent> all;
   const Vector &across = view.axes[side.axis], &along = view.axes[1 - side.axis];

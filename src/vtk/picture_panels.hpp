@@ -52,7 +52,7 @@ class MarksPanel {
  public:
   // pixels is the width of a line.
   MarksPanel(vtkUnstructuredGrid *grid, double pixels);
-  // Replaces the marks shown before by those that the grid's point arrays have now. leaking_edges(2, n_leaking_edges) holds
+  // Replaces the marks shown before by the present marks of the grid's point arrays. leaking_edges(2, n_leaking_edges) holds
   // checked node ids.
   void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }

@@ -48,8 +48,8 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// The sight holds the surface. Along each axis where the mesh is not much larger, it also holds the mesh, so that pictures of a
-// valve that moves in one mesh can be compared. Along other axes it holds the surface's neighbourhood.
+// The sight holds the surface. Along each axis where the mesh is not much larger, it also holds the mesh. So pictures of
+// a valve that moves in one mesh can be compared. Along other axes it holds the surface's neighbourhood.
 //   mesh    NULL: none
 //   aspect  the panel's width over its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);

@@ -35,7 +35,7 @@ std::string message_of(const std::string &vtk_text) {
   return line;
 }
 
-// A path may hold any byte, but a message is one line.
+// Makes a text fit for a message, which is one line. A path may hold any byte.
 std::string printable(std::string text) {
   for (char &c : text) {
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';

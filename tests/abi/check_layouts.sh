@@ -62,7 +62,7 @@ case $verb in
       exit 1
     fi
     if [ -n "$library" ] && ! diff <(exported "$described") <(exported "$library"); then
-      echo "< exported by the sources that tests/abi/CMakeLists.txt names, > by $library: put the others there, too" >&2
+      echo "< exported by the sources that tests/abi/CMakeLists.txt names, > by $library: also put the others there" >&2
       exit 1
     fi
     status=0

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols.sh LIST HEADER LIBRARY
 # The list has a line for every function that a release exported, "NAME VERSION", and for every constant, "NAME = VALUE
-# VERSION". The version is the one that it came with. Compiled callers contain these names and values. So everything in the list
+# VERSION". It is the version that the name came with. Compiled callers contain these names and values. So everything in the list
 # must be in the library and the header, and the other way round.
 set -euo pipefail
 list=$1 header=$2 library=$3
@@ -33,7 +33,7 @@ there=$({
 gone=$(comm -23 <(echo "$listed") <(echo "$there"))
 new=$(comm -13 <(echo "$listed") <(echo "$there"))
 if [ -n "$gone" ]; then
-  printf 'programs that were compiled with a release need what is gone or changed: %s\n' "$gone" >&2
+  printf 'programs that were compiled with a release need names that are gone or changed: %s\n' "$gone" >&2
   failed=1
 fi
 if [ -n "$new" ]; then

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols_judged.sh LIBRARY SCRATCH
 # check_symbols.sh must refuse a function or constant that is gone or has another name or value, in the library and in the
-# header. It must also refuse one that the list lacks.
+# header. It must also refuse a name that the list lacks.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../.. library=$1 scratch=$2
@@ -23,7 +23,7 @@ refused() {
 }
 list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 "$here/check_symbols.sh" "$list" "$header" "$library"
-# A function that a later library dropped looks like one that the list has and the library lacks.
+# If a later library dropped a function, the list has it and the library lacks it.
 (cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
 refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
 grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"

@@ -177,6 +177,21 @@ static void test_structs(void **state) {
   FIELD(riis_mark_stats, instructions, 52, 4);
   FIELD(riis_mark_stats, n_unreached, 56, 8);
 
+  SIZE(riis_crossing_options, 24);
+  FIELD(riis_crossing_options, struct_size, 0, 8);
+  FIELD(riis_crossing_options, depth, 8, 8);
+  FIELD(riis_crossing_options, n_threads, 16, 4);
+  FIELD(riis_crossing_options, reserved, 20, 4);
+
+  SIZE(riis_crossings, 80);
+  FIELD(riis_crossings, n_pairs, 0, 8);
+  FIELD(riis_crossings, length, 8, 8);
+  FIELD(riis_crossings, depth, 16, 8);
+  FIELD(riis_crossings, point, 24, 24);
+  FIELD(riis_crossings, triangle_id, 48, 16);
+  FIELD(riis_crossings, leaflet_id, 64, 8);
+  FIELD(riis_crossings, seconds, 72, 8);
+
   SIZE(riis_leaks, 72);
   FIELD(riis_leaks, n_edges, 0, 8);
   FIELD(riis_leaks, longest_node_id, 8, 16);
@@ -310,6 +325,9 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LEAFLET_NON_CORONARY, 2);
   assert_int_equal(RIIS_LEAFLET_ANTERIOR, 0);
   assert_int_equal(RIIS_LEAFLET_POSTERIOR, 1);
+  assert_int_equal(RIIS_LEAFLET_POSITIVE, 0);
+  assert_int_equal(RIIS_LEAFLET_NEGATIVE, 1);
+  assert_int_equal(RIIS_LEAFLET_HOUSING, 2);
   assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
   assert_int_equal(RIIS_DISTANCE_TRIANGLES, 0);
@@ -420,6 +438,10 @@ static void test_signatures(void **state) {
       (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *, riis_leaks *, int64_t));
   SIGNATURE(riis_mark_result_leaking_edges, int32_t,
             (const riis_mark_result *, int64_t *, const int64_t **, const double **, const double **));
+  SIGNATURE(riis_crossing_options_init, int32_t, (riis_crossing_options *, int64_t));
+  SIGNATURE(riis_find_crossings, int32_t, (riis_surface *, const riis_crossing_options *, riis_crossings *, int64_t));
+  SIGNATURE(riis_surface_crossing_pairs, int32_t,
+            (const riis_surface *, int64_t *, const int64_t **, const double **, const double **, const double **));
   SIGNATURE(riis_valve_copy, int32_t, (const riis_valve *, riis_valve **));
   SIGNATURE(riis_surface_update_moving, int32_t,
             (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,

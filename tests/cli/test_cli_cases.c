@@ -241,7 +241,7 @@ static void test_refused_cases(void **state) {
                       "{\"valve\": \"mitral\", \"parameters\": {\"anulus\": 1}}", "");
   expect_case_refused("opening is 0.5, but the aortic valve has one state only",
                       "{\"valve\": \"aortic\", \"opening\": 0.5}", "");
-  expect_case_refused("surface: one that moves needs times", "{\"surface\": \"a.pvd\"}", "");
+  expect_case_refused("surface: a surface that moves needs times", "{\"surface\": \"a.pvd\"}", "");
   expect_case_refused("period: it needs a \"surface\" that moves", "{\"surface\": \"a.stl\", \"period\": 1}", "");
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"mitral\"}]}");
   RUN_REFUSED(1, "mesh: it is missing", "--case", scratch_path("case.json"));

@@ -58,7 +58,7 @@ static void test_times(void **state) {
   expect_sheet(moved, 0.75, 1, 2);
   RUN_FINE("--surface", scratch_path("sheet.pvd"), "--time", "-7", "--surface-output", moved);
   expect_sheet(moved, 0, 0, 1);
-  /* By the period it goes back to the first frame in half a second. */
+  /* The period takes it back to the first frame in half a second. */
   RUN_FINE("--surface", scratch_path("sheet.pvd"), "--time", "9.25", "--period", "1.5", "--surface-output", moved);
   expect_sheet(moved, 0.5, -2, 1);
   RUN_FINE("--surface", scratch_path("closed.pvd"), "--time", "2.75", "--period", "1", "--surface-output", moved);

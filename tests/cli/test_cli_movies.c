@@ -67,7 +67,7 @@ static void expect_whole_picture(const char *name) {
   assert_true(n_coloured[0] > 20000 && n_coloured[1] > 20000);
 }
 
-/* The frames that the encoder gets, kept by one that copies them. */
+/* The frames that the encoder gets: a false encoder copies them. */
 static void test_frames(void **state) {
   (void)state;
   static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",

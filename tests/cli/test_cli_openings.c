@@ -165,8 +165,8 @@ static void test_refusals(void **state) {
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", mesh, "--valve", "mitral", "--set",
               "left.leaflet_angle=3");
-  RUN_REFUSED(1, "is not a kind of valve; there are: aortic, mitral, and files of patches, FILE.json", mesh, "--valve",
-              "tricuspid");
+  RUN_REFUSED(1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json", mesh,
+              "--valve", "tricuspid");
   /* No input is replaced. */
   RUN_REFUSED(2, "is also the file of --params-open", mesh, "--params-open", file, "--opening", "0", "--stats", file);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --times: what is refused, by status and text, before any file is written; and a series that is interrupted. */
+ * --times: refusals before any file is written, by status and message; and a series that is interrupted. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -35,7 +35,7 @@ static void test_same_file_twice(void **state) {
   RUN_REFUSED(2, "is also the file of --output", mesh, "--output", out, "--stats", out);
   RUN_REFUSED(2, "is also the file of --picture", mesh, "--picture", "a.png", "--picture", "./a.png");
   RUN_REFUSED(2, "is also the file of --surface-output", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
-  /* By another name. */
+  /* The file has another name here. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
   RUN_REFUSED(2, "is also the file of MESH", mesh, "--stats", scratch_path("link.vtu"));

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static riis_valve *valve, *thin_valve;
-static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *moving, *framed;
+static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *moving, *framed, *crossed;
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
 static riis_mark_result *result, *leaking, *resisting;
@@ -286,6 +286,22 @@ static riis_status find_leaks(twin_leaks *leaks) {
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
+/* The right cusp is turned into its neighbours. */
+static riis_status find_crossings(twin_crossings *crossings) {
+  const double turned[3] = {0, 0, 60};
+  riis_valve *crossing_valve = NULL;
+  riis_crossing_options options;
+  TRY(riis_valve_create("aortic", &crossing_valve));
+  TRY(riis_valve_set(crossing_valve, "right.rotation", 3, turned));
+  TRY(riis_surface_create(crossing_valve, NULL, &crossed));
+  riis_valve_destroy(&crossing_valve);
+  TRY(riis_crossing_options_init(&options, sizeof options));
+  options.depth = 1e-3;
+  TRY(riis_find_crossings(crossed, &options, &crossings->sum, sizeof crossings->sum));
+  return riis_surface_crossing_pairs(crossed, &crossings->n, &crossings->triangle_id, &crossings->point,
+                                     &crossings->depth, &crossings->length);
+}
+
 static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
   const int64_t n_nodes = per_side * per_side * per_side;
   const uint8_t *node_mask = mask_every_seventh(n_nodes);
@@ -424,6 +440,7 @@ riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers)
   TRY(mark(n_nodes, xyz, numbers));
   TRY(resist(n_nodes, xyz, &numbers->motion));
   TRY(move_by_frames(&numbers->motion));
+  TRY(find_crossings(&numbers->crossings));
   TRY(open_by_laws(&numbers->laws));
   return walk_along_all(per_side, numbers);
 }
@@ -432,6 +449,7 @@ void twin_end(void) {
   riis_mark_result_destroy(&resisting);
   riis_surface_destroy(&moving);
   riis_surface_destroy(&framed);
+  riis_surface_destroy(&crossed);
   riis_mark_result_destroy(&leaking);
   riis_surface_destroy(&thin);
   riis_valve_destroy(&thin_valve);

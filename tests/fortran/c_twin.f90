@@ -5,7 +5,8 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_walk, twin_leaks, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
+  public :: twin_list, twin_surface, twin_walk, twin_leaks, &
+    twin_crossings, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
     twin_layout, twin_n_layouts, twin_auto, twin_far_distance
 
   type, bind(c) :: twin_list
@@ -29,6 +30,12 @@ module c_twin
     integer(c_int64_t) :: n
     type(c_ptr) :: node_id, length, distance
   end type twin_leaks
+
+  type, bind(c) :: twin_crossings
+    type(riis_crossings) :: sum
+    integer(c_int64_t) :: n
+    type(c_ptr) :: triangle_id, point, depth, length
+  end type twin_crossings
 
   type, bind(c) :: twin_motion
     type(twin_surface) :: surface
@@ -59,6 +66,7 @@ module c_twin
     type(twin_walk) :: cells, faces, grid
     type(riis_mark_stats) :: paper
     type(twin_leaks) :: leaks
+    type(twin_crossings) :: crossings
     type(twin_motion) :: motion
     type(twin_laws) :: laws
   end type twin_numbers

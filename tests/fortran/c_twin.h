@@ -36,7 +36,15 @@ typedef struct twin_leaks {
   const double *length, *distance;
 } twin_leaks;
 
-/* An aortic valve that opens, and what is computed with its fields. */
+/* The pairs of triangles that go through each other. */
+typedef struct twin_crossings {
+  riis_crossings sum;
+  int64_t n;
+  const int64_t *triangle_id;
+  const double *point, *depth, *length;
+} twin_crossings;
+
+/* An aortic valve that opens, and the results computed with its fields. */
 typedef struct twin_motion {
   twin_surface surface;
   const double *vertex_velocity;
@@ -74,6 +82,7 @@ typedef struct twin_numbers {
   twin_walk cells, faces, grid; /* RIIS_SEARCH_NEIGHBOR */
   riis_mark_stats paper;        /* RIIS_SEARCH_PAPER along the grid */
   twin_leaks leaks;             /* of a thin aortic valve, along the tetrahedra */
+  twin_crossings crossings;     /* of an aortic valve with a cusp that is turned */
   twin_motion motion;
   twin_laws laws;
 } twin_numbers;

@@ -59,6 +59,7 @@ program test_calls
   call test_marking()
   call test_motion()
   call test_keyframes()
+  call test_crossings()
   call test_laws()
   call test_mixed_cells()
   call test_adjacency()
@@ -84,7 +85,7 @@ contains
     write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
     call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
     patch = -1
-    call riis_version(patch=patch) ! what is left out is NULL
+    call riis_version(patch=patch) ! an argument that is left out is NULL
     call check(patch >= 0, 'the patch version alone')
     do i = 1, size(statuses)
       call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
@@ -354,7 +355,7 @@ contains
     call check_ok(riis_surface_update_from_arrays(plate, arrays, options), 'update a surface from triangles')
     call riis_set_log(c_null_funptr, c_null_ptr)
     call check(log%n_warnings == 1 .and. index(last_warning, 'zero area') > 0, 'a warning of the skipped triangle')
-    call check(log%n_messages > log%n_warnings, 'information is logged, too')
+    call check(log%n_messages > log%n_warnings, 'information is also logged')
     n_before = log%n_messages
     call check_ok(riis_surface_update_from_arrays(plate, arrays), 'update with the options that the surface has')
     call check(log%n_messages == n_before, 'silence after the log function is taken away')
@@ -869,6 +870,40 @@ contains
     call riis_valve_destroy(thin_valve)
   end subroutine test_leaks
 
+  ! Of an aortic valve whose right cusp is turned into its neighbours.
+  subroutine test_crossings()
+    type(riis_crossing_options) :: options
+    type(riis_crossings), target :: crossings
+    type(twin_crossings) :: list
+    type(c_ptr) :: crossed, valve
+
+    crossed = c_null_ptr
+    valve = c_null_ptr
+    call check_ok(riis_valve_create(riis_c_string('aortic'), valve), 'create a valve')
+    call check_ok(riis_valve_set(valve, riis_c_string('right.rotation'), 3_c_int64_t, [0d0, 0d0, 60d0]), 'turn a cusp')
+    call check_ok(riis_surface_create(valve, surface=crossed), 'create a surface that crosses itself')
+    call check_ok(riis_crossing_options_init(options, c_sizeof(options)), 'default crossing options')
+    call check(abs(options%depth - 1d-6) < 1d-20 .and. options%n_threads == 0, 'the default depth')
+    options%depth = 2
+    crossings%n_pairs = -7
+    call check_refused(riis_find_crossings(crossed, options, crossings, c_sizeof(crossings)), RIIS_INVALID_ARGUMENT, &
+      'options.depth is 2')
+    call check(crossings%n_pairs == -7, 'refused calls write nothing')
+    options%depth = 1d-3
+    call check_ok(riis_find_crossings(crossed, options, crossings, c_sizeof(crossings)), 'find crossings')
+    list%n = 0
+    call check_ok(riis_surface_crossing_pairs(crossed, list%n, list%triangle_id, list%point, list%depth, list%length), &
+      'the pairs that cross')
+    call check(list%n > 0 .and. list%n == twin%crossings%n .and. crossings%seconds > 0, 'as many pairs as from C')
+    call check_same_bytes(c_loc(crossings), c_loc(twin%crossings%sum), 72_c_int64_t, 'the summary')
+    call check_same_bytes(list%triangle_id, twin%crossings%triangle_id, 16 * list%n, 'triangles that cross')
+    call check_same_bytes(list%point, twin%crossings%point, 24 * list%n, 'where they cross')
+    call check_same_bytes(list%depth, twin%crossings%depth, 8 * list%n, 'their depths')
+    call check_same_bytes(list%length, twin%crossings%length, 8 * list%n, 'their lengths')
+    call riis_surface_destroy(crossed)
+    call riis_valve_destroy(valve)
+  end subroutine test_crossings
+
   ! Every cube of the grid as six tetrahedra, each along a path from its first corner to its last.
   subroutine make_tetrahedra(adjacency)
     type(c_ptr), intent(inout) :: adjacency
@@ -935,7 +970,7 @@ contains
 
   subroutine set_adjacency(adjacency)
     type(c_ptr), intent(in) :: adjacency
-    type(riis_csr) :: csr ! may go: what is borrowed are its arrays
+    type(riis_csr) :: csr ! may go: only its arrays are borrowed
     call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
     call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set an adjacency')
   end subroutine set_adjacency

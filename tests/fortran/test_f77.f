@@ -282,6 +282,7 @@ C     Leaks.
       CALL RIISF_ADJACENCY_FROM_GRID(M, M, M, 1, ADJ, STAT)
       CALL OK(STAT)
       CALL LEAKS(VALVE, MESH, ADJ)
+      CALL CROSS
       CALL RIISF_ADJACENCY_DESTROY(ADJ)
 
 C     Motion and resistance.
@@ -304,7 +305,7 @@ C     The valve moves, and all goes.
       CALL RIISF_SURFACE_DESTROY(SURF)
       CALL RIISF_VALVE_DESTROY(VALVE)
       IF (RES .NE. 0 .OR. MESH .NE. 0 .OR. SURF .NE. 0) CALL
-     &  FAILED('what is destroyed is 0')
+     &  FAILED('a destroyed handle is 0')
       CALL RIISF_MARKED(RES, NN, N2, NODE2, DIST2, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'result is NULL')
       PRINT *, N, ' nodes marked'
@@ -343,6 +344,58 @@ C     Marks with an adjacency, then destroys it.
       CALL OK(STAT)
       CALL RIISF_ADJACENCY_DESTROY(ADJ)
       IF (ADJ .NE. 0) CALL FAILED('a destroyed adjacency')
+      END
+
+C     The right cusp is turned into its neighbours.
+      SUBROUTINE CROSS
+      INTEGER*8 VALVE, SURF, NPAIRS, N3, TRI3(2,5000)
+      INTEGER STAT, N, I, TRI(2,5000)
+      DOUBLE PRECISION LONG, DEEP, AT(3), TURN(3), AXIS(3), ZERO(3)
+      DOUBLE PRECISION PLACE(3,5000), DEPTH(5000)
+      DATA AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/, TURN /2*0D0, 60D0/
+      SAVE TRI, TRI3, PLACE, DEPTH
+      INCLUDE 'riisf.h'
+      VALVE = 0
+      SURF = 0
+      CALL RIISF_VALVE_CREATE('aortic', VALVE, STAT)
+      CALL OK(STAT)
+      CALL RIISF_VALVE_SET(VALVE, 'right.rotation', 3, TURN, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_CREATE(VALVE, RIIS_AUTO, 0.05D0, 1D0, AXIS,
+     &  0D0, ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL RIISF_FIND_CROSSINGS(SURF, -1D0, 1, NPAIRS, LONG, DEEP, AT,
+     &  STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'options.depth is -1')
+      CALL RIISF_FIND_CROSSINGS(SURF, 1D-6, 1, NPAIRS, LONG, DEEP, AT,
+     &  STAT)
+      CALL OK(STAT)
+      IF (NPAIRS .LT. 10 .OR. LONG .LT. 0.1D0 .OR. DEEP .LT. 1D-3 .OR.
+     &  ABS(AT(3)) .GT. 3D0) CALL FAILED('crossings')
+      N = 0
+      CALL RIISF_CROSSING_PAIRS(SURF, 5, N, TRI, PLACE, DEPTH, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'pairs that cross: ')
+      IF (N .NE. NPAIRS) CALL FAILED('the number of pairs')
+      CALL RIISF_CROSSING_PAIRS(SURF, 5000, N, TRI, PLACE, DEPTH, STAT)
+      CALL OK(STAT)
+      CALL RIISF_CROSSING_PAIRS_64(SURF, INT(5, 8), N3, TRI3, PLACE,
+     &  DEPTH, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'pairs that cross: ')
+      CALL RIISF_CROSSING_PAIRS_64(SURF, INT(5000, 8), N3, TRI3, PLACE,
+     &  DEPTH, STAT)
+      CALL OK(STAT)
+      IF (N .NE. NPAIRS .OR. N3 .NE. N) CALL FAILED('as many pairs')
+      DO 10 I = 1, N
+        IF (TRI(1,I) .LT. 1 .OR. TRI(1,I) .GE. TRI(2,I) .OR.
+     &    DEPTH(I) .GT. DEEP .OR. DEPTH(I) .LE. 0D0)
+     &    CALL FAILED('a pair')
+        IF (TRI3(1,I) .NE. TRI(1,I) .OR. TRI3(2,I) .NE. TRI(2,I))
+     &    CALL FAILED('the same pairs')
+        IF (DEPTH(I) .EQ. DEEP .AND. (PLACE(1,I) .NE. AT(1) .OR.
+     &    PLACE(3,I) .NE. AT(3))) CALL FAILED('the deepest pair')
+   10 CONTINUE
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      CALL RIISF_VALVE_DESTROY(VALVE)
       END
 
 C     A thin valve, and edges that cross it between unmarked nodes.
@@ -589,7 +642,7 @@ C     K, K u and the reaction to a flow of 6 upwards.
      &  RIIS_SEARCH_AUTO, 1, RIIS_FIELD_SIDE, RES, STAT)
       CALL OK(STAT)
       CALL RIISF_MARKED_INTEGERS(RES, RIIS_FIELD_RIM, NN, I, RIM, STAT)
-      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'was not asked for')
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'did not keep')
       CALL RIISF_ADD_MOVING_RESISTANCE(RES, 3D0, RIIS_AUTO,
      &  RIIS_RIM_ROUND, NN, K2, KU, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'RIIS_FIELD_VELOCITY')

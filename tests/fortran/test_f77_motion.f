@@ -413,7 +413,7 @@ C     As many vertices at any opening, or not.
    10 CONTINUE
       END
 
-C     Marks what is not written.
+C     This value marks entries that are not written.
       SUBROUTINE NOTHING(N, D, Q, NORMAL, TRI, LEAF, SIDE)
       INTEGER N, LEAF(N), SIDE(N), I, C
       INTEGER*8 TRI(N)

@@ -183,7 +183,8 @@ contains
     call keyframes%destroy()
   end subroutine test_bad_keyframes
 
-  ! By xyz and by x, y, z; by ids of either kind; at first and later. The placement turns velocities about z and doubles them.
+  ! Velocities come by xyz or x, y, z, with ids of either kind, at first and later. The placement turns them about z and doubles
+  ! them.
   subroutine test_velocities_of_arrays()
     type(riis_surface) :: surface
     real(c_double), pointer :: velocity(:, :)

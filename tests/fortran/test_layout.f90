@@ -23,6 +23,8 @@ program test_layout
   type(riis_mark_stats), target :: ms
   integer :: n_compared = 0
   type(riis_leaks), target :: lk
+  type(riis_crossing_options), target :: xo
+  type(riis_crossings), target :: xs
   type(riis_mark_fields), target :: mf
   type(riis_resistance), target :: re
   type(riis_band_sums), target :: bs
@@ -56,6 +58,11 @@ program test_layout
     at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
     at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene)), &
     at(c_loc(si%error_bound))])
+  call compare('riis_crossing_options', c_sizeof(xo), c_loc(xo), [at(c_loc(xo%struct_size)), at(c_loc(xo%depth)), &
+    at(c_loc(xo%n_threads)), at(c_loc(xo%reserved))])
+  call compare('riis_crossings', c_sizeof(xs), c_loc(xs), [at(c_loc(xs%n_pairs)), at(c_loc(xs%length)), &
+    at(c_loc(xs%depth)), at(c_loc(xs%point)), at(c_loc(xs%triangle_id)), at(c_loc(xs%leaflet_id)), &
+    at(c_loc(xs%seconds))])
   call compare('riis_closest', c_sizeof(c), c_loc(c), [at(c_loc(c%distance)), at(c_loc(c%point)), &
     at(c_loc(c%barycentric)), at(c_loc(c%normal)), at(c_loc(c%triangle_id)), at(c_loc(c%leaflet_id)), &
     at(c_loc(c%side))])

@@ -186,7 +186,7 @@ contains
     call result%destroy()
   end subroutine test_dense
 
-  ! Of the box along its six neighbours, by a thin valve; against riis_c.
+  ! The box leaks along its six neighbours through a thin valve, as riis_c says.
   subroutine test_leaks()
     type(riis_surface) :: thin
     type(riis_mesh) :: joined

@@ -40,12 +40,51 @@ program test_objects
   call test_distances()
   call test_surface_from_arrays()
   call test_closest_points()
+  call test_crossings()
   call test_log()
   call test_empty()
   call test_assignment()
   call finish()
 
 contains
+
+  ! The right cusp is turned into its neighbours.
+  subroutine test_crossings()
+    type(riis_valve) :: turned
+    type(riis_surface) :: surface
+    type(riis_crossings) :: crossings
+    integer(int64), pointer :: triangle_id(:, :)
+    real(c_double), pointer :: point(:, :), depth(:), length(:)
+    integer :: deepest
+    crossings%n_pairs = -7
+    call riis_find_crossings(surface, crossings, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call turned%create('aortic')
+    call turned%set('right.rotation', [0d0, 0d0, 60d0])
+    call surface%create(turned)
+    call riis_find_crossings(surface, crossings, depth=-1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.depth is -1')
+    call riis_find_crossings(surface, crossings, n_threads=-1, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -1')
+    call check(crossings%n_pairs == -7, 'refused calls write nothing')
+    call surface%crossing_pairs(triangle_id, point, depth, length)
+    call check(size(triangle_id) == 0 .and. size(point) == 0 .and. size(depth) == 0 .and. size(length) == 0, 'none yet')
+    call riis_find_crossings(surface, crossings, 1d-3, 2)
+    call surface%crossing_pairs(triangle_id, point, depth, length)
+    call check(crossings%n_pairs > 10 .and. size(triangle_id, 2) == crossings%n_pairs .and. &
+      size(point, 2) == crossings%n_pairs .and. size(length) == crossings%n_pairs, 'pairs that cross')
+    deepest = maxloc(depth, 1)
+    call check(all(triangle_id(1, :) < triangle_id(2, :)) .and. minval(depth) > 1d-4, 'the lower one first')
+    call check(all(crossings%triangle_id == triangle_id(:, deepest)) .and. &
+      all(same([crossings%depth, crossings%point], [depth(deepest), point(:, deepest)])), 'the deepest pair')
+    call surface%update(turned)
+    call surface%crossing_pairs(depth=depth)
+    call check(size(depth) == 0, 'an update leaves no pairs')
+    call surface%destroy()
+    call surface%crossing_pairs(triangle_id, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call turned%destroy()
+  end subroutine test_crossings
 
   subroutine test_texts()
     integer(int32) :: major, minor, patch

@@ -9,7 +9,7 @@ static random_source rng;
 static inline int is_refused(riis_status status, int32_t instructions) {
   if (status == RIIS_OK) return 0;
   char text[64];
-  snprintf(text, sizeof text, "options.instructions is %d, which this processor has not", instructions);
+  snprintf(text, sizeof text, "options.instructions is %d, which this processor lacks", instructions);
   assert_true(instructions > RIIS_INSTRUCTIONS_BASELINE);
   CHECK_REFUSED(RIIS_UNAVAILABLE, text, status);
   return 1;
@@ -18,7 +18,8 @@ static inline int is_refused(riis_status status, int32_t instructions) {
 static int32_t most_threads; /* that ran in any of these */
 static int64_t most_within;
 
-/* By all instructions that there are and up to so many threads; expected_search is what runs. A fresh mesh each time if fresh. */
+/* Marks with all instructions that there are and 1 to so many threads; expected_search is the search that must run. If fresh, each
+ * marking has a fresh mesh. */
 static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                               int32_t expected_search) {
   const int owned_before = n_owned();

@@ -100,7 +100,7 @@ std::atomic<bool> fails_on{false};
 std::atomic<const void *> calling_thread{nullptr};
 std::atomic<std::int64_t> live_of_library{0}, live_of_embree{0}, live_bytes_of_embree{0};
 
-// An address that only this thread has.
+// Its address is this thread's own.
 const void *this_thread() {
   thread_local char mark;
   return &mark;

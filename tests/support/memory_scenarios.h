@@ -33,6 +33,7 @@ enum {
 
 static test_mesh nodes, fewer_nodes;
 static uint8_t *mask, *marks; /* one entry per node */
+static int64_t *labels;
 static int32_t *side;
 
 /* A lattice of n * n * n nodes around the aortic valve. */
@@ -47,6 +48,7 @@ static void set_nodes(int64_t n) {
   keep_owned_for_group();
   mask = realloc(mask, (size_t)nodes.n);
   marks = realloc(marks, (size_t)nodes.n);
+  labels = realloc(labels, (size_t)nodes.n * sizeof *labels);
   side = realloc(side, (size_t)nodes.n * sizeof *side);
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
@@ -351,6 +353,20 @@ static void leaks_found(world *w) {
   thin_and_marked(w);
   CHECK_OK(find_leaks(w));
 }
+static riis_status label_regions(world *w) {
+  const riis_mark_options options = options_of(w, RIIS_AUTO);
+  return riis_label_open_regions(w->mesh, &options, w->result, nodes.n, labels, NULL);
+}
+/* From the first node to the last one, which are corners. */
+static riis_status find_passage(world *w) {
+  const riis_mark_options options = options_of(w, RIIS_AUTO);
+  const int64_t from = 0, to = nodes.n - 1;
+  riis_passage passage;
+  const riis_status status =
+      riis_find_passage(w->surface, w->mesh, &options, 1, &from, 1, &to, &passage, sizeof passage);
+  if (!status) assert_int_equal(passage.state, RIIS_PASSAGE_OPEN);
+  return status;
+}
 
 /* Leaves out objects that the call only reads, because digests of those take most of the time. */
 static uint64_t digest_of(const world *w) {
@@ -447,6 +463,10 @@ static const scenario scenarios[] = {
     {"leaks, 1 thread", thin_and_marked, find_leaks, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
     {"leaks, 4 threads", thin_and_marked, find_leaks, 4, RIIS_SEARCH_EXHAUSTIVE, ON_WORKERS},
     {"leaks again", leaks_found, find_leaks, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
+    {"open regions, 1 thread", thin_and_marked, label_regions, 1, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
+    {"open regions, 4 threads", thin_and_marked, label_regions, 4, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
+    {"passage, 1 thread", thin_and_marked, find_passage, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
+    {"passage, 4 threads", thin_and_marked, find_passage, 4, RIIS_SEARCH_EXHAUSTIVE, ON_WORKERS},
     {"dense arrays, 1 thread", marked_before, dense, 1, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
     {"dense arrays, 4 threads", marked_before, dense, 4, RIIS_SEARCH_EXHAUSTIVE, ALLOCATES_NONE},
 };

@@ -65,7 +65,7 @@ static inline void add_patch(shape *to, int32_t v0, int32_t v1, int32_t u0, int3
   sides[0] = v0, sides[1] = v1, sides[2] = u0, sides[3] = u1;
 }
 
-/* 0 <= x <= 1, 0 <= y <= 1 in z = 0. */
+/* The unit square 0 <= x <= 1, 0 <= y <= 1 at z = 0. */
 static inline shape unit_square(void) {
   shape square = {0};
   add_line(&square, 0, 0, 0, 1, 0, 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Checks every test of a refusal needs: the status, and a message in one line that says what is wrong. */
+ * Checks every test of a refusal needs: the status, and a message in one line that names the fault. */
 #ifndef RIIS_TESTS_EXPECT_H
 #define RIIS_TESTS_EXPECT_H
 

@@ -331,8 +331,8 @@ static void test_damaged_collections(void **state) {
   assert_int_equal(scratch_end_watch(), 0);
 }
 
-/* Elements nested a million deep would overflow the stack of a reader that recurses, and entities that name entities would fill
- * the memory of one that replaces them all. */
+/* Elements nested a million deep would overflow the stack of a reader that recurses. Entities that name entities would fill the
+ * memory of a reader that replaces them all. */
 static void test_hostile_collections(void **state) {
   (void)state;
   const size_t n = 1000000;

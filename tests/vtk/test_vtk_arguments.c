@@ -110,7 +110,7 @@ static void test_first_picture_options(void **state) {
   expect_refused(riis_vtk_draw(surface, NULL, options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
 }
 
-/* As above, for the arrays of a surface. */
+/* The same holds for the arrays of a surface. */
 static void test_first_surface_arrays(void **state) {
   (void)state;
   enum { first_size = 88 };

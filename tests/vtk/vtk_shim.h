@@ -67,7 +67,7 @@ enum { SHIM_STATIC_LOCATOR, SHIM_CELL_LOCATOR, SHIM_IMPLICIT_DISTANCE };
 void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,
                     int64_t n_points, const double *points, double *distances);
 
-/* Replaces VTK's output window by one that counts. shim_n_messages returns the number of messages since then. */
+/* Replaces VTK's output window by a counter. shim_n_messages returns the number of messages since then. */
 void shim_watch_window(void);
 int shim_n_messages(void);
 /* Sends an error to the current output window, as the caller's VTK code would. */

@@ -1,0 +1,111 @@
+! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_f77_crossings.fypp by fortran/expand_templates.sh: edit that template, not this file.
+!> The external subroutines for crossings. The conventions are those of riis_f77.f90.
+
+!> Finds every pair of the surface's triangles that go through each other, by more than a depth. Triangles of one leaflet that
+!! share a vertex are no pair. Errors: RIIS_INVALID_ARGUMENT naming the depth or n_threads.
+subroutine riisf_find_crossings(surface, depth, n_threads, n_pairs, length, deepest, point, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_crossing_options, riis_crossings, riis_status, RIIS_OK, riis_crossing_options_init, &
+    riis_find_crossings
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< It keeps the pairs until its next update.
+  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1: a pair at most so deep touches, as 1D-6.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 a processor.
+  integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
+  real(c_double), intent(inout) :: length                 !< The length of their intersections together.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair; 0 if none crosses.
+  real(c_double), intent(inout) :: point(3)               !< The middle of its intersection.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_crossing_options) :: options
+  type(riis_crossings) :: crossings
+  status = riis_crossing_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%depth = depth
+  options%n_threads = n_threads
+  status = riis_find_crossings(c_handle_of(surface), options, crossings, c_sizeof(crossings))
+  if (status /= RIIS_OK) return
+  n_pairs = crossings%n_pairs
+  length = crossings%length
+  deepest = crossings%depth
+  point = crossings%point
+end subroutine riisf_find_crossings
+
+!> Copies the pairs of the last riisf_find_crossings into the caller's arrays, ascending. Errors: RIIS_INVALID_ARGUMENT if the
+!! arrays are too short; only n is then written.
+subroutine riisf_crossing_pairs(surface, length, n, triangle_num, point, depth, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_crossing_pairs
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< From riisf_find_crossings.
+  integer(int32), intent(in) :: length                    !< Of the arrays.
+  integer(int32), intent(inout) :: n                      !< The number of pairs, also if the arrays are too short.
+  integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): both triangles, counted from 1; written up to n.
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the pair's intersection.
+  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: triangles, points, depths
+  integer(int64), pointer :: ids(:, :)
+  real(c_double), pointer :: places(:, :), all_depths(:)
+  integer(int64) :: found
+  triangles = c_null_ptr
+  points = c_null_ptr
+  depths = c_null_ptr
+  found = 0
+  status = riis_surface_crossing_pairs(c_handle_of(surface), found, triangles, points, depths)
+  if (status /= RIIS_OK) return
+  n = int(min(found, int(huge(n), int64)), int32)
+  if (found > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; pairs that cross: ' // text_of(found))
+    return
+  end if
+  if (found == 0) return
+  call c_f_pointer(triangles, ids, [2_int64, found])
+  call c_f_pointer(points, places, [3_int64, found])
+  call c_f_pointer(depths, all_depths, [found])
+  triangle_num(:, :n) = int(ids + 1, int32) ! the library's limit fits into either kind
+  point(:, :n) = places
+  depth(:n) = all_depths
+end subroutine riisf_crossing_pairs
+
+!> Does the same with INTEGER*8.
+subroutine riisf_crossing_pairs_64(surface, length, n, triangle_num, point, depth, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_crossing_pairs
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< From riisf_find_crossings.
+  integer(int64), intent(in) :: length                    !< Of the arrays.
+  integer(int64), intent(inout) :: n                      !< The number of pairs, also if the arrays are too short.
+  integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): both triangles, counted from 1; written up to n.
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the pair's intersection.
+  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: triangles, points, depths
+  integer(int64), pointer :: ids(:, :)
+  real(c_double), pointer :: places(:, :), all_depths(:)
+  integer(int64) :: found
+  triangles = c_null_ptr
+  points = c_null_ptr
+  depths = c_null_ptr
+  found = 0
+  status = riis_surface_crossing_pairs(c_handle_of(surface), found, triangles, points, depths)
+  if (status /= RIIS_OK) return
+  n = int(min(found, int(huge(n), int64)), int64)
+  if (found > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; pairs that cross: ' // text_of(found))
+    return
+  end if
+  if (found == 0) return
+  call c_f_pointer(triangles, ids, [2_int64, found])
+  call c_f_pointer(points, places, [3_int64, found])
+  call c_f_pointer(depths, all_depths, [found])
+  triangle_num(:, :n) = int(ids + 1, int64) ! the library's limit fits into either kind
+  point(:, :n) = places
+  depth(:n) = all_depths
+end subroutine riisf_crossing_pairs_64

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "marking/passage.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "base/unfilled.hpp"
+#include "marking/distances.hpp"
+#include "marking/mark_nodes.hpp"
+#include "marking/open_regions.hpp"
+#include "marking/open_sets.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// Returns the largest distance of the nodes, and refuses nodes in the band.
+double largest_distance(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
+  constexpr std::int64_t nodes_per_task = 256;
+  const double half_thickness = request.surface.half_thickness();
+  std::vector<double> distance;
+  resize(distance, ids.size());
+  with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    parallel_for_ranges(ids.size(), nodes_per_task, request.n_threads, [&](const Range &range, int) {
+      for (std::int64_t i = range.begin; i < range.end; ++i) {
+        const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
+        const double d = std::sqrt(distances.closest(p, std::numeric_limits<double>::infinity()).distance_sq);
+        if (!(d > half_thickness))
+          fail(RIIS_INVALID_ARGUMENT, name, "[", i, "] is node ", ids[i],
+               ", in the band: its distance to the surface, ", d, ", is at most the half thickness, ", half_thickness);
+        view(distance)[i] = d;
+      }
+    });
+  });
+  return *std::max_element(distance.begin(), distance.end());
+}
+
+// A node that is not open yet.
+struct Candidate {
+  double distance;
+  std::int64_t node;
+
+  // The farthest first; of equal ones the lowest id.
+  bool operator<(const Candidate &other) const {
+    return distance != other.distance ? distance > other.distance : node < other.node;
+  }
+};
+
+// An edge that stands in the row of `other` only.
+struct OneWayEdge {
+  std::int64_t node, other;
+
+  bool operator<(const OneWayEdge &edge) const { return node != edge.node ? node < edge.node : other < edge.other; }
+};
+
+// Opens nodes from far to near until the ends are joined.
+class Opening {
+ public:
+  Opening(const SearchRequest &request, const PassageEnds &ends)
+      : request_(request),
+        adjacency_(*request.mesh.adjacency()),
+        from_(request.mesh.nodes().n),
+        to_(from_ + 1),
+        from_ids_(ends.from.begin(), ends.from.end()),
+        to_ids_(ends.to.begin(), ends.to.end()) {
+    resize(parent_, from_ + 2);
+    std::sort(from_ids_.begin(), from_ids_.end());
+    std::sort(to_ids_.begin(), to_ids_.end());
+  }
+
+  // Opens the nodes beyond the limit, and returns whether they join the ends.
+  bool joins_beyond(double limit) {
+    const SearchRequest within{request_.surface,   request_.mesh,      limit,
+                               request_.node_mask, request_.n_threads, request_.instructions};
+    mark_nodes(within, RIIS_SEARCH_AUTO, 0, near_);
+    label_open_regions({adjacency_, request_.node_mask, near_.within.node_id}, request_.n_threads, view(parent_));
+    OpenSets sets = this->sets();
+    sets.open(from_);
+    sets.open(to_);
+    for (const std::int64_t node : from_ids_)
+      if (sets.is_open(node)) sets.unite(node, from_);
+    for (const std::int64_t node : to_ids_)
+      if (sets.is_open(node)) sets.unite(node, to_);
+    return is_joined();
+  }
+
+  // Opens the other nodes that are farther than `nearest`, one after the other. Returns the node that joins the ends, or one with
+  // the id -1.
+  Candidate open_until_joined(double nearest) {
+    const std::vector<OneWayEdge> one_way = one_way_edges();
+    OpenSets sets = this->sets();
+    for (const Candidate &next : candidates(nearest)) {
+      const std::int64_t node = next.node;
+      sets.open(node);
+      adjacency_.for_each_neighbor(node, [&](std::int64_t other) {
+        if (sets.is_open(other)) sets.unite(node, other);
+      });
+      for (auto edge = std::lower_bound(one_way.begin(), one_way.end(), OneWayEdge{node, 0});
+           edge != one_way.end() && edge->node == node; ++edge)
+        if (sets.is_open(edge->other)) sets.unite(node, edge->other);
+      if (std::binary_search(from_ids_.begin(), from_ids_.end(), node)) sets.unite(node, from_);
+      if (std::binary_search(to_ids_.begin(), to_ids_.end(), node)) sets.unite(node, to_);
+      if (is_joined()) return next;
+    }
+    return {0, -1};
+  }
+
+ private:
+  OpenSets sets() { return OpenSets(view(parent_)); }
+  bool is_joined() { return sets().root(from_) == sets().root(to_); }
+
+  std::vector<Candidate> candidates(double nearest) const {
+    const NodeList &within = near_.within;
+    std::vector<Candidate> made;
+    for (std::int64_t i = 0; i < within.size(); ++i)
+      if (view(within.distance)[i] > nearest) made.push_back({view(within.distance)[i], view(within.node_id)[i]});
+    std::sort(made.begin(), made.end());
+    return made;
+  }
+
+  // Edges to nodes that are not open, and whose own rows lack them. Most adjacencies have none.
+  std::vector<OneWayEdge> one_way_edges() {
+    constexpr std::int64_t rows_per_task = 4096;
+    std::vector<std::vector<OneWayEdge>> by_thread;
+    resize(by_thread, request_.n_threads);
+    const OpenSets sets = this->sets();
+    parallel_for_ranges(adjacency_.n_rows, rows_per_task, request_.n_threads, [&](const Range &range, int thread) {
+      for (std::int64_t i = range.begin; i < range.end; ++i)
+        adjacency_.for_each_neighbor(i, [&](std::int64_t j) {
+          if (!sets.is_open(j) && !adjacency_.has_neighbor(j, i)) view(by_thread)[thread].push_back({j, i});
+        });
+    });
+    std::vector<OneWayEdge> all;
+    for (const auto &edges : by_thread) all.insert(all.end(), edges.begin(), edges.end());
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  const SearchRequest &request_;
+  const Adjacency &adjacency_;
+  std::int64_t from_, to_;  // two more nodes, which all nodes of an end are joined to
+  std::vector<std::int64_t> from_ids_, to_ids_;
+  MarkResult near_;
+  UnfilledVector<std::int64_t> parent_;
+};
+
+}  // namespace
+
+riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
+  const auto start = std::chrono::steady_clock::now();
+  const double half_thickness = request.surface.half_thickness();
+  // No path is farther from the surface than its ends.
+  const double widest =
+      std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
+  Opening opening(request, ends);
+  double limit = half_thickness, beyond = -1;
+  while (opening.joins_beyond(limit)) {
+    beyond = limit;
+    limit = limit < widest ? std::min(2 * limit, widest) : 2 * limit;
+  }
+  const Candidate nearest = opening.open_until_joined(beyond);
+  riis_passage passage{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0};
+  if (nearest.node >= 0) {
+    const Vec3 p = request.mesh.nodes()[nearest.node];
+    passage = {nearest.node,
+               nearest.distance,
+               {p.x, p.y, p.z},
+               0,
+               nearest.distance > half_thickness ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED,
+               0};
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  passage.seconds = elapsed.count();
+  return passage;
+}
+
+}  // namespace riis

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/bileaflet.hpp"
+
+#include <riis/riis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/constants.hpp"
+#include "base/errors.hpp"
+#include "geometry/placement.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+namespace {
+
+// Positions in the list of specs below.
+enum Parameter { radius, hinge_offset, hinge_height, gap, closed_angle, open_angle, ring_height, opening };
+
+void check_values(const ParameterValues &values);
+void check_states(const ValveState &valve, const ValveState &other, const char *name);
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
+
+// clang-format off
+ValveKind make_kind() {
+  // The limits suit a valve in any unit from kilometres to micrometres; check_values checks ratios of lengths.
+  constexpr double shortest = 1e-9, longest = 1e9;
+  const char *length = "length", *degree = "degree";
+  return {"bileaflet", {
+    {"radius", length, "inner radius of the housing, which the closed leaflets reach", 1, {1.1}, shortest, longest},
+    {"hinge_offset", length, "distance of each hinge line from the housing's axis", 1, {0.22}, 0, longest},
+    {"hinge_height", length, "height of the hinge lines above the orifice plane", 1, {0}, -longest, longest},
+    {"gap", length, "width of the slit between the closed leaflets", 1, {0}, 0, longest},
+    {"closed_angle", degree, "angle of the closed leaflets from the orifice plane", 1, {30}, 0, 80},
+    {"open_angle", degree, "angle of the open leaflets from the orifice plane", 1, {85}, 0, 90},
+    {"ring_height", length, "height of the housing's wall, half of it upstream of the orifice plane; 0: no wall", 1, {0}, 0, longest},
+    opening_spec("0: closed, to 1: open; the leaflets turn from closed_angle to open_angle", 0),
+  }, opening, true, check_values, make_patches, check_states};
+}
+// clang-format on
+
+void check_values(const ParameterValues &values) {
+  const Measure measure{"radius", values[radius][0]};
+  const auto check = [&](Parameter parameter, double least, double most) {
+    check_ratio(bileaflet_valve_kind().parameters[parameter], values[parameter], measure, least, most);
+  };
+  check(hinge_offset, 0, 0.9);
+  check(hinge_height, 0, 10);
+  check(gap, 0, 1);
+  if (values[ring_height][0] != 0) check(ring_height, 0.01, 10);
+  if (!(values[closed_angle][0] < values[open_angle][0]))
+    fail(RIIS_INVALID_PARAMETER, "closed_angle is ", values[closed_angle][0],
+         "; it must be less than open_angle, which is ", values[open_angle][0]);
+}
+
+void check_states(const ValveState &valve, const ValveState &other, const char *name) {
+  const double own = valve.values[ring_height][0], others = other.values[ring_height][0];
+  if ((own == 0) != (others == 0))
+    fail(RIIS_INVALID_PARAMETER, "ring_height is ", own, " in the valve and ", others, " in ", name,
+         ": both must have a ring, or neither");
+}
+
+// A valve at one opening. Lengths are those between two states.
+struct Shape {
+  double radius, hinge_offset, hinge_height, gap, ring_height;
+  double closed_angle;  // that the leaflets' outline is made for
+  double angle;         // of the leaflets now, from the orifice plane
+};
+
+Shape blended(const ValveState &closed, const ValveState &open, double at) {
+  // What is the same in both states stays so to the last bit: a housing is at rest.
+  const auto both = [&](Parameter parameter) {
+    const double from = closed.values[parameter][0], to = open.values[parameter][0];
+    return from == to ? from : blend(from, to, at);
+  };
+  return {both(radius),
+          both(hinge_offset),
+          both(hinge_height),
+          both(gap),
+          both(ring_height),
+          both(closed_angle),
+          blend(closed.values[closed_angle][0], open.values[open_angle][0], at)};
+}
+
+// Turns points of the orifice plane into points of the leaflet of x > 0. A point (x, y) is the place that a leaflet's point
+// has when closed, seen along the axis.
+class Turn {
+ public:
+  explicit Turn(const Shape &shape)
+      : offset_(shape.hinge_offset),
+        height_(shape.hinge_height),
+        closed_(sine_cosine_degrees(shape.closed_angle)),
+        now_(sine_cosine_degrees(shape.angle)) {}
+
+  // This is offset + (x - offset) cos(angle) / cos(closed_angle), written so that a closed leaflet has x to the last bit.
+  Vec3 operator()(double x, double y) const {
+    const double along = (x - offset_) / closed_.cosine;
+    return {x + along * (now_.cosine - closed_.cosine), y, height_ + along * now_.sine};
+  }
+
+  // Returns how much longer than on the orifice plane a leaflet's lines are at most.
+  double stretch() const { return 1 / closed_.cosine; }
+
+ private:
+  double offset_, height_;
+  SineCosine closed_, now_;
+};
+
+// Every arc has so many pieces. A quarter of a circle is then right to 1e-9 of its radius.
+constexpr int n_pieces = 8;
+
+// Bounds the distance of such an arc from its circle, in radii: 2/27 sin^6(a/4) / cos^2(a/4) for a piece of the angle a.
+double arc_deviation(double whole_angle) {
+  const double quarter = 0.25 * whole_angle / n_pieces;
+  const double sine = std::sin(quarter), cosine = std::cos(quarter);
+  constexpr double rounding = 1e-3;  // of the bound itself
+  return (1 + rounding) * (2.0 / 27.0) * std::pow(sine, 6) / (cosine * cosine);
+}
+
+// Returns the arc of a circle about the axis from (radius, 0) to `last`, a point of the circle with y > 0. `placed` puts points
+// of the plane, such as control points, to their places in space.
+template <class Place>
+Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const Place &placed) {
+  const double step = whole_angle / n_pieces, reach = 4.0 / 3.0 * std::tan(0.25 * step);
+  struct Point {
+    double x, y;
+  };
+  const auto on_circle = [&](int i) {
+    if (i == 0) return Point{circle_radius, 0};
+    if (i == n_pieces) return Point{last_x, last_y};
+    return Point{circle_radius * std::cos(i * step), circle_radius * std::sin(i * step)};
+  };
+  Vector<Bezier> pieces;
+  for (int i = 0; i < n_pieces; ++i) {
+    const Point from = on_circle(i), to = on_circle(i + 1);
+    // A radius turned by 90 degrees is the direction of the circle.
+    pieces.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
+                                   placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
+  }
+  return Curve(std::move(pieces));
+}
+
+const Rotation &half_turn() {
+  static const Rotation &turn = *new Rotation(rotation_about({0, 0, 1}, 180));
+  return turn;
+}
+
+// The image of a quarter of the valve, x > 0 and y > 0.
+PatchImage image_of(bool is_mirrored, bool is_turned, std::int32_t leaflet_id, std::int32_t patch_id) {
+  return {is_mirrored ? Mirror::in_y : Mirror::none,
+          is_turned ? half_turn() : no_rotation,
+          {0, 0, 0},
+          leaflet_id,
+          patch_id};
+}
+
+void add_leaflets(const Shape &shape, PatchSet &set) {
+  const Turn turn(shape);
+  const double R = shape.radius, x0 = 0.5 * shape.gap, y_end = std::sqrt((R - x0) * (R + x0));
+  const double whole_angle = std::atan2(y_end, x0);
+  const Vec3 apex = turn(R, 0), middle = turn(x0, 0), end = turn(x0, y_end);
+  const auto add = [&](const Curve &curve) {
+    set.curves.push_back(curve);
+    return Side{set.curves.size() - 1};
+  };
+  const Side rim = add(make_arc(R, whole_angle, x0, y_end, turn)), edge = add(Bezier::line(middle, end));
+  const Side symmetry = add(Bezier::line(apex, middle)), corner = add(Bezier::point(end));
+  // u runs from the symmetry plane to the corner, and v from the rim to the middle edge. So S_u x S_v points downstream.
+  Patch patch{rim, edge, symmetry, corner, {}};
+  for (const std::int32_t leaflet_id : {RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE})
+    for (const bool is_mirrored : {false, true})
+      patch.images.push_back(image_of(is_mirrored, leaflet_id == RIIS_LEAFLET_NEGATIVE, leaflet_id,
+                                      2 * leaflet_id + (is_mirrored ? 1 : 0)));
+  set.patches.push_back(patch);
+  set.deviation = std::max(set.deviation, R * turn.stretch() * arc_deviation(whole_angle));
+}
+
+void add_ring(const Shape &shape, PatchSet &set) {
+  const double R = shape.radius, whole_angle = 0.5 * pi;
+  const auto add = [&](const Curve &curve) {
+    set.curves.push_back(curve);
+    return Side{set.curves.size() - 1};
+  };
+  const auto arc_at = [&](double z) {
+    return add(make_arc(R, whole_angle, 0, R, [z](double x, double y) { return Vec3{x, y, z}; }));
+  };
+  const double upper = 0.5 * shape.ring_height, lower = -upper;
+  const Side bottom = arc_at(lower), top = arc_at(upper);
+  const Side first = add(Bezier::line({R, 0, lower}, {R, 0, upper}));
+  const Side last = add(Bezier::line({0, R, lower}, {0, R, upper}));
+  // u runs round the axis and v downstream. So S_u x S_v points outwards.
+  Patch patch{bottom, top, first, last, {}};
+  std::int32_t patch_id = 4;
+  for (const bool is_turned : {false, true})
+    for (const bool is_mirrored : {false, true})
+      patch.images.push_back(image_of(is_mirrored, is_turned, RIIS_LEAFLET_HOUSING, patch_id++));
+  set.patches.push_back(patch);
+  set.deviation = std::max(set.deviation, R * arc_deviation(whole_angle));
+}
+
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double at) {
+  check_states(closed, open, "the open state");
+  if (!(closed.values[closed_angle][0] < open.values[open_angle][0]))
+    fail(RIIS_INVALID_PARAMETER, "open_angle is ", open.values[open_angle][0],
+         " in the open state; it must be more than the valve's closed_angle, which is ",
+         closed.values[closed_angle][0]);
+  const Shape shape = blended(closed, open, at);
+  PatchSet set;
+  add_leaflets(shape, set);
+  if (shape.ring_height != 0) add_ring(shape, set);
+  return set;
+}
+
+}  // namespace
+
+const ValveKind &bileaflet_valve_kind() {
+  static const ValveKind &kind = *new ValveKind(make_kind());
+  return kind;
+}
+
+}  // namespace riis

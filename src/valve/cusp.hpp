@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Half a semilunar cusp: its curves, the shape that it opens to, and its two patches (docs/theory.md, section 3).
+// In: lengths, angles and exponents of one cusp. Out: Bezier curves in the cusp's frame, and patches in a set.
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/bezier.hpp"
+#include "valve/patches.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+
+// A horizontal curve of half a cusp: the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power from the symmetry
+// plane to the end at radius_out and angle. t0 and t3 are the tangents' lengths along y.
+struct CuspProfile {
+  double radius_in, radius_out, angle, power, t0, t3;
+};
+
+struct CuspShape {
+  double root_radius, leaflet_height, bending_height, xq, zq;
+  CuspProfile leaflet, bending;
+};
+
+// How a cusp opens: parameters that kinds of valves with cusps have at the end of their lists.
+struct CuspOpening {
+  double radius_ratio;  // of the open free edge at the symmetry plane and the root
+  double expansion;     // of the commissures, a share of their radius
+};
+// Returns the specs of open_radius_ratio and commissure_expansion.
+std::array<ParameterSpec, 2> cusp_opening_specs(const CuspOpening &defaults);
+
+// Returns the shape that the cusp opens to. Its free edge and bending curve are parabolas, its sides nearly straight. The
+// attachment moves outwards in proportion to its height.
+CuspShape open_shape(const CuspShape &closed, const CuspOpening &opening);
+
+// The curves of half a cusp, y >= 0, in the cusp's frame. Its symmetry plane is y = 0, the root is at z = 0, and z points to
+// the aorta.
+struct HalfCusp {
+  Bezier leaflet, bending, sinus_below, sinus_above, symmetry_below, symmetry_above;
+};
+HalfCusp half_cusp(const CuspShape &shape);
+HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
+
+// Refuses curves that reach far away. Values that are sound one by one can make them: a high power with a long tangent, or a
+// bending curve near the root. `cusp` begins the message, as in "the right cusp"; `also` ends its list of parameters.
+void check_reach(const HalfCusp &half, const CuspShape &shape, const std::string &cusp, const char *also);
+
+// A place of a cusp, and the ids of its halves.
+struct CuspPlace {
+  Rotation turn;
+  Vec3 shift;
+  std::int32_t leaflet_id;
+};
+// Adds the lower and the upper patch of half a cusp, with images for both halves of the cusp at each place: y >= 0 first. The
+// upper patch is the set's last. Its side v1 is the free edge, which ends at the commissure, u = 1.
+void add_cusps(PatchSet &set, const HalfCusp &half, const Vector<CuspPlace> &places);
+
+}  // namespace riis

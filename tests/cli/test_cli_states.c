@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis-mark --states: free edges against the curves of the valves, areas and orifices against the surface's triangles. */
+/* clang-format off: test_support.h checks statuses if riis.h came before */
+#include <riis/riis.h>
+
+#include "test_support.h"
+/* clang-format on */
+
+#include "mitral_oracle.h"
+#include "program.h"
+#include "scratch.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* ---- The table ---- */
+
+enum { most_rows = 128, most_columns = 16 };
+static struct {
+  int n_rows, n_columns;
+  char name[most_columns][64];
+  double cell[most_rows][most_columns];
+} table;
+
+static void parse_table(char *text) {
+  table.n_rows = table.n_columns = 0;
+  char *next_line = NULL;
+  for (char *line = strtok_r(text, "\n", &next_line); line; line = strtok_r(NULL, "\n", &next_line)) {
+    char *next_cell = NULL;
+    int column = 0;
+    const int is_head = table.n_columns == 0;
+    for (char *cell = strtok_r(line, ",", &next_cell); cell; cell = strtok_r(NULL, ",", &next_cell), ++column) {
+      assert_true(column < most_columns && table.n_rows < most_rows);
+      if (is_head)
+        snprintf(table.name[table.n_columns++], sizeof table.name[0], "%s", cell);
+      else
+        table.cell[table.n_rows][column] = strtod(cell, NULL);
+    }
+    assert_int_equal(column, table.n_columns);
+    table.n_rows += !is_head;
+  }
+}
+
+static void read_table(void) {
+  char *text = scratch_read(scratch_path("states.csv"), NULL);
+  parse_table(text);
+  free(text);
+}
+
+static int has_column(const char *name) {
+  for (int i = 0; i < table.n_columns; ++i)
+    if (strcmp(table.name[i], name) == 0) return 1;
+  return 0;
+}
+
+static double cell(int row, const char *name) {
+  for (int i = 0; i < table.n_columns; ++i)
+    if (strcmp(table.name[i], name) == 0) return table.cell[row][i];
+  fail_msg("there is no column %s", name);
+  return 0;
+}
+
+#define RUN_STATES(...)                                            \
+  do {                                                             \
+    RUN_FINE("--states", scratch_path("states.csv"), __VA_ARGS__); \
+    read_table();                                                  \
+  } while (0)
+
+static void expect_said(const char *text) {
+  if (!strstr(program_out, text)) fail_msg("no '%s' in:\n%s", text, program_out);
+}
+
+/* Ratios are to the first row. */
+static void check_ratios(void) {
+  for (int i = 0; i < table.n_columns; ++i) {
+    char ratio[80];
+    snprintf(ratio, sizeof ratio, "%s_ratio", table.name[i]);
+    if (!has_column(ratio)) continue;
+    for (int row = 0; row < table.n_rows; ++row)
+      CHECK_NEAR(cell(row, ratio), table.cell[row][i] / table.cell[0][i], 1e-15);
+  }
+}
+
+/* ---- Surfaces by C ---- */
+
+static riis_valve *make_valve(const char *kind) {
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create(kind, &valve));
+  return valve;
+}
+
+/* The orifice by points on a grid, from the triangles of a surface of its own, and the area of a leaflet. */
+typedef struct {
+  double orifice, area[3];
+} measured;
+
+static int is_covered(int64_t n, const int64_t *vertex, const double *xyz, double x, double y) {
+  for (int64_t i = 0; i < n; ++i) {
+    int n_left = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double *a = xyz + 3 * vertex[3 * i + k], *b = xyz + 3 * vertex[3 * i + (k + 1) % 3];
+      n_left += (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0;
+    }
+    if (n_left == 0 || n_left == 3) return 1;
+  }
+  return 0;
+}
+
+/* is_inside tells whether a point is in the disc, which lies within `reach` of the axis. */
+static measured measure(const riis_valve *valve, double reach, int (*is_inside)(double x, double y)) {
+  enum { n_side = 120 };
+  riis_surface *surface = NULL;
+  int64_t n = 0, n_vertices = 0, n_open = 0;
+  const int64_t *vertex = NULL;
+  const int32_t *leaflet = NULL;
+  const double *xyz = NULL;
+  measured found = {0, {0, 0, 0}};
+  CHECK_OK(riis_surface_create(valve, NULL, &surface));
+  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &xyz));
+  CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet, NULL));
+  for (int64_t i = 0; i < n; ++i) {
+    const double *a = xyz + 3 * vertex[3 * i], *b = xyz + 3 * vertex[3 * i + 1], *c = xyz + 3 * vertex[3 * i + 2];
+    double ab[3], ac[3];
+    for (int k = 0; k < 3; ++k) ab[k] = b[k] - a[k], ac[k] = c[k] - a[k];
+    found.area[leaflet[i]] +=
+        0.5 * hypot(hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2]), ab[0] * ac[1] - ab[1] * ac[0]);
+  }
+  for (int i = 0; i < n_side * n_side; ++i) {
+    const double x = reach * ((2 * (i % n_side) + 1.0) / n_side - 1),
+                 y = reach * ((2 * (i / n_side) + 1.0) / n_side - 1);
+    n_open += is_inside(x, y) && !is_covered(n, vertex, xyz, x, y);
+  }
+  found.orifice = (double)n_open * 4 * reach * reach / (n_side * n_side);
+  riis_surface_destroy(&surface);
+  return found;
+}
+
+/* ---- The mitral valve ---- */
+
+static const mitral_oracle *annulus_of;
+
+static int is_in_annulus(double x, double y) {
+  enum { n = 400 };
+  static const mitral_oracle *last_of;
+  static double corner[n + 1][3];
+  int n_crossed = 0;
+  for (int i = 0; i <= n && last_of != annulus_of; ++i) mitral_oracle_annulus(annulus_of, (double)i / n, corner[i]);
+  last_of = annulus_of;
+  for (int i = 0; i < n; ++i) {
+    const double *a = corner[i], *b = corner[i + 1];
+    if ((a[1] > y) != (b[1] > y)) n_crossed += a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) < x;
+  }
+  return n_crossed % 2;
+}
+
+static void test_mitral(void **state) {
+  (void)state;
+  enum { n_states = 5 };
+  mitral_parameters parameters = mitral_defaults();
+  riis_valve *valve = make_valve("mitral");
+  RUN_STATES("--valve", "mitral", "--state-count", "5");
+  assert_int_equal(table.n_rows, n_states);
+  assert_int_equal(table.n_columns, 10);
+  check_ratios();
+  for (int i = 0; i < n_states; ++i) {
+    parameters.opening = 0.25 * i;
+    mitral_oracle *oracle = mitral_oracle_create(&parameters, &parameters);
+    double posterior = 0;
+    for (int scallop = 0; scallop < 3; ++scallop) posterior += mitral_oracle_scallop_length(oracle, scallop);
+    assert_true(cell(i, "opening") == parameters.opening);
+    CHECK_NEAR(cell(i, "anterior_edge"), mitral_oracle_anterior_length(oracle), 5e-4);
+    CHECK_NEAR(cell(i, "posterior_edge"), posterior, 5e-4);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", parameters.opening));
+    annulus_of = oracle;
+    const measured found = measure(valve, 2.2, is_in_annulus);
+    CHECK_NEAR(cell(i, "anterior_area"), found.area[0], 0.02);
+    CHECK_NEAR(cell(i, "posterior_area"), found.area[1], 0.02);
+    CHECK_NEAR(cell(i, "orifice_area"), found.orifice, 0.03);
+    mitral_oracle_destroy(oracle);
+  }
+  annulus_of = NULL;
+  /* The numbers: what is not physiological. */
+  CHECK_NEAR(cell(0, "anterior_edge"), 3.91, 0.005);
+  CHECK_NEAR(cell(4, "anterior_edge"), 4.58, 0.005);
+  CHECK_NEAR(cell(4, "posterior_edge"), 7.28, 0.005);
+  CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-9);
+  CHECK_NEAR(cell(4, "orifice_area"), 6.25, 0.005);
+  expect_said("valve     mitral: 5 openings from 0 to 1\n");
+  expect_said("anterior  free edge 3.91 when closed, times 0.925 at 0.25 to 1.17 at 1\n");
+  expect_said("orifice   0 at 0, largest 6.25 at 1; the outline of the attachment has ");
+  expect_said(
+      "edges     not within 10 % of their closed length: anterior (1 opening, first 1), posterior (4 openings, ");
+  riis_valve_destroy(&valve);
+}
+
+/* Without a number there are 101 openings, and the table on stdout is the whole output. */
+static void test_stdout(void **state) {
+  (void)state;
+  RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--quiet");
+  assert_string_equal(program_out, "");
+  assert_int_equal(table.n_rows, 101);
+  for (int i = 0; i <= 100; ++i) assert_true(cell(i, "opening") == i / 100.0);
+  RUN_FINE("--states", "-", "--valve", RIIS_EXAMPLES "/prosthesis.json");
+  char *text = scratch_read(scratch_path("states.csv"), NULL);
+  assert_string_equal(program_out, text);
+  free(text);
+}
+
+/* ---- The aortic valve ---- */
+
+/* The length of a cubic by chords. */
+static double cubic_length(double p[4][3]) {
+  enum { n = 20000 };
+  double length = 0, last[3];
+  for (int i = 0; i <= n; ++i) {
+    const double t = (double)i / n, s = 1 - t, weight[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+    double here[3] = {0, 0, 0};
+    for (int k = 0; k < 12; ++k) here[k % 3] += weight[k / 3] * p[k / 3][k % 3];
+    if (i > 0) length += hypot(hypot(here[0] - last[0], here[1] - last[1]), here[2] - last[2]);
+    memcpy(last, here, sizeof last);
+  }
+  return length;
+}
+
+/* Half the free edge of a cusp with a power above 1 (docs/theory.md, section 3). */
+static void free_edge(double r_in, double r_out, double degrees, double power, double t0, double t3, double p[4][3]) {
+  const double x = r_out * cos(degrees * pi / 180), y = r_out * sin(degrees * pi / 180);
+  const double made[4][3] = {
+      {r_in, 0, 1.02}, {r_in, t0, 1.02}, {x - t3 * power * (x - r_in) / y, y - t3, 1.02}, {x, y, 1.02}};
+  memcpy(p, made, sizeof made);
+}
+
+static int is_in_root(double x, double y) { return x * x + y * y < 1.29 * 1.29; }
+
+static void test_aortic(void **state) {
+  (void)state;
+  static const char *const cusp[3] = {"right", "left", "non_coronary"};
+  static const double table_of_paper[3][6] = {
+      {0.24, 1.365, 61, 1.58, 0.025, 0.5}, {0.49, 1.495, 58.5, 2.77, 0.1, 0.5}, {0.2, 1.38, 60.5, 1.19, 0.1, 0.65}};
+  riis_valve *valve = make_valve("aortic"), *open = make_valve("aortic");
+  CHECK_OK(riis_valve_set_scalar(open, "leaflet_radius_in", 1));
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  scratch_write_text("open.json", "{\"leaflet_radius_in\": 1}");
+  RUN_STATES("--params-open", scratch_path("open.json"), "--state-count", "3");
+  assert_int_equal(table.n_rows, 3);
+  assert_int_equal(table.n_columns, 14);
+  check_ratios();
+  for (int i = 0; i < 3; ++i) {
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5 * i));
+    const measured found = measure(valve, 1.3, is_in_root);
+    CHECK_NEAR(cell(i, "orifice_area"), found.orifice, 0.03);
+    for (int k = 0; k < 3; ++k) {
+      const double *of = table_of_paper[k];
+      char name[64];
+      double closed[4][3], opened[4][3];
+      free_edge(of[0], of[1], of[2], of[3], of[4], of[5], closed);
+      free_edge(1, of[1], of[2], of[3], of[4], of[5], opened);
+      for (int j = 0; j < 12; ++j) closed[j / 3][j % 3] += 0.5 * i * (opened[j / 3][j % 3] - closed[j / 3][j % 3]);
+      snprintf(name, sizeof name, "%s_edge", cusp[k]);
+      CHECK_NEAR(cell(i, name), 2 * cubic_length(closed), 3e-4);
+      snprintf(name, sizeof name, "%s_area", cusp[k]);
+      CHECK_NEAR(cell(i, name), found.area[k], 0.02);
+    }
+  }
+  expect_said("edges        all within 10 % of their closed length\n");
+  expect_said("the disc of root_radius 1.29 has 5.23\n");
+  riis_valve_destroy(&valve);
+  riis_valve_destroy(&open);
+}
+
+/* The frame of the table is the valve's own, so a shift changes nothing. Units change lengths and areas. */
+static void test_frame_and_unit(void **state) {
+  (void)state;
+  scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"translation\": [3, -2, 1]}");
+  RUN_STATES("--params-open", scratch_path("open.json"), "--set", "translation=3,-2,1", "--state-count", "3");
+  double edge[3], area[3], orifice[3];
+  for (int i = 0; i < 3; ++i)
+    edge[i] = cell(i, "left_edge"), area[i] = cell(i, "left_area"), orifice[i] = cell(i, "orifice_area");
+  scratch_write_text("open.json", "{\"leaflet_radius_in\": 1}");
+  RUN_STATES("--params-open", scratch_path("open.json"), "--state-count", "3", "--unit", "mm");
+  for (int i = 0; i < 3; ++i) {
+    CHECK_NEAR(cell(i, "left_edge"), 10 * edge[i], 1e-9);
+    CHECK_NEAR(cell(i, "left_area"), 100 * area[i], 1e-9);
+    CHECK_NEAR(cell(i, "orifice_area"), 100 * orifice[i], 1e-6);
+  }
+  expect_said("the disc of root_radius 12.9 has 523\n");
+}
+
+/* ---- Valves from patches ---- */
+
+/* The example's free edges are two cubics each. Its attachment closes in the projection, and so do its leaflets. */
+static void test_prosthesis(void **state) {
+  (void)state;
+  double closed[4][3] = {{0.6, -1.04, 1.2}, {0.45, -0.78, 1}, {0.3, -0.52, 0.8}, {0, 0, 0.8}};
+  double opened[4][3] = {{0.6, -1.04, 1.2}, {0.87, -0.8, 1.2}, {1.05, -0.37, 1.2}, {1.05, 0, 1.2}};
+  RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--state-count", "2");
+  CHECK_NEAR(cell(0, "leaflet_0_edge"), 2 * cubic_length(closed), 3e-4);
+  CHECK_NEAR(cell(1, "leaflet_0_edge"), 2 * cubic_length(opened), 3e-4);
+  assert_true(has_column("leaflet_1_edge") && has_column("leaflet_2_area_ratio"));
+  CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-9);
+  CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
+}
+
+/* A flat triangle with a side that is one point. The point's triangles have no area, and so its end of the edge is in no triangle.
+ * The sides along the axes have the lengths 1 and 2, the slanted one the length sqrt(5). */
+static void run_flat_triangle(const char *sides) {
+  char text[512];
+  snprintf(text, sizeof text,
+           "{\"curves\": {\"origin\": [[0, 0, 0]], \"x\": [[0, 0, 0], [1, 0, 0]], \"y\": [[0, 0, 0], [0, 2, 0]], "
+           "\"slope\": [[1, 0, 0], [0, 2, 0]]}, \"patches\": [{%s}]}",
+           sides);
+  scratch_write_text("flat.json", text);
+  RUN_STATES("--valve", scratch_path("flat.json"));
+  assert_int_equal(table.n_rows, 1);
+  CHECK_NEAR(cell(0, "leaflet_0_area"), 1, 1e-12);
+  assert_false(has_column("orifice_area"));
+  expect_said("opening 0 alone, because it has no state to open to\n");
+  expect_said("orifice   not measured: ");
+}
+
+static void test_collapsed_sides(void **state) {
+  (void)state;
+  run_flat_triangle("\"v0\": \"x\", \"v1\": \"y\", \"u0\": \"origin\", \"u1\": \"slope\"");
+  CHECK_NEAR(cell(0, "leaflet_0_edge"), 2, 1e-12);
+  run_flat_triangle("\"v0\": \"-x\", \"v1\": \"-y\", \"u0\": \"slope\", \"u1\": \"origin\"");
+  CHECK_NEAR(cell(0, "leaflet_0_edge"), 2, 1e-12);
+  run_flat_triangle("\"v0\": \"origin\", \"v1\": \"slope\", \"u0\": \"x\", \"u1\": \"y\"");
+  CHECK_NEAR(cell(0, "leaflet_0_edge"), sqrt(5), 1e-12);
+  run_flat_triangle("\"v0\": \"slope\", \"v1\": \"origin\", \"u0\": \"-x\", \"u1\": \"-y\"");
+  assert_false(has_column("leaflet_0_edge"));
+  expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
+}
+
+/* Two patches above each other share a side, which is v = 1 of one of them and no free edge. Their other curves bend
+ * differently, so they cut the common side into different parts. One side is straight, one curved. */
+static void test_shared_sides(void **state) {
+  (void)state;
+  static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
+  for (int i = 0; i < 2; ++i)
+    for (int leaflet = 0; leaflet < 2; ++leaflet) {
+      char text[1024];
+      snprintf(
+          text, sizeof text,
+          "{\"curves\": {\"low\": [[0, 0, 0], [2, 0, 0]], \"middle\": [%s], \"high\": [[0, 2, 0], [0.5, 2, 2], "
+          "[1.5, 2, -2], [2, 2, 0]], \"a\": [[0, 0, 0], [0, 1, 0]], \"b\": [[2, 0, 0], [2, 1, 0]], \"c\": [[0, 1, 0], "
+          "[0, 2, 0]], \"d\": [[2, 1, 0], [2, 2, 0]]}, \"patches\": [{\"v0\": \"low\", \"v1\": \"middle\", \"u0\": "
+          "\"a\", \"u1\": \"b\"}, {\"v0\": \"middle\", \"v1\": \"high\", \"u0\": \"c\", \"u1\": \"d\", \"leaflet\": "
+          "%d}]}",
+          middles[i], leaflet);
+      double high[4][3] = {{0, 2, 0}, {0.5, 2, 2}, {1.5, 2, -2}, {2, 2, 0}};
+      scratch_write_text("two.json", text);
+      RUN_STATES("--valve", scratch_path("two.json"));
+      char name[64];
+      snprintf(name, sizeof name, "leaflet_%d_edge", leaflet);
+      CHECK_NEAR(cell(0, name), cubic_length(high), 1e-3);
+      /* The side between two leaflets is a free edge of the lower one. */
+      if (leaflet == 1) assert_true(cell(0, "leaflet_0_edge") > 1.999);
+    }
+}
+
+/* ---- Refusals ---- */
+
+static void test_refusals(void **state) {
+  (void)state;
+  char csv[256];
+  snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
+  RUN_REFUSED(2, "--state-count: 1 is not from 2 to 100001", "--states", csv, "--state-count", "1");
+  RUN_REFUSED(2, "--state-count: 0 is not from 2 to 100001", "--states", csv, "--state-count", "0");
+  RUN_REFUSED(2, "--state-count: 100002 is not from 2 to 100001", "--states", csv, "--state-count", "100002");
+  RUN_REFUSED(2, "--state-count: 'many' is not a whole number", "--states", csv, "--state-count", "many");
+  RUN_REFUSED(2, "--state-count requires --states", "--valve", "mitral", "--state-count", "5");
+  RUN_REFUSED(2, "--states: the value is empty", "--states", "");
+  RUN_REFUSED(2, "MESH has no effect with --states", scratch_path("in.vtu"), "--states", csv);
+  RUN_REFUSED(2, "--opening has no effect with --states", "--states", csv, "--opening", "0.5");
+  RUN_REFUSED(2, "--set opening has no effect with --states", "--states", csv, "--set", "opening=0.5");
+  RUN_REFUSED(2, "--rotate has no effect with --states", "--states", csv, "--rotate", "0,0,1,90");
+  RUN_REFUSED(2, "--print-params has no effect with --states", "--states", csv, "--print-params");
+  RUN_REFUSED(2, "--surface excludes --states", "--states", csv, "--surface", "a.vtp");
+  RUN_REFUSED(2, "is also the file of --params", "--states", scratch_path("open.json"), "--params",
+              scratch_path("open.json"));
+  RUN_REFUSED(1, "no/states.csv: cannot be written: the folder", "--states", scratch_path("no/states.csv"));
+  RUN_REFUSED(1, "is a directory", "--states", scratch_path("."));
+  RUN_REFUSED(1, "times root_radius, which is 0.001", "--states", csv, "--set", "root_radius=0.001");
+  RUN_REFUSED(1, "is not a kind of valve", "--states", csv, "--valve", "tricuspid");
+  assert_false(scratch_exists("no.csv"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_mitral),         cmocka_unit_test(test_stdout),     cmocka_unit_test(test_aortic),
+      cmocka_unit_test(test_frame_and_unit), cmocka_unit_test(test_prosthesis), cmocka_unit_test(test_collapsed_sides),
+      cmocka_unit_test(test_shared_sides),   cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The orifice as riis-mark --states measures it, against closed forms, and against points that are counted. */
+#include "orifice_shim.h"
+#include "test_support.h"
+
+static const double pi = 3.14159265358979323846;
+enum { n_lines = 2048 }; /* the program's */
+
+static void rotated(double x, double y, double angle, const double *centre, double *to) {
+  to[0] = centre[0] + cos(angle) * x - sin(angle) * y;
+  to[1] = centre[1] + sin(angle) * x + cos(angle) * y;
+}
+
+static void test_circle(void **state) {
+  (void)state;
+  const double centre[2] = {0.3, -7}, radius = 1.29, area = pi * radius * radius;
+  double last = 1;
+  for (int n = 64; n <= n_lines; n *= 2) {
+    const double error = fabs(shim_circle_area(radius, centre, n) / area - 1);
+    CHECK_AT_MOST(error, pow(n, -1.5));
+    CHECK_AT_MOST(error, last / 2.5); /* 2 to the power of 1.5, nearly */
+    last = error;
+    CHECK_NEAR(shim_uncovered_circle(radius, centre, 0, NULL, n), shim_circle_area(radius, centre, n), 1e-13);
+  }
+  CHECK_AT_MOST(last, 1e-5);
+}
+
+/* A flat ring with a hole of m corners covers the circle all round. */
+static void test_ring(void **state) {
+  (void)state;
+  enum { m = 90 };
+  random_source random = random_start("test_orifice");
+  static double corners[2 * m][6];
+  for (int turn = 0; turn < 20; ++turn) {
+    const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
+    const double radius = random_between(&random, 0.5, 2), hole = radius * random_between(&random, 0.2, 0.9);
+    const double first = random_between(&random, 0, 2 * pi), step = 2 * pi / m;
+    for (int i = 0; i < m; ++i) {
+      const double a = first + i * step, b = first + (i + 1) * step, outer = 1.1 * radius;
+      rotated(hole, 0, a, centre, corners[2 * i]);
+      rotated(outer, 0, a, centre, corners[2 * i] + 2);
+      rotated(outer, 0, b, centre, corners[2 * i] + 4);
+      rotated(hole, 0, a, centre, corners[2 * i + 1]);
+      rotated(outer, 0, b, centre, corners[2 * i + 1] + 2);
+      rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
+    }
+    const double area = 0.5 * m * hole * hole * sin(step);
+    CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines) / area, 1, 1e-4);
+  }
+}
+
+/* A half plane through the centre covers half the circle, in any direction. The program's lines run along x: an edge along them
+ * is the worst that there is. */
+static void test_half(void **state) {
+  (void)state;
+  random_source random = random_start("test_orifice");
+  for (int turn = 0; turn < 100; ++turn) {
+    const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
+    const double radius = 1.1, angle = turn < 4 ? turn * pi / 2 : random_between(&random, 0, 2 * pi);
+    const double up = turn % 2 ? random_between(&random, -0.5, 0.5) : 0; /* from the centre to the edge */
+    double corners[6];
+    rotated(-20, up, angle, centre, corners);
+    rotated(20, up, angle, centre, corners + 2);
+    rotated(0, 40, angle, centre, corners + 4);
+    const double part = radius * radius * acos(-up / radius) + up * sqrt(radius * radius - up * up);
+    const double strip = 2 * radius * radius / n_lines; /* half a spacing, twice the radius long */
+    CHECK_NEAR(shim_uncovered_circle(radius, centre, 1, corners, n_lines), part, strip + 1e-5);
+  }
+}
+
+static int is_in_triangle(const double *c, double x, double y) {
+  int n_left = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double *a = c + 2 * k, *b = c + 2 * ((k + 1) % 3);
+    n_left += (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0;
+  }
+  return n_left == 0 || n_left == 3;
+}
+
+/* Random triangles that overlap, inside a square and inside a circle, against a grid of points. */
+static void test_random(void **state) {
+  (void)state;
+  enum { n_side = 600, n_triangles = 12 };
+  const double square[4][6] = {{-1, -1, 0, 1, -1, 5}, {1, -1, 5, 1, 1, 0}, {-1, 1, 2, 1, 1, 0}, {-1, -1, 0, -1, 1, 2}};
+  const double origin[2] = {0, 0};
+  random_source random = random_start("test_orifice");
+  for (int turn = 0; turn < 6; ++turn) {
+    double corners[n_triangles][6];
+    for (int i = 0; i < 6 * n_triangles; ++i) corners[i / 6][i % 6] = random_between(&random, -1.3, 1.3);
+    int n_in_square = 0, n_in_circle = 0;
+    for (int i = 0; i < n_side * n_side; ++i) {
+      const double x = (2 * (i % n_side) + 1.0) / n_side - 1, y = (2 * (i / n_side) + 1.0) / n_side - 1;
+      int is_covered = 0;
+      for (int k = 0; k < turn + 1 && !is_covered; ++k) is_covered = is_in_triangle(corners[k], x, y);
+      n_in_square += !is_covered;
+      n_in_circle += !is_covered && x * x + y * y < 1;
+    }
+    const double cell = 4.0 / (n_side * n_side), error = 0.02; /* 40 edges of a length of 2 in cells of 1/300 */
+    CHECK_NEAR(shim_uncovered_inside(4, square[0], turn + 1, corners[0], n_lines), cell * n_in_square, error);
+    CHECK_NEAR(shim_uncovered_circle(1, origin, turn + 1, corners[0], n_lines), cell * n_in_circle, error);
+  }
+}
+
+static void test_open_lines(void **state) {
+  (void)state;
+  const double lines[3][6] = {{0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0}, {0, 1, 1, 0, 0, 0}};
+  CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
+  assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
+  assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_circle), cmocka_unit_test(test_ring),       cmocka_unit_test(test_half),
+      cmocka_unit_test(test_random), cmocka_unit_test(test_open_lines),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
