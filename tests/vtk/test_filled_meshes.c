@@ -48,12 +48,12 @@ static riis_surface *surface_in_file(const char *path) {
   return surface;
 }
 
-/* As ./run demo makes it. `numbers` are options of gmsh. */
-static filled_mesh mesh_by_gmsh(const char *name, const char *numbers) {
+/* The mesh of a .geo file, as ./run demo makes it. `numbers` are options of gmsh. */
+static filled_mesh mesh_by_gmsh(const char *path, const char *numbers) {
   char arguments[1024];
   const char *surface = scratch_path("surface.msh"), *skin = scratch_path("skin.stl"),
              *volume = scratch_path("volume.vtk");
-  snprintf(arguments, sizeof arguments, "-2 %s -format msh2 -o '%s' '%s/%s.geo'", numbers, surface, RIIS_DEMO, name);
+  snprintf(arguments, sizeof arguments, "-2 %s -format msh2 -o '%s' '%s'", numbers, surface, path);
   run_gmsh(arguments);
   snprintf(arguments, sizeof arguments, "-save -format stl -o '%s' '%s'", skin, surface);
   run_gmsh(arguments);
@@ -81,55 +81,50 @@ static filled_mesh mesh_by_gmsh(const char *name, const char *numbers) {
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
+/* The vertices at which a valve is attached. */
+typedef enum attachment { side_u1, side_v0, housing } attachment;
+
 typedef struct test_valve {
   riis_valve *handle;
-  int has_cusps;
+  attachment at;
 } test_valve;
 
-static test_valve mitral_valve(double opening) {
-  test_valve valve = {new_valve("mitral"), 0};
+static test_valve valve_at(const char *kind, double opening, attachment at) {
+  test_valve valve = {new_valve(kind), at};
   CHECK_OK(riis_valve_set_scalar(valve.handle, "opening", opening));
   return valve;
 }
 
-static test_valve paper_valve(void) { return (test_valve){new_valve("aortic"), 1}; }
+static test_valve mitral_valve(double opening) { return valve_at("mitral", opening, side_v0); }
+static test_valve trileaflet_valve(double opening) { return valve_at("trileaflet", opening, side_u1); }
+static test_valve bileaflet_valve(double opening) { return valve_at("bileaflet", opening, housing); }
+static test_valve paper_valve(void) { return valve_at("aortic", 0, side_u1); }
 
-/* The trileaflet valve's closed state, by the parameters of the paper's valve. */
-static test_valve closing_valve(void) {
-  static const struct {
-    const char *name;
-    double value;
-  } of_cusps[] = {
-      {"root_radius", 1.25}, {"leaflet_height", 1},         {"bending_height", 0.5}, {"leaflet_radius_in", 0},
-      {"leaflet_angle", 60}, {"leaflet_radius_out", 1.25},  {"leaflet_power", 1},    {"bending_radius_in", 0.4},
-      {"bending_angle", 36}, {"bending_radius_out", 1.255}, {"bending_power", 1.8},  {"xq", -0.22},
-      {"zq", -0.35}};
-  const double left[3] = {0, 0, 120}, non_coronary[3] = {0, 0, -120};
-  test_valve valve = {new_valve("aortic"), 1};
-  for (size_t i = 0; i < sizeof of_cusps / sizeof *of_cusps; ++i)
-    CHECK_OK(riis_valve_set_scalar(valve.handle, of_cusps[i].name, of_cusps[i].value));
-  CHECK_OK(riis_valve_set(valve.handle, "left.rotation", 3, left));
-  CHECK_OK(riis_valve_set(valve.handle, "non_coronary.rotation", 3, non_coronary));
-  return valve;
+/* The inner radius of the default bileaflet valve's housing. */
+static double housing_radius(void) {
+  riis_valve *valve = new_valve("bileaflet");
+  double radius;
+  CHECK_OK(riis_valve_get(valve, "radius", 1, &radius));
+  free_one_owned(valve);
+  return radius;
 }
 
-/* The vertices at which the valve is attached, (3, n): the sides u = 1 of cusps, the sides v = 0 of mitral patches. */
-static int64_t attachment_of(const riis_surface *surface, int has_cusps, double *xyz) {
+static int is_attached(const surface_content *all, int64_t vertex, attachment at) {
+  const double *xyz = all->xyz + 3 * vertex, *uv = all->uv + 2 * vertex;
+  if (at == housing) return hypot(xyz[0], xyz[1]) > 0.99 * housing_radius();
+  return at == side_u1 ? uv[0] == 1 : uv[1] == 0;
+}
+
+static double largest_distance_to_wall(const filled_mesh *in, const riis_surface *surface, attachment at) {
   const surface_content all = surface_content_of(surface);
+  double largest = 0;
   int64_t n = 0;
   for (int64_t i = 0; i < all.n_vertices; ++i) {
-    if (has_cusps ? all.uv[2 * i] != 1 : all.uv[2 * i + 1] != 0) continue;
-    memcpy(xyz + 3 * n++, all.xyz + 3 * i, 3 * sizeof *xyz);
+    if (!is_attached(&all, i, at)) continue;
+    largest = fmax(largest, closest_to(in->wall, all.xyz[3 * i], all.xyz[3 * i + 1], all.xyz[3 * i + 2]).distance);
+    ++n;
   }
-  return n;
-}
-
-static double largest_distance_to_wall(const filled_mesh *in, const riis_surface *surface, int has_cusps) {
-  double *xyz = own(malloc((size_t)info_of(surface).n_vertices * 3 * sizeof *xyz)), largest = 0;
-  const int64_t n = attachment_of(surface, has_cusps, xyz);
-  assert_true(n > 50);
-  for (int64_t i = 0; i < n; ++i)
-    largest = fmax(largest, closest_to(in->wall, xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]).distance);
+  assert_true(n >= 4);
   return largest;
 }
 
@@ -143,31 +138,60 @@ static void range_of_z(const filled_mesh *in, double *lowest, double *highest) {
   }
 }
 
-/* Tells whether unmarked nodes join the two ends of the mesh, none of which may be marked. */
-static int is_joined(const filled_mesh *in, const uint8_t *marks) {
-  double lowest, highest;
-  int64_t *stack = own(malloc((size_t)in->n_nodes * sizeof *stack)), n = 0, n_last = 0;
-  uint8_t *seen = own(calloc((size_t)in->n_nodes, 1));
-  range_of_z(in, &lowest, &highest);
-  for (int64_t i = 0; i < in->n_nodes; ++i) {
-    const double z = in->xyz[3 * i + 2];
-    if (z > lowest + 1e-9 && z < highest - 1e-9) continue;
-    assert_int_equal(marks[i], 0);
-    if (z < lowest + 1e-9)
-      seen[i] = 1, stack[n++] = i;
-    else
-      ++n_last;
-  }
-  assert_true(n > 100 && n_last > 100);
-  while (n > 0) {
-    const int64_t i = stack[--n];
-    if (in->xyz[3 * i + 2] >= highest - 1e-9) return 1;
-    for (int64_t k = in->offsets[i]; k < in->offsets[i + 1]; ++k) {
-      const int64_t j = in->columns[k];
-      if (!marks[j] && !seen[j]) seen[j] = 1, stack[n++] = j;
+/* Labels each unmarked node with the lowest id of its region, by one flood fill after the other. Others get -1. */
+static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *label) {
+  int64_t *stack = own(malloc((size_t)in->n_nodes * sizeof *stack));
+  for (int64_t i = 0; i < in->n_nodes; ++i) label[i] = -1;
+  for (int64_t first = 0; first < in->n_nodes; ++first) {
+    if (marks[first] || label[first] >= 0) continue;
+    int64_t n = 0;
+    label[first] = first, stack[n++] = first;
+    while (n > 0) {
+      const int64_t i = stack[--n];
+      for (int64_t k = in->offsets[i]; k < in->offsets[i + 1]; ++k) {
+        const int64_t j = in->columns[k];
+        if (!marks[j] && label[j] < 0) label[j] = first, stack[n++] = j;
+      }
     }
   }
-  return 0;
+}
+
+/* The nodes at a height. */
+static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
+  int64_t n = 0;
+  for (int64_t i = 0; i < in->n_nodes; ++i)
+    if (fabs(in->xyz[3 * i + 2] - z) < 1e-9) ids[n++] = i;
+  assert_true(n > 100);
+  return n;
+}
+
+/* Tells whether unmarked nodes join the two ends of the mesh. The library's regions and passage must be those of the flood fill. */
+static int is_joined(const filled_mesh *in, const riis_surface *surface, const riis_mark_options *options,
+                     const riis_mark_result *result, const uint8_t *marks) {
+  const size_t size = (size_t)in->n_nodes * sizeof(int64_t);
+  int64_t *label = own(malloc(size)), *regions = own(malloc(size)), *lower = own(malloc(size)),
+          *upper = own(malloc(size));
+  double lowest, highest;
+  range_of_z(in, &lowest, &highest);
+  const int64_t n_lower = nodes_at(in, lowest, lower), n_upper = nodes_at(in, highest, upper);
+  flood_fill(in, marks, label);
+  int joined = 0;
+  for (int64_t i = 0; i < n_lower; ++i)
+    for (int64_t j = 0; j < n_upper && !joined; ++j)
+      joined = label[lower[i]] == label[upper[j]] && label[lower[i]] >= 0;
+
+  int64_t n_regions;
+  riis_passage passage;
+  CHECK_OK(riis_label_open_regions(in->mesh, options, result, in->n_nodes, regions, &n_regions));
+  assert_memory_equal(regions, label, size);
+  CHECK_OK(riis_find_passage(surface, in->mesh, options, n_lower, lower, n_upper, upper, &passage, sizeof passage));
+  assert_int_equal(passage.state, joined ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED);
+  if (joined)
+    printf("  passage %.3f from the valve at %.2f %.2f %.2f: ", passage.distance, passage.point[0], passage.point[1],
+           passage.point[2]);
+  else
+    printf("  sealed down to a half thickness of %.3f: ", passage.distance);
+  return joined;
 }
 
 /* The longest edge with a node near the surface. */
@@ -199,8 +223,8 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
   double *distance = own(malloc((size_t)in->n_nodes * sizeof *distance));
   CHECK_OK(riis_mark_nodes(surface, in->mesh, &marking, result));
   CHECK_OK(riis_mark_result_dense(result, in->n_nodes, 1e30, marks, distance, NULL, NULL));
-  const flow found = {largest_distance_to_wall(in, surface, valve.has_cusps), longest_near(in, distance),
-                      is_joined(in, marks)};
+  const flow found = {largest_distance_to_wall(in, surface, valve.at), longest_near(in, distance),
+                      is_joined(in, surface, &marking, result, marks)};
   printf("%s: %lld nodes, attachment at most %.4f from the wall, longest edge near the valve %.4f, flow %s\n", name,
          (long long)in->n_nodes, found.to_wall, found.longest_edge, found.passes ? "passes" : "does not pass");
   free_owned_after(owned_before);
@@ -219,19 +243,16 @@ static void expect_filled(flow found) {
 
 static void closed_cusps_seal_their_root(void **state) {
   (void)state;
-  const filled_mesh root = mesh_by_gmsh("aortic_root", "");
-  const flow found = flow_through(&root, closing_valve(), "closed aortic valve in its root");
-  expect_filled(found);
-  assert_int_equal(found.passes, 0);
-  /* Without one cusp there is flow. */
-  test_valve torn = closing_valve();
-  CHECK_OK(riis_valve_set_scalar(torn.handle, "left.leaflet_radius_in", 0.5));
-  assert_int_equal(flow_through(&root, torn, "with a cusp that does not reach the axis").passes, 1);
+  const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "");
+  const flow closed = flow_through(&root, trileaflet_valve(0), "closed trileaflet valve in its root");
+  expect_filled(closed);
+  assert_int_equal(closed.passes, 0);
+  assert_int_equal(flow_through(&root, trileaflet_valve(0.25), "opening trileaflet valve in its root").passes, 1);
 }
 
 static void closed_mitral_valve_seals_its_tube(void **state) {
   (void)state;
-  const filled_mesh tube = mesh_by_gmsh("mitral_tube", "");
+  const filled_mesh tube = mesh_by_gmsh(RIIS_DEMO "/mitral_tube.geo", "");
   for (int step = 0; step <= 4; ++step) {
     const flow found = flow_through(&tube, mitral_valve(0.25 * step),
                                     step ? "opening mitral valve in its tube" : "closed mitral valve in its tube");
@@ -244,7 +265,7 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
  * through the middle. */
 static void the_papers_valve_leaks_in_its_root(void **state) {
   (void)state;
-  const filled_mesh root = mesh_by_gmsh("aortic_root", "-setnumber paper 1");
+  const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");
   flow found = flow_through(&root, paper_valve(), "the paper's aortic valve in its root");
   CHECK_AT_MOST(found.to_wall, 0.08);
   assert_int_equal(found.passes, 1);
@@ -253,9 +274,25 @@ static void the_papers_valve_leaks_in_its_root(void **state) {
   assert_int_equal(flow_through(&root, reaching, "with cusps that reach the axis").passes, 0);
 }
 
+/* A cylinder as wide as the housing. */
+static void closed_bileaflet_valve_seals_its_housing(void **state) {
+  (void)state;
+  char text[512];
+  snprintf(text, sizeof text,
+           "SetFactory(\"OpenCASCADE\");\nCylinder(1) = {0, 0, -1, 0, 0, 2.5, %.17g};\n"
+           "Mesh.MeshSizeMin = 0.05;\nMesh.MeshSizeMax = 0.05;\nMesh.Binary = 1;\n",
+           housing_radius());
+  scratch_write_text("housing.geo", text);
+  const filled_mesh cylinder = mesh_by_gmsh(scratch_path("housing.geo"), "");
+  const flow closed = flow_through(&cylinder, bileaflet_valve(0), "closed bileaflet valve in its housing");
+  expect_filled(closed);
+  assert_int_equal(closed.passes, 0);
+  assert_int_equal(flow_through(&cylinder, bileaflet_valve(0.5), "opening bileaflet valve in its housing").passes, 1);
+}
+
 static void flow_passes_around_in_cylinders(void **state) {
   (void)state;
-  const filled_mesh wide = mesh_by_gmsh("mitral_cylinder", "");
+  const filled_mesh wide = mesh_by_gmsh(RIIS_DEMO "/mitral_cylinder.geo", "");
   const flow found = flow_through(&wide, mitral_valve(0), "closed mitral valve in a wider cylinder");
   assert_true(found.to_wall > 2 * half_thickness);
   assert_int_equal(found.passes, 1);
@@ -268,6 +305,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(closed_cusps_seal_their_root),
       cmocka_unit_test(closed_mitral_valve_seals_its_tube),
+      cmocka_unit_test(closed_bileaflet_valve_seals_its_housing),
       cmocka_unit_test(the_papers_valve_leaks_in_its_root),
       cmocka_unit_test(flow_passes_around_in_cylinders),
   };
