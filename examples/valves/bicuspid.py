@@ -4,7 +4,7 @@
 
 Two equal cusps without a raphe (type 0 of Sievers and Schmidtke, J. Thorac. Cardiovasc. Surg. 133, 2007) hang in a root
 of constant radius. Their free edges close along the line between the commissures and open to a fish's mouth. Lengths
-are in centimetres. Run it as  python3 bicuspid.py > bicuspid.json  after a change of the numbers below.
+are in centimetres. Run it as python3 bicuspid.py > bicuspid.json  after a change of the numbers below.
 """
 import json
 

@@ -109,7 +109,7 @@ class CaseReader {
       return all_.options.prefix;
     }
     if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
-    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is that of the sums");
+    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
     if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
     return name;
   }
@@ -126,10 +126,10 @@ class CaseReader {
       surface.half_thickness = *own;
     }
     options.surface_unit = values.unit("surface_unit");
-    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", that of the mesh");
+    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
     const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
     if (options.unit && is_file && !options.surface_unit)
-      values.refuse("surface_unit", "\"unit\" needs it, the unit of the file");
+      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
     if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
       values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
     if (options.unit) apply_units(options);

@@ -119,6 +119,9 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->group(group)
       ->needs(surface);
   app.add_flag("--flip-normals", texts.flip_normals, "Turn every triangle over")->group(group);
+  app.add_flag("--check-crossing", options.check_crossing,
+               "Tell whether leaflets go through each other, at 101 openings of a valve that opens, or at --opening")
+      ->group(group);
   declare_motion(app, texts, surface);
 }
 
@@ -238,18 +241,13 @@ double parse_length(const std::string &text, const std::string &subject) {
   return length;
 }
 
-bool sets_opening(const std::vector<std::string> &settings) {
-  return std::any_of(settings.begin(), settings.end(),
-                     [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
-}
-
-std::optional<double> parse_opening(const Texts &texts, const std::vector<std::string> &settings) {
+std::optional<double> parse_opening(const Texts &texts, const Options &options) {
   if (texts.opening.empty()) return std::nullopt;
   const double opening = parse_number(texts.opening, "--opening");
   if (!(opening >= 0 && opening <= 1)) {
     throw Refusal{exit_wrong_usage, "--opening: " + texts.opening + " is not from 0 to 1"};
   }
-  if (sets_opening(settings)) {
+  if (sets_opening(options)) {
     throw Refusal{exit_wrong_usage, "--opening and --set opening exclude each other"};
   }
   return opening;
@@ -371,11 +369,11 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
   }
   // At the default opening of most valves the file would have no effect, and nobody would see it.
-  if (!options.params_open.empty() && !options.opening && !sets_opening(options.settings) && options.series.cycle.empty() &&
-      options.states.empty()) {
-    refuse("--params-open needs --opening, --cycle or --states");
+  if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty() && options.states.empty() &&
+      !options.check_crossing) {
+    refuse("--params-open needs --opening, --cycle, --states or --check-crossing");
   }
-  if (prints || !options.series.case_file.empty() || !options.states.empty()) return;
+  if (prints || options.check_crossing || !options.series.case_file.empty() || !options.states.empty()) return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
@@ -449,6 +447,12 @@ void apply_units(Options &options) {
   if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
 }
 
+bool sets_opening(const Options &options) {
+  return options.opening || std::any_of(options.settings.begin(), options.settings.end(), [](const std::string &setting) {
+           return setting.rfind("opening=", 0) == 0;
+         });
+}
+
 bool is_prefix(const std::string &name) {
   const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
   return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), is_good);
@@ -490,7 +494,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   if (options.valve.empty()) options.valve = "aortic";
   if (!texts.resistance.empty()) options.resistance = parse_number(texts.resistance, "--resistance");
   if (!texts.far_distance.empty()) options.far_distance = parse_number(texts.far_distance, "--far-distance");
-  options.opening = parse_opening(texts, options.settings);
+  options.opening = parse_opening(texts, options);
   parse_surface_options(texts, options.surface_options);
   parse_series(texts.series, options.series);
   parse_motion(texts.time, texts.period, options);

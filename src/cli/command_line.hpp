@@ -59,6 +59,7 @@ struct Options {
   std::string prefix = "riis";  // of the arrays in the output
   bool replace = false;         // arrays of these names
   bool allow_none = false;
+  bool check_crossing = false;
   SeriesOptions series;
   std::string states;           // the table of --states; "": not wanted
   std::int32_t n_states = 101;  // openings in it
@@ -68,6 +69,9 @@ struct Options {
 
 // Derives the scale from the units, and the half thickness unless the user gave one.
 void apply_units(Options &options);
+
+// Whether the user gave the valve's opening, by --opening or --set.
+bool sets_opening(const Options &options);
 
 // Whether arrays can be named so.
 bool is_prefix(const std::string &name);

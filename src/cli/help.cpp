@@ -18,6 +18,7 @@ const char *const footer = R"(Examples:
   riis-mark --valve mitral --states states.csv
   riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
   riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
+  riis-mark --valve prosthesis.json --check-crossing
   riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
 
 Marked mesh
@@ -59,7 +60,8 @@ Series in time
   A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
   the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
   the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
-  and needs the program ffmpeg. Leaks are searched at the time when the valve is least open.
+  and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open, and for --surface at the
+  first time.
 
 Cases
   --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
@@ -93,6 +95,13 @@ States
   uncovered along the axis z. The disc is that of root_radius when closed, or of the housing's radius. Valves that have neither
   take the inside of the free sides v = 0, such as the annulus. Columns that a valve has no measure for are left out. The
   tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
+
+Crossings
+  --check-crossing looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
+  each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
+  of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
+  as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
+  no MESH.
 
 Valve from patches
   --valve FILE.json is a valve from patches, by the curves that bound them:

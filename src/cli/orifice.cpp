@@ -123,6 +123,16 @@ double length_without(const std::vector<Span> &spans, std::vector<Span> covers) 
 
 }  // namespace
 
+namespace {
+
+// Lines seen edge on enclose nothing but rounding.
+bool has_area(const Outline &outline) {
+  const double height = ScanLines(outline, 1).spacing();
+  return height > 0 && area_of(outline) > 1e-9 * height * height;
+}
+
+}  // namespace
+
 Outline circle(double radius, const PlanePoint &centre) { return {radius, centre, {}}; }
 
 std::optional<Outline> closed_outline(const std::vector<Line> &lines) {
@@ -134,7 +144,7 @@ std::optional<Outline> closed_outline(const std::vector<Line> &lines) {
     for (const Point &end : {line.front(), line.back()}) ++n_ends[{end[0], end[1]}];
   }
   const bool is_closed = std::all_of(n_ends.begin(), n_ends.end(), [](const auto &end) { return end.second % 2 == 0; });
-  if (lines.empty() || !is_closed) return std::nullopt;
+  if (lines.empty() || !is_closed || !has_area(outline)) return std::nullopt;
   return outline;
 }
 

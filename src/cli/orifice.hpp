@@ -23,7 +23,7 @@ struct Outline {
 };
 
 Outline circle(double radius, const PlanePoint &centre);
-// The projected lines. Nothing if they are not closed: each end must be that of an even number of lines.
+// The projected lines. Nothing if they enclose no area or are not closed: each end must be that of an even number of lines.
 std::optional<Outline> closed_outline(const std::vector<Line> &lines);
 
 std::vector<PlaneTriangle> projected(const SurfaceArrays &surface);

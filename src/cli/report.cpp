@@ -71,6 +71,19 @@ void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
   out << "\n";
 }
 
+void add_crossings(const CrossingReport &report, std::ostringstream &out) {
+  out << "crossing  ";
+  if (report.found.n_pairs == 0) {
+    out << "none: no triangles go through each other";
+    if (report.n_openings > 0) out << " at " << counted(report.n_openings, "opening") << " from 0 to 1";
+  } else {
+    out << counted(report.found.n_pairs, "pair") << " of triangles go through each other";
+    if (report.opening) out << " at opening " << *report.opening;
+    out << ", along a length of " << report.found.length << ", up to " << report.found.depth << " deep";
+  }
+  out << "\n";
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
   out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
       << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
@@ -147,6 +160,16 @@ std::string json_of(const Report &report) {
                     {"seconds_surface", report.step->surface},
                     {"seconds_search", report.step->marking}};
   }
+  if (report.crossings) {
+    const riis_crossings &found = report.crossings->found;
+    json["crossings"] = {{"n_openings", report.crossings->n_openings},
+                         {"n_pairs", found.n_pairs},
+                         {"length", found.length},
+                         {"depth", found.depth},
+                         {"point", found.point},
+                         {"leaflets", found.leaflet_id}};
+    if (report.crossings->opening) json["crossings"]["opening"] = *report.crossings->opening;
+  }
   return json.dump(2) + "\n";
 }
 
@@ -163,6 +186,7 @@ std::string table_of(const Report &report) {
     add_marks(report, out);
     add_leaks(report.leaks, out);
   }
+  if (report.crossings) add_crossings(*report.crossings, out);
   add_seconds(report.seconds, out);
   if (report.step) add_step(*report.step, out);
   for (const std::string &path : report.written) out << "written   " << path << "\n";

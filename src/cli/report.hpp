@@ -30,6 +30,12 @@ struct LeakReport {
   int64_t n_cells_left_out = 0;       // cells of volume whose edges are not known
 };
 
+struct CrossingReport {
+  int n_openings = 0;             // that were looked at; 0: the surface as it is
+  std::optional<double> opening;  // of what was found
+  riis_crossings found{};
+};
+
 struct Report {
   std::string surface_name;       // the valve's kind, or a file
   std::optional<double> opening;  // a surface from a file has none
@@ -42,6 +48,7 @@ struct Report {
   riis_surface_info surface{};
   riis_mark_stats marks{};
   LeakReport leaks;
+  std::optional<CrossingReport> crossings;  // if they were looked for
   Seconds seconds;
   std::vector<std::string> written;  // files
   std::optional<StepTimes> step;

@@ -6,6 +6,7 @@
 
 #include "cli/case.hpp"
 #include "cli/case_file.hpp"
+#include "cli/crossings.hpp"
 #include "cli/drawing.hpp"
 #include "cli/handles.hpp"
 #include "cli/interruption.hpp"
@@ -127,6 +128,7 @@ ExitCode run_single(const Options &options) {
   if (!options.leaflets.empty()) report.n_leaflets = count_leaflets(surface.get());
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;
+  if (options.check_crossing) look_for_crossings(options, valve, surface.get(), report);
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, names_of_arrays(options), mesh.get());

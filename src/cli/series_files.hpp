@@ -17,7 +17,7 @@ class SeriesFiles {
   const std::string &pvd() const { return pvd_; }
   const std::string &folder() const { return folder_; }
   bool is_wanted() const { return !pvd_.empty(); }
-  // Refuses a folder that cannot be written to, or whose name a file has.
+  // Refuses a folder that cannot be written to, or that is a file.
   void check_folder() const;
   // Makes the folder if it is not there.
   void make_folder() const;

@@ -25,7 +25,8 @@ const std::set<std::string> not_with_case = {
     "--scale",           "--unit",     "--surface-unit", "--rotate",        "--translate",      "--half-thickness",
     "--resistance",      "--cycle",    "--period",       "--interpolation", "--prefix",         "--print-params",
     "--describe-params", "--time"};
-const std::set<std::string> not_with_either = {"--steps", "--stats", "--search", "--distance", "--distance-tolerance"};
+const std::set<std::string> not_with_either = {
+    "--steps", "--stats", "--search", "--distance", "--distance-tolerance", "--check-crossing"};
 const std::set<std::string> not_with_times = {"--opening", "--print-params", "--describe-params"};
 
 [[noreturn]] void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }

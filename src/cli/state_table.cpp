@@ -15,6 +15,8 @@ namespace {
 
 // How much of its closed length a free edge may gain or lose.
 constexpr double fair_change = 0.1;
+// The rounding of a length or area that stays the same, as a share of it.
+constexpr double same = 1e-9;
 
 using Value = std::function<double(const State &)>;
 
@@ -39,6 +41,7 @@ std::string ratios_of(const States &states, const Value &value) {
   std::string text = shown(closed) + " when closed";
   if (states.states.size() == 1) return text;
   const auto [least, most] = extremes_of(states, value);
+  if (value(*most) - value(*least) <= same * closed) return text + ", and at every opening";
   return text + ", times " + rounded(value(*least) / closed) + at(*least) + " to " + rounded(value(*most) / closed) +
          at(*most);
 }
@@ -77,7 +80,7 @@ void add_leaflets(const States &states, Summary &summary) {
 
 std::string text_of_orifice(const States &states) {
   if (states.disc.empty())
-    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 do not close";
+    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
   const Value value = [](const State &state) { return *state.orifice; };
   std::string text = rounded(value(states.states.front())) + " at 0";
   if (states.states.size() > 1) {

@@ -91,7 +91,7 @@ struct alignas(64) PointsOnTriangles {
 };
 
 struct FilterKernels {
-  // Writes for every candidate group the boxes within its reach, a bit for each box. Returns false if there is none at all.
+  // Writes a bit for each box within the reach of each candidate group. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Writes pairs of a node and a triangle, at most room, and returns their number. For every node within the limit, its closest

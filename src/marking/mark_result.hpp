@@ -24,7 +24,7 @@ struct LeakingEdges {
 
 struct MarkResult {
   NodeList within;          // nodes within the distance limit
-  NodeList marked;          // used only where the limit is wider than the half thickness; elsewhere `within` has them
+  NodeList marked;          // used only if the limit is wider than the half thickness; otherwise `within` has them
   bool was_marked = false;  // false for an empty result
   std::int32_t fields = 0;  // the sum of RIIS_FIELD_* that the last marking kept
   NodeFields fields_within;

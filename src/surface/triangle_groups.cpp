@@ -16,8 +16,8 @@ struct Centroid {
   std::int32_t triangle;
 };
 
-// Halves the triangles along the longest side of their centroids' box, until each part is a group. Cuts at multiples of
-// the group size.
+// Halves the triangles along the longest side of their centroids' box, until each part is a group. It cuts at
+// multiples of the group size.
 template <class Visit>
 void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
   if (n <= triangles_per_group) {

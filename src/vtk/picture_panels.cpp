@@ -123,6 +123,7 @@ std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<
   return leaflets;
 }
 
+// Returns the mean length of the faces' first edges.
 double mean_edge_length(vtkPolyData *faces) {
   double sum = 0;
   vtkNew<vtkIdList> corners;

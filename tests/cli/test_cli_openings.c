@@ -70,6 +70,29 @@ static void test_mitral(void **state) {
   riis_valve_destroy(&valve);
 }
 
+static void test_bileaflet(void **state) {
+  (void)state;
+  riis_valve *valve = make_valve("bileaflet");
+  for (int i = 0; i < 3; ++i) {
+    mark_at(valve, openings[i]);
+    RUN_ON_BOX("--valve", "bileaflet", "--opening", opening_texts[i], "--stats", "-");
+    expect_outputs();
+    assert_true(json_has_text(program_out, "valve", "\"bileaflet\""));
+    assert_true(json_number(program_out, "opening") == openings[i]);
+  }
+  /* The default is closed. The ring is a third leaflet. */
+  mark_at(valve, 0);
+  RUN_ON_BOX("--valve", "bileaflet");
+  expect_outputs();
+  expect_fine(riis_valve_set_scalar(valve, "ring_height", 0.5));
+  mark_at(valve, 1);
+  RUN_ON_BOX("--valve", "bileaflet", "--set", "ring_height=0.5", "--opening", "1");
+  expect_outputs();
+  RUN_REFUSED(1, "closed_angle is 30; it must be less than open_angle, which is 20", scratch_path("in.vtu"), "--valve",
+              "bileaflet", "--set", "open_angle=20", "--stats", "-");
+  riis_valve_destroy(&valve);
+}
+
 /* The two states of a valve of one state. */
 static void test_aortic(void **state) {
   (void)state;
@@ -182,8 +205,8 @@ static int destroy_all(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mitral),        cmocka_unit_test(test_aortic),   cmocka_unit_test(test_between),
-      cmocka_unit_test(test_mitral_states), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_mitral),  cmocka_unit_test(test_bileaflet),     cmocka_unit_test(test_aortic),
+      cmocka_unit_test(test_between), cmocka_unit_test(test_mitral_states), cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_mitral_box, destroy_all);
 }

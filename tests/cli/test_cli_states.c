@@ -301,7 +301,7 @@ static void test_prosthesis(void **state) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* A flat triangle with a side that is one point. The point's triangles have no area, and so its end of the edge is in no triangle.
+/* A flat triangle with a side that is one point. The point's triangles have no area, so its end of the edge is in no triangle.
  * The sides along the axes have the lengths 1 and 2, the slanted one the length sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
@@ -374,6 +374,10 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--opening has no effect with --states", "--states", csv, "--opening", "0.5");
   RUN_REFUSED(2, "--set opening has no effect with --states", "--states", csv, "--set", "opening=0.5");
   RUN_REFUSED(2, "--rotate has no effect with --states", "--states", csv, "--rotate", "0,0,1,90");
+  RUN_REFUSED(2, "--threads has no effect with --states", "--states", csv, "--threads", "1");
+  RUN_REFUSED(2, "--case has no effect with --states", "--states", csv, "--case", "a.json");
+  RUN_REFUSED(2, "is also the file of --valve", "--states", scratch_path("flat.json"), "--valve",
+              scratch_path("flat.json"));
   RUN_REFUSED(2, "--print-params has no effect with --states", "--states", csv, "--print-params");
   RUN_REFUSED(2, "--surface excludes --states", "--states", csv, "--surface", "a.vtp");
   RUN_REFUSED(2, "is also the file of --params", "--states", scratch_path("open.json"), "--params",

@@ -108,6 +108,12 @@ static void test_open_lines(void **state) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
+  /* Triangles that are seen edge on, along x, y and slanted. */
+  for (int i = 0; i < 4; ++i) {
+    const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
+    const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
+    assert_true(shim_uncovered_inside(3, flat[0], 0, NULL, n_lines) == -1);
+  }
 }
 
 int main(void) {

@@ -173,6 +173,7 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            ask_closest_points,
                                            advance_laws,
                                            move_by_keyframes,
+                                           find_crossings,
                                            destroy_something,
                                            [](Input &in, State &) { call_status_functions(in); },
                                            [](Input &in, State &) { call_init_functions(in); }};

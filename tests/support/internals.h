@@ -109,7 +109,7 @@ void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *tri
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);
 void kernels_group_free(kernel_group *group);
-/* Whether all bits of two groups and of their bounds are the same. */
+/* Returns 1 if all bits of two groups and of their bounds are the same. */
 int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
 /* Single precision's squares of the distances of a point to its 16 lanes. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);

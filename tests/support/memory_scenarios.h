@@ -296,7 +296,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* The result has marked. Then it needs more room than it has, or has marked so often that it has room for everything. */
+/* The result was marked with before. Now it needs more room than it has, or it has room for everything after many markings. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));

@@ -95,7 +95,7 @@ static real parameter_at(const cubic *c, real s) {
   return t;
 }
 
-/* The curve's control points between parameters a and b: its blossom at (a,a,a), (a,a,b), (a,b,b), (b,b,b). */
+/* Gives the curve's control points between parameters a and b: its blossom at (a,a,a), (a,a,b), (a,b,b), (b,b,b). */
 static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 3; ++k) {

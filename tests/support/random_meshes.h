@@ -54,7 +54,7 @@ static inline void shuffle(test_mesh *mesh) {
   mesh->xyz = xyz;
 }
 
-/* Joins each node to the k nearest of those in the cells around its own, as neighbours in a Delaunay mesh mostly are. */
+/* Joins each node to the k nearest nodes of the cells around its own. Neighbours in a Delaunay mesh are mostly such nodes. */
 static inline void join_near_nodes(test_mesh *mesh, const double *lower, const double *upper, int k) {
   int64_t counts[3], n_cells = 1;
   double size = 1;
@@ -96,7 +96,7 @@ static inline void join_near_nodes(test_mesh *mesh, const double *lower, const d
   set_rows(mesh, n_pairs, pairs);
 }
 
-/* Six tetrahedra a cube, their edges by the library's builder. */
+/* Cuts each cube into six tetrahedra, whose edges the library's builder gives. */
 static inline void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   static const int corners[6][4][3] = {
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}},
@@ -129,7 +129,7 @@ static inline void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   for (int64_t k = 0; k < offsets[mesh->n]; ++k) mesh->columns[k] = columns[k];
 }
 
-/* About n_wanted nodes in the box; *spacing becomes the length of most edges. */
+/* Makes about n_wanted nodes in the box; *spacing becomes the length of most edges. */
 static inline test_mesh random_mesh(int kind, int64_t n_wanted, const double *lower, const double *upper,
                                     double *spacing) {
   int64_t counts[3];

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/crossings.hpp"
+
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "cli/drawing.hpp"
+#include "cli/handles.hpp"
+#include "cli/progress.hpp"
+#include "cli/refusal.hpp"
+#include "cli/valve_file.hpp"
+
+namespace riis::cli {
+namespace {
+
+constexpr int n_openings = 101;
+
+riis_crossings crossings_of(const Options &options, riis_surface *surface) {
+  riis_crossing_options how;
+  riis_crossings found;
+  check(riis_crossing_options_init(&how, sizeof how));
+  how.n_threads = options.mark_options.n_threads;
+  check(riis_find_crossings(surface, &how, &found, sizeof found));
+  return found;
+}
+
+Valve copy_of(const riis_valve *valve) {
+  riis_valve *copy = nullptr;
+  check(riis_valve_copy(valve, &copy));
+  return Valve(copy);
+}
+
+// A valve that has one state refuses every opening above 0. The smallest one makes the closed valve where there are two.
+bool can_open(const Options &options, riis_valve *valve) {
+  check(riis_valve_set_scalar(valve, "opening", std::numeric_limits<double>::min()));
+  riis_surface *surface = nullptr;
+  const riis_status status = riis_surface_create(valve, &options.surface_options, &surface);
+  const Surface owned(surface);
+  return status == RIIS_OK;
+}
+
+void sweep_openings(const Options &options, riis_valve *valve, CrossingReport &report) {
+  check(riis_valve_set_scalar(valve, "opening", 0));
+  const std::string subject = is_valve_file(options.valve) ? options.valve : "";
+  riis_surface *handle = nullptr;
+  check(riis_surface_create(valve, &options.surface_options, &handle), subject);
+  const Surface surface(handle);
+  StepProgress progress("looking for crossings", n_openings, options.quiet);
+  for (int i = 0; i < n_openings; ++i) {
+    progress.begin(static_cast<std::size_t>(i));
+    const double opening = static_cast<double>(i) / (n_openings - 1);
+    check(riis_valve_set_scalar(valve, "opening", opening));
+    check(riis_surface_update(surface.get(), valve, nullptr), subject);
+    report.n_openings = i + 1;
+    report.opening = opening;
+    report.found = crossings_of(options, surface.get());
+    if (report.found.n_pairs > 0) return;
+  }
+}
+
+std::string leaflet_text(const Options &options, int32_t leaflet) {
+  const std::vector<const char *> names = leaflet_names(options);
+  const auto at = static_cast<std::size_t>(leaflet);
+  return at < names.size() ? names[at] : std::to_string(leaflet);
+}
+
+// Not even --quiet silences this: such a valve cannot be built, and its normals contradict each other.
+void warn_of_crossings(const Options &options, const CrossingReport &report) {
+  const riis_crossings &found = report.found;
+  std::string at;
+  if (report.opening) {
+    char text[32];
+    std::snprintf(text, sizeof text, " at opening %g", *report.opening);
+    at = text;
+  }
+  const bool is_one_leaflet = found.leaflet_id[0] == found.leaflet_id[1];
+  const std::string first = leaflet_text(options, found.leaflet_id[0]);
+  const std::string who = is_one_leaflet
+                              ? "leaflet " + first + " crosses itself"
+                              : "leaflets " + first + " and " + leaflet_text(options, found.leaflet_id[1]) + " cross";
+  std::fprintf(
+      stderr,
+      "riis-mark: %s%s: %s of triangles go through each other, along a length of %g; the deepest is %g deep, at "
+      "%g %g %g\n",
+      who.c_str(), at.c_str(), counted(found.n_pairs, "pair").c_str(), found.length, found.depth, found.point[0],
+      found.point[1], found.point[2]);
+}
+
+}  // namespace
+
+void look_for_crossings(const Options &options, const riis_valve *valve, riis_surface *surface, Report &report) {
+  const Stage stage("looking for crossings", options.quiet);
+  CrossingReport &crossings = report.crossings.emplace();
+  const Valve copy = valve ? copy_of(valve) : nullptr;
+  if (copy && !sets_opening(options) && can_open(options, copy.get())) {
+    sweep_openings(options, copy.get(), crossings);
+  } else {
+    crossings.opening = report.opening;
+    crossings.found = crossings_of(options, surface);
+  }
+  if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings);
+}
+
+}  // namespace riis::cli

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks examples/valves: the script writes the file of the bicuspid valve, and the table of the README there is what
+riis-mark measures.
+
+    check_valves.py EXAMPLES_VALVES RIIS_MARK
+"""
+import csv
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+VALVES = {
+    "pulmonary": ["--valve", "trileaflet", "--params", "pulmonary.json"],
+    "stenotic": ["--valve", "trileaflet", "--params", "stenotic.json"],
+    "bicuspid": ["--valve", "bicuspid.json"],
+}
+
+
+def measured(program, folder, arguments):
+    """Returns the least free edge over its closed length, and the last orifice."""
+    run = subprocess.run([program, *arguments, "--states", "-"], cwd=folder, capture_output=True, text=True, check=True)
+    rows = list(csv.DictReader(io.StringIO(run.stdout)))
+    assert len(rows) == 101, len(rows)
+    edges = [float(value) for row in rows for name, value in row.items() if name.endswith("_edge_ratio")]
+    return min(edges), float(rows[-1]["orifice_area"])
+
+
+def main():
+    folder, program = Path(sys.argv[1]), str(Path(sys.argv[2]).resolve())
+    written = subprocess.run([sys.executable, "-B", "bicuspid.py"], cwd=folder, capture_output=True, text=True, check=True)
+    faults = []
+    if written.stdout != (folder / "bicuspid.json").read_text():
+        faults.append("bicuspid.json is not what bicuspid.py writes")
+    readme = (folder / "README.md").read_text()
+    for name, arguments in VALVES.items():
+        row = re.search(rf"^\| {name} \| ([0-9.]+) \| ([0-9.]+) \|$", readme, re.M)
+        if not row:
+            faults.append(f"README.md has no row of measured values for {name}")
+            continue
+        for what, told, value in zip(("free edge", "orifice"), row.groups(), measured(program, folder, arguments)):
+            if abs(float(told) - value) > 0.0051:
+                faults.append(f"{name}: README.md says {what} {told}, riis-mark measures {value:.4f}")
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
