@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run demo, which reads this file: compile riis-mark, mesh, mark and draw, time, tell. They use its $build, $logs, $n_jobs,
-# $demo_packages, install_missing and step.
+# The steps of ./run demo, which reads this file: compile riis-mark, mesh, mark and draw, time, tell. They use its $build, $logs,
+# $n_jobs, $demo_packages, install_missing and step.
 
 # build_demo: compiles riis-mark. A folder that is configured for the tests keeps its configuration, so that ./run test does not
 # start again.
@@ -83,12 +83,27 @@ demo_pictures() {
   of_each_valve demo_states && demo_openings_picture
 }
 
-# demo_beat VALVE: one heartbeat as a movie of 24 frames, with its first picture and the moving surface.
+# demo_beat VALVE: one heartbeat as a movie of 24 frames, with its first picture, the moving surface and the orifice over time.
 demo_beat() {
   "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" \
     --cycle "examples/demo/$1_cycle.csv" --period 0.72 --interpolation cubic --times 0:0.69:0.03 \
     --surface-output "out/$1_beating.pvd" --movie "out/$1_beating.mp4" --frame-rate 12 \
-    --picture "out/$1_beating.png" --series-table "out/$1_beating.csv"
+    --picture "out/$1_beating.png" --series-table "out/$1_beating.csv" &&
+    "$build/bin/riis-mark" --valve "${demo_kind[$1]}" --states "out/$1_states.csv" --state-count 21 &&
+    orifice_over_time "$1" >"out/$1_orifice.csv"
+}
+
+# orifice_over_time VALVE: prints the orifice at the times of its heartbeat, linearly between the states of its table.
+orifice_over_time() {
+  LC_ALL=C awk -F , '
+    FNR == 1 { next }
+    FNR == NR { opening[++n] = $1; area[n] = $NF; next }
+    FNR == 2 { print "time,opening,orifice_area" }
+    FNR > 1 {
+      for (i = 1; i < n - 1 && $2 > opening[i + 1]; ++i) {}
+      share = ($2 - opening[i]) / (opening[i + 1] - opening[i])
+      printf "%s,%s,%.4g\n", $1, $2, area[i] + share * (area[i + 1] - area[i])
+    }' "out/$1_states.csv" "out/$1_beating.csv"
 }
 
 # of_beat VALVE COLUMN OPERATOR: prints the least (<) or the largest (>) number of a column of the beating valve's table.
@@ -110,11 +125,15 @@ milliseconds_of() {
   for key in "$@"; do number_of mitral_steps "$key"; done | LC_ALL=C awk '{ sum += $1 } END { printf "%.1f ms", 1000 * sum }'
 }
 
-# demo_row VALVE: prints one line of the story's table.
+# demo_row VALVE: prints the marked nodes and the orifice at each opening, two lines of the story's table.
 demo_row() {
   local opening
-  printf '  %-13s' "$1 valve"
-  for opening in "${demo_openings[@]}"; do printf ' %8s' "$(number_of "$1_$opening" n_marked)"; done
+  printf '  %-27s' "$1 valve, nodes marked"
+  for opening in "${demo_openings[@]}"; do printf ' %7s' "$(number_of "$1_$opening" n_marked)"; done
+  printf '\n  %-27s' '              orifice, cm2'
+  for opening in "${demo_openings[@]}"; do
+    LC_ALL=C awk -F , -v opening="$opening" 'FNR > 1 && $1 == opening { printf " %7.1f", $NF }' "out/$1_states.csv"
+  done
 }
 
 # demo_beat_line VALVE: prints what its heartbeat did.
@@ -132,9 +151,9 @@ demo_story() {
 
 gmsh has made meshes that the valves fill: an aortic root of $(number_of aortic_0 n_nodes) nodes, and a tube of
 $(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis-mark has marked the nodes within $(number_of aortic_0 half_thickness) cm
-of a leaflet. A flow solver resists the flow at these nodes. Nodes marked at five openings:
+of a leaflet. A flow solver resists the flow at these nodes.
 
-$(printf '  %-13s' ''; printf ' %8s' closed "${demo_openings[@]:1:3}" open)
+$(printf '  %-27s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
 $(demo_row aortic)
 $(demo_row mitral)
 
@@ -148,6 +167,7 @@ $(demo_beat_line aortic)
 $(demo_beat_line mitral)
 
 Movies: out/aortic_beating.mp4, out/mitral_beating.mp4; for ParaView out/*_beating.pvd
+Orifices over time: out/aortic_orifice.csv, out/mitral_orifice.csv
 Pictures of both valves at all openings, from the side and from above: out/openings.png
 One by one, with their surfaces: out/aortic_*_side.png, out/aortic_*_top.png, out/mitral_*.png
 Meshes and surfaces, for ParaView: out/*.vtu, out/*.vtp. Full tables: $logs/*.log
