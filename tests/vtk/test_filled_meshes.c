@@ -165,9 +165,10 @@ static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
   return n;
 }
 
-/* Tells whether unmarked nodes join the two ends of the mesh. The library's regions and passage must be those of the flood fill. */
+/* Tells whether unmarked nodes join the two ends of the mesh, and which half thickness closes the valve. The library's regions and
+ * passage must agree with the flood fill. */
 static int is_joined(const filled_mesh *in, const riis_surface *surface, const riis_mark_options *options,
-                     const riis_mark_result *result, const uint8_t *marks) {
+                     const riis_mark_result *result, const uint8_t *marks, double *closing) {
   const size_t size = (size_t)in->n_nodes * sizeof(int64_t);
   int64_t *label = own(malloc(size)), *regions = own(malloc(size)), *lower = own(malloc(size)),
           *upper = own(malloc(size));
@@ -186,11 +187,7 @@ static int is_joined(const filled_mesh *in, const riis_surface *surface, const r
   assert_memory_equal(regions, label, size);
   CHECK_OK(riis_find_passage(surface, in->mesh, options, n_lower, lower, n_upper, upper, &passage, sizeof passage));
   assert_int_equal(passage.state, joined ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED);
-  if (joined)
-    printf("  passage %.3f from the valve at %.2f %.2f %.2f: ", passage.distance, passage.point[0], passage.point[1],
-           passage.point[2]);
-  else
-    printf("  sealed down to a half thickness of %.3f: ", passage.distance);
+  *closing = passage.distance;
   return joined;
 }
 
@@ -223,10 +220,13 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
   double *distance = own(malloc((size_t)in->n_nodes * sizeof *distance));
   CHECK_OK(riis_mark_nodes(surface, in->mesh, &marking, result));
   CHECK_OK(riis_mark_result_dense(result, in->n_nodes, 1e30, marks, distance, NULL, NULL));
+  double closing;
   const flow found = {largest_distance_to_wall(in, surface, valve.at), longest_near(in, distance),
-                      is_joined(in, surface, &marking, result, marks)};
-  printf("%s: %lld nodes, attachment at most %.4f from the wall, longest edge near the valve %.4f, flow %s\n", name,
-         (long long)in->n_nodes, found.to_wall, found.longest_edge, found.passes ? "passes" : "does not pass");
+                      is_joined(in, surface, &marking, result, marks, &closing)};
+  printf(
+      "%s: %lld nodes, longest edge near the valve %.3f, attachment up to %.4f from the wall, flow %s, closed from "
+      "%.3f\n",
+      name, (long long)in->n_nodes, found.longest_edge, found.to_wall, found.passes ? "passes" : "stops", closing);
   free_owned_after(owned_before);
   free_one_owned(valve.handle);
   return found;
