@@ -2,7 +2,7 @@
 // ./run bench leaks: measures how fine a mesh must be, for the tables of docs/meshes.md:
 //   the edges that leak through a closed valve, by the longest edge
 //   the part of the aortic valve's cross-section that its triangles leave open
-//   the cost of riis_find_leaks beside a marking
+//   the cost of riis_find_leaks, riis_label_open_regions and riis_find_passage beside a marking
 // argv[1], optional: thousands of nodes for the last. Random places come from printed seeds.
 #include <riis/riis.h>
 
@@ -214,7 +214,8 @@ double shortest(
   return 1e3 * least;
 }
 
-// Prints milliseconds of a marking by clusters, a first search for leaks, and a search when the edges are known.
+// Prints milliseconds of a marking by clusters, a first search for leaks, a search when the edges are known, labels of regions,
+// and the passage from the first node to the last one.
 void print_cost(double thickness, const CylinderMesh &nodes) {
   const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
   const double *xyz = nodes.xyz().data();
@@ -233,8 +234,17 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
     check(riis_find_leaks(surface.get(), mesh.get(), &options, result.get(), &leaks, sizeof leaks));
   };
   const double first = shortest(find, [&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); });
-  std::printf("| %g | %lld | %.2f | %.1f | %.3f |\n", thickness, static_cast<long long>(leaks.n_edges), marking, first,
-              shortest(find));
+  std::vector<std::int64_t> label(static_cast<std::size_t>(nodes.n_nodes()));
+  const double labelling = shortest([&] {
+    check(riis_label_open_regions(mesh.get(), &options, result.get(), nodes.n_nodes(), label.data(), nullptr));
+  });
+  const std::int64_t from = 0, to = nodes.n_nodes() - 1;
+  riis_passage passage;
+  const double passing = shortest([&] {
+    check(riis_find_passage(surface.get(), mesh.get(), &options, 1, &from, 1, &to, &passage, sizeof passage));
+  });
+  std::printf("| %g | %lld | %.2f | %.1f | %.3f | %.1f | %.1f |\n", thickness, static_cast<long long>(leaks.n_edges),
+              marking, first, shortest(find), labelling, passing);
 }
 
 }  // namespace
@@ -256,7 +266,7 @@ int main(int argc, char **argv) {
   std::printf(
       "\nAortic valve, about %lld nodes, 1 thread, milliseconds:\n\n| half thickness | edges that leak | marking | "
       "first "
-      "riis_find_leaks | later ones |\n|---|---|---|---|---|\n",
+      "riis_find_leaks | later ones | riis_label_open_regions | riis_find_passage |\n|---|---|---|---|---|---|---|\n",
       static_cast<long long>(about_n_nodes));
   const CylinderMesh nodes(cylinders[0], about_n_nodes);
   for (const double thickness : {0.1, 0.01}) print_cost(thickness, nodes);

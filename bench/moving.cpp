@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench moving: the cost of a valve's velocity, of the fields of the closest points and of the resistance, beside a plain
-// time step on the same nodes in the same run; the same for triangles that stay as the valve opens. Prints times and bars.
+// time step on the same nodes in the same run; the same for triangles that stay as the valve opens, and for the search for
+// crossings. Prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 
@@ -47,6 +48,8 @@ class MovingSteps {
     check(riis_mesh_prepare(mesh_.get(), 1));
     check(riis_mark_options_init(&marking_, sizeof marking_));
     marking_.n_threads = 1;
+    check(riis_crossing_options_init(&crossing_, sizeof crossing_));
+    crossing_.n_threads = 1;
     check(riis_resistance_init(&resistance_, sizeof resistance_));
     resistance_.resistance = 1;
     coefficient_.resize(static_cast<std::size_t>(n_nodes_));
@@ -71,6 +74,10 @@ class MovingSteps {
   }
   void update_moving() {
     check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
+  }
+  void find_crossings() {
+    riis_crossings crossings;
+    check(riis_find_crossings(surface_.get(), &crossing_, &crossings, sizeof crossings));
   }
   void mark(std::int32_t fields) {
     marking_.fields = fields;
@@ -101,6 +108,7 @@ class MovingSteps {
   Surface surface_, fixed_;
   Result result_ = make_result();
   riis_mark_options marking_;
+  riis_crossing_options crossing_;
   riis_resistance resistance_;
   std::vector<double> coefficient_, momentum_;
   int step_ = 0;
@@ -119,6 +127,7 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
   add(contest, name("update"), steps, [&] { steps.update(); });
   add(contest, name("moving update"), steps, [&] { steps.update_moving(); });
   add(contest, name("fixed update"), steps, [&] { steps.update_fixed(); });
+  add(contest, name("search for crossings"), steps, [&] { steps.find_crossings(); });
   contest.add(name("choice of fixed triangles"), 5, [&] { steps.choose(); });
   add(contest, name("step"), steps, [&] {
     steps.update();
@@ -146,6 +155,7 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
   };
   ratio("moving update", "update", 1.7);
   ratio("fixed update", "update", 0.5);
+  ratio("search for crossings", "update", 3);
   bars.add(name("fixed triangles / most adapted ones"), steps.n_fixed_triangles() / steps.most_triangles(),
            Wanted::at_most, 1.5);
   const CylinderNodes fewer(cylinders[valve], about_n_nodes / 10);

@@ -52,7 +52,7 @@ module riis
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_leaks, riis_crossings, riis_c_text, &
-    riis_c_text_length, riis_last_error, riis_band_sums, &
+    riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
@@ -64,7 +64,7 @@ module riis
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
     RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
-    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, &
+    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
     c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_version, &
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
@@ -75,13 +75,14 @@ module riis
   use riis_marking, only: riis_mark_result, riis_mark_fields, riis_mark_nodes
   use riis_leaking, only: riis_find_leaks
   use riis_crossing, only: riis_find_crossings
+  use riis_passages, only: riis_label_open_regions, riis_find_passage
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
     riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
     riis_mark_result, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, &
-    riis_keyframes, riis_find_crossings, riis_crossings
+    riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
@@ -97,7 +98,7 @@ module riis
   public :: RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
     RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
-    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED
+    RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE
 
   integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids, for codes in
                                                             !! Fortran 2003, which has no int64.

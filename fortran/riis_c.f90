@@ -103,6 +103,10 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
   integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
 
+  integer(c_int32_t), parameter :: RIIS_PASSAGE_CLOSED = 0
+  integer(c_int32_t), parameter :: RIIS_PASSAGE_OPEN = 1
+  integer(c_int32_t), parameter :: RIIS_PASSAGE_NONE = 2
+
   integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
   integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
 
@@ -354,6 +358,18 @@ module riis_c
     real(c_double) :: half_thickness         !< the smallest that gives each edge a marked node, by these triangles
     real(c_double) :: seconds                !< wall time of riis_find_leaks
   end type riis_leaks
+
+  !> The widest passage from one set of nodes to another: the path whose smallest distance to the surface is largest.
+  type, bind(c) :: riis_passage
+    integer(c_int64_t) :: node_id  !< the node of that distance: the place. -1 without a path. Of nodes at equal
+                                   !! distances the one with the higher id counts as the nearer
+    real(c_double) :: distance     !< its distance: the smallest half thickness that closes the passage, by these
+                                   !! triangles; a surface with a smaller one leaves it open. 0 without a path
+    real(c_double) :: point(3)     !< its coordinates; 0 without a path
+    real(c_double) :: seconds      !< wall time of riis_find_passage
+    integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
+    integer(c_int32_t) :: reserved !< 0
+  end type riis_passage
 
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
@@ -1184,6 +1200,45 @@ module riis_c
       type(c_ptr), intent(inout), optional :: node_id, length, distance
       integer(riis_status) :: status
     end function riis_mark_result_leaking_edges
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Open regions and passages
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   options  left out: all defaults
+    !!   label    (n_nodes), contiguous, from 0; nodes in no region get -1
+    function riis_label_open_regions(mesh, options, result, n_nodes, label, n_regions) result(status) &
+        bind(c, name='riis_label_open_regions')
+      import :: c_int64_t, c_ptr, riis_mark_options, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      type(c_ptr), value :: result
+      integer(c_int64_t), value :: n_nodes
+      integer(c_int64_t), intent(inout) :: label(*)
+      integer(c_int64_t), intent(inout), optional :: n_regions
+      integer(riis_status) :: status
+    end function riis_label_open_regions
+
+    !>   options      left out: all defaults
+    !!   from         (n_from), from 0
+    !!   to           (n_to), from 0
+    !!   struct_size  c_sizeof(passage)
+    function riis_find_passage(surface, mesh, options, n_from, from, n_to, to, passage, struct_size) result(status) &
+        bind(c, name='riis_find_passage')
+      import :: c_int64_t, c_ptr, riis_mark_options, riis_passage, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: mesh
+      type(riis_mark_options), intent(in), optional :: options
+      integer(c_int64_t), value :: n_from
+      integer(c_int64_t), intent(in) :: from(*)
+      integer(c_int64_t), value :: n_to
+      integer(c_int64_t), intent(in) :: to(*)
+      type(riis_passage), intent(inout) :: passage
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_passage
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Laws of opening

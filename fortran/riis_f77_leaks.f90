@@ -98,3 +98,134 @@ subroutine riisf_leaking_edges_64(result, length, n, node_num, status)
   call c_f_pointer(node_ids, ids, [2_int64, found])
   node_num(:, :n) = int(ids + 1, int64)
 end subroutine riisf_leaking_edges_64
+
+!> Labels the open regions: the connected components of the nodes that a marking left unmarked, along the edges of the mesh's
+!! adjacency. Edges to ghosts are not looked at. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the result
+!! was never marked with, or was marked with another mesh.
+subroutine riisf_label_open_regions(mesh, n_threads, result, n_nodes, region_num, n_regions, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_label_open_regions, riis_mark_options_init
+  use riis_support, only: c_handle_of, out_of_memory
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+  integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
+                                                          !! 0 for marked nodes.
+  integer(int32), intent(inout) :: n_regions              !< How many there are.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  integer(int64) :: found
+  integer(int64), allocatable :: label(:)
+  integer :: stat
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  found = 0
+  allocate (label(max(n_nodes, 1)), stat=stat)
+  status = out_of_memory(stat)
+  if (status == RIIS_OK) status = riis_label_open_regions(c_handle_of(mesh), options, c_handle_of(result), &
+    int(n_nodes, int64), label, found)
+  if (status /= RIIS_OK) return
+  region_num(:n_nodes) = int(label(:n_nodes) + 1)
+  n_regions = int(found, int32)
+end subroutine riisf_label_open_regions
+
+!> Does the same with INTEGER*8, without a copy.
+subroutine riisf_label_open_regions_64(mesh, n_threads, result, n_nodes, region_num, n_regions, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_label_open_regions, riis_mark_options_init
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+  integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
+                                                          !! 0 for marked nodes.
+  integer(int64), intent(inout) :: n_regions              !< How many there are.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  integer(int64) :: found
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  found = 0
+  status = riis_label_open_regions(c_handle_of(mesh), options, c_handle_of(result), n_nodes, region_num, found)
+  if (status /= RIIS_OK) return
+  region_num(:n_nodes) = region_num(:n_nodes) + 1
+  n_regions = int(found, int64)
+end subroutine riisf_label_open_regions_64
+
+!> Finds the widest passage from one set of nodes to another: the path along the edges of the mesh's adjacency whose smallest
+!! distance to the surface is largest. Ends count as well. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or for
+!! a node that the mesh lacks, or that is within the half thickness.
+subroutine riisf_find_passage(surface, mesh, n_threads, n_from, from_num, n_to, to_num, state, node_num, distance, &
+    point, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_options, riis_passage, riis_status, RIIS_OK, riis_find_passage, riis_mark_options_init
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< A surface.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_from                    !< At least 1.
+  integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int32), intent(in) :: n_to                      !< At least 1.
+  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where they end.
+  integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
+  integer(int32), intent(inout) :: node_num               !< The nearest node of the path, counted from 1; 0 without a path.
+  real(c_double), intent(inout) :: distance               !< Its distance, the smallest half thickness that closes it.
+  real(c_double), intent(inout) :: point(3)               !< Its coordinates.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(riis_passage) :: passage
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  status = riis_find_passage(c_handle_of(surface), c_handle_of(mesh), options, int(n_from, int64), int(from_num, int64) - 1, &
+    int(n_to, int64), int(to_num, int64) - 1, passage, c_sizeof(passage))
+  if (status /= RIIS_OK) return
+  state = passage%state
+  node_num = int(passage%node_id + 1, int32)
+  distance = passage%distance
+  point = passage%point
+end subroutine riisf_find_passage
+
+!> Does the same with INTEGER*8.
+subroutine riisf_find_passage_64(surface, mesh, n_threads, n_from, from_num, n_to, to_num, state, node_num, distance, &
+    point, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_options, riis_passage, riis_status, RIIS_OK, riis_find_passage, riis_mark_options_init
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< A surface.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int64), intent(in) :: n_from                    !< At least 1.
+  integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int64), intent(in) :: n_to                      !< At least 1.
+  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where they end.
+  integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
+  integer(int64), intent(inout) :: node_num               !< The nearest node of the path, counted from 1; 0 without a path.
+  real(c_double), intent(inout) :: distance               !< Its distance, the smallest half thickness that closes it.
+  real(c_double), intent(inout) :: point(3)               !< Its coordinates.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(riis_passage) :: passage
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  status = riis_find_passage(c_handle_of(surface), c_handle_of(mesh), options, int(n_from, int64), int(from_num, int64) - 1, &
+    int(n_to, int64), int(to_num, int64) - 1, passage, c_sizeof(passage))
+  if (status /= RIIS_OK) return
+  state = passage%state
+  node_num = int(passage%node_id + 1, int64)
+  distance = passage%distance
+  point = passage%point
+end subroutine riisf_find_passage_64

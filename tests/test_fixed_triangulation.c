@@ -108,6 +108,8 @@ static void triangles_stay_at_every_opening(void **state) {
   (void)state;
   check_triangles_stay(new_valve("mitral"), "mitral");
   check_triangles_stay(opening_aortic(), "aortic");
+  check_triangles_stay(new_valve("aortic"), "aortic, its own open state");
+  check_triangles_stay(new_valve("trileaflet"), "trileaflet");
 }
 
 /* Distances to both triangulations differ by no more than the sum of their bounds. */
@@ -325,7 +327,8 @@ static void near_cusps_move_with_their_valve(void **state) {
 static void a_valve_with_one_state_is_fixed_too(void **state) {
   (void)state;
   const riis_surface_options options = fixed_options();
-  riis_valve *valve = new_valve("aortic");
+  const shape square = unit_square();
+  riis_valve *valve = valve_from(&square);
   riis_surface *surface = new_surface(valve, &options);
   riis_surface_options moved = options;
   moved.translation[0] = 3;

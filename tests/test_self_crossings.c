@@ -316,7 +316,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
   }
 }
 
-/* Many groups of triangles, so that threads share the work. */
+/* Many groups of triangles, so that threads share the work, and boxes of groups have several levels. */
 static void threads_find_the_same(void **state) {
   (void)state;
   soup *s = own(malloc(sizeof *s));
@@ -326,6 +326,8 @@ static void threads_find_the_same(void **state) {
   for (int64_t i = 0; i < s->n_vertices / 2; ++i) second[3 * i + 2] = 0.5 * s->xyz[3 * i] - s->xyz[3 * i + 2];
   riis_surface *one = surface_of_soup(s, 0.1), *many = surface_of_soup(s, 0.1);
   const riis_crossings of_one = crossings_of(one, 1e-6, 1);
+  tally count = {0};
+  check_soup(s, one, 1e-7, &count);
   for (int32_t n_threads = 2; n_threads < 9; n_threads += 3) {
     const riis_crossings of_many = crossings_of(many, 1e-6, n_threads);
     const pair_list p = pairs_of(one), q = pairs_of(many);

@@ -405,6 +405,26 @@ static void so_does_a_fixed_triangulation(void **state) {
   assert_true(n_tried > 20 && n_refused <= 4);
 }
 
+/* Curves that are off by a deviation leave the rest of the tolerance to the triangles, and the bound counts both. */
+static void a_deviation_of_curves_is_part_of_the_bound(void **state) {
+  (void)state;
+  static const char *const kinds[3] = {"aortic", "mitral", "bileaflet"};
+  const double off = 0x1p-10;
+  for (int k = 0; k < 3; ++k)
+    for (int is_fixed = 0; is_fixed < 2; ++is_fixed) {
+      deviating exact, made;
+      CHECK_OK(triangulate_deviating(kinds[k], 0, 3 * off, is_fixed, &exact));
+      CHECK_OK(triangulate_deviating(kinds[k], off, 4 * off, is_fixed, &made));
+      assert_int_equal(made.n_triangles, exact.n_triangles);
+      CHECK_NEAR(made.bound, exact.bound + off, 1e-15);
+      CHECK_NEAR(made.bound_of_patches, exact.bound_of_patches + off, 1e-15);
+      assert_true(made.is_within && exact.is_within);
+      CHECK_OK(triangulate_deviating(kinds[k], off, 2 * off, is_fixed, &made));
+      CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to 0.0009765|more than half of tolerance",
+                    triangulate_deviating(kinds[k], off, 1.99 * off, is_fixed, &made));
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(aortic_deviation_stays_within_the_bound),
@@ -413,6 +433,7 @@ int main(void) {
       cmocka_unit_test(so_it_does_for_other_aortic_valves),
       cmocka_unit_test(so_it_does_for_other_mitral_valves),
       cmocka_unit_test(so_does_a_fixed_triangulation),
+      cmocka_unit_test(a_deviation_of_curves_is_part_of_the_bound),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

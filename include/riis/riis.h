@@ -417,7 +417,8 @@ RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t 
 /* Gives each vertex's place on its patch, uv(2, n_vertices), in [0,1]; NULL for a surface from arrays. */
 RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **uv);
-/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. */
+/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. Where
+ * closed cusps meet, a vertex has the velocity of its own cusp. */
 RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices,
                                                     const double **velocity);
 /* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
@@ -459,7 +460,7 @@ typedef struct riis_crossings {
 
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
  * depth: the length of the shortest translation of one triangle after which both only touch
- * (docs/theory.md, section 12). Triangles that touch or lie in one plane have depth 0.
+ * (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0.
  *   surface  keeps the pairs, all else stays
  *   options  a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
  *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
@@ -755,8 +756,8 @@ typedef struct riis_mark_fields {
   const int32_t *side;       /* (n_nodes): as riis_closest.side */
   const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
                                 valve consists of the sides that only one patch has, such as free edges and
-                                the annulus; the rim of arrays of the edges of one triangle, where vertices
-                                with equal coordinates are one */
+                                the annulus, but not closed free edges that coincide; the rim of arrays of the
+                                edges of one triangle, where vertices with equal coordinates are one */
   const int32_t *patch_id;   /* (n_nodes): as riis_surface_triangles gives it */
 } riis_mark_fields;
 /* Gives the fields of the marked nodes, in the order and with the lifetime of riis_mark_result_marked. */

@@ -13,6 +13,7 @@
 #include "cli/motion.hpp"
 #include "cli/moving_valve.hpp"
 #include "cli/outputs.hpp"
+#include "cli/passage_check.hpp"
 #include "cli/progress.hpp"
 #include "cli/series.hpp"
 #include "cli/series_pictures.hpp"
@@ -73,6 +74,7 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
     text += "valve     " + valve.options().prefix + ": opening " + shown(valve.opening()) + ", " +
             counted(valve.stats().n_marked, "node") + " marked\n";
   }
+  text += line_of_passage(report.leaks);
   for (const std::string &path : report.written) text += "written   " + path + "\n";
   write_text("-", text);
 }
@@ -107,6 +109,7 @@ ExitCode run_one_time(Case &all) {
     const Mesh mesh = borrow_nodes(file.get(), options.mesh);
     most_marked = mark_valves(all, valves, mesh.get(), file.get());
     look_for_leaks_of(all, valves, mesh.get(), file.get());
+    check_passage_of(all, valves, mesh.get(), file.get(), report);
   }
   write_case_files(options, valves, file.get(), report);
   if (!options.pictures.empty()) SeriesPictures(all, std::move(file), {}).draw(0, valves, report);

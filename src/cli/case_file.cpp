@@ -18,7 +18,7 @@ namespace riis::cli {
 namespace {
 
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
-                                            "resistance", "times", "valves"};
+                                            "resistance", "times", "valves",         "check_leaks"};
 const std::vector<std::string> valve_keys = {
     "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
     "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
@@ -51,7 +51,16 @@ class CaseReader {
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
     options.resistance = values.at_least_zero("resistance");
+    if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
+  }
+
+  LeakCheck leak_check_of(const CaseValues &values) const {
+    const std::vector<double> points = values.numbers("check_leaks", 6);
+    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
+    std::copy_n(points.begin(), 3, made.from);
+    std::copy_n(points.begin() + 3, 3, made.to);
+    return made;
   }
 
   std::vector<double> times_of(const CaseValues &values) const {

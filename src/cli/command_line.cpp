@@ -13,6 +13,7 @@
 #include "cli/motion.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
+#include "cli/passage_check.hpp"
 #include "cli/refusal.hpp"
 #include "cli/series_options.hpp"
 #include "cli/state_options.hpp"
@@ -36,7 +37,7 @@ struct Texts {
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string triangulation = triangulation_names()[RIIS_TRIANGULATION_ADAPTED];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
-  std::vector<std::string> pictures, views;
+  std::vector<std::string> pictures, views, check_leaks;
   bool skip_zero_area = false;
   bool flip_normals = false;
 };
@@ -178,6 +179,12 @@ void declare_marking(CLI::App &app, Texts &texts) {
   app.add_option("--search", texts.search, "Search by auto (default), exhaustive, neighbor, clusters or paper")
       ->type_name("HOW")
       ->check(CLI::IsMember(search_names))
+      ->group(group);
+  app.add_option("--check-leaks", texts.check_leaks,
+                 "Say whether unmarked nodes join these two points, where, and which half thickness parts them")
+      ->type_name("X,Y,Z X,Y,Z")
+      ->expected(2)
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
       ->group(group);
   app.add_option("--threads", texts.threads, "Number of threads (default the processors that the program may use)")
       ->type_name("N")
@@ -354,7 +361,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   static const std::set<std::string> of_mesh = {"--output",       "--stats",          "--search",
                                                 "--threads",      "--distance-limit", "--resistance",
                                                 "--far-distance", "--distance",       "--distance-tolerance",
-                                                "--allow-none",   "--steps"};
+                                                "--allow-none",   "--steps",          "--check-leaks"};
   const bool prints = options.print_params || options.describe_params;
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   for (const CLI::Option *option : given) {
@@ -504,6 +511,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   options.pictures = pair_pictures(texts);
   options.n_steps = parse_steps(texts.steps);
   parse_states(texts.state_count, options);
+  options.check_leaks = parse_leak_check(texts.check_leaks);
   check_purpose(options, given);
   return options;
 }

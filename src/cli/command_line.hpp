@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/refusal.hpp"
 #include "cli/units.hpp"
 
 namespace riis::cli {
@@ -28,6 +29,13 @@ struct SeriesOptions {
   double frame_rate = 10;    // frames a second
   std::int32_t movie_view = RIIS_VTK_VIEW_OBLIQUE;
   bool all_cells = false;
+};
+
+// Two points, which a valve is to part, and what refusals say of them.
+struct LeakCheck {
+  double from[3], to[3];
+  std::string subject;
+  ExitCode exit_code = exit_wrong_usage;
 };
 
 // At the position of their RIIS_TRIANGULATION_*.
@@ -60,6 +68,7 @@ struct Options {
   bool replace = false;         // arrays of these names
   bool allow_none = false;
   bool check_crossing = false;
+  std::optional<LeakCheck> check_leaks;
   SeriesOptions series;
   std::string states;           // the table of --states; "": not wanted
   std::int32_t n_states = 101;  // openings in it

@@ -31,11 +31,21 @@ Valve copy_of(const riis_valve *valve) {
   return Valve(copy);
 }
 
+// Crossings do not depend on how distances are measured, and triangles make the least work.
+riis_surface_options by_triangles(const Options &options) {
+  riis_surface_options how = options.surface_options;
+  how.distance = RIIS_DISTANCE_TRIANGLES;
+  how.distance_tolerance = RIIS_AUTO;
+  return how;
+}
+
 // A valve that has one state refuses every opening above 0. The smallest one makes the closed valve where there are two.
 bool can_open(const Options &options, riis_valve *valve) {
+  riis_surface_options how = by_triangles(options);
+  how.triangulation = RIIS_TRIANGULATION_ADAPTED;
   check(riis_valve_set_scalar(valve, "opening", std::numeric_limits<double>::min()));
   riis_surface *surface = nullptr;
-  const riis_status status = riis_surface_create(valve, &options.surface_options, &surface);
+  const riis_status status = riis_surface_create(valve, &how, &surface);
   const Surface owned(surface);
   return status == RIIS_OK;
 }
@@ -43,8 +53,9 @@ bool can_open(const Options &options, riis_valve *valve) {
 void sweep_openings(const Options &options, riis_valve *valve, CrossingReport &report) {
   check(riis_valve_set_scalar(valve, "opening", 0));
   const std::string subject = is_valve_file(options.valve) ? options.valve : "";
+  const riis_surface_options how = by_triangles(options);
   riis_surface *handle = nullptr;
-  check(riis_surface_create(valve, &options.surface_options, &handle), subject);
+  check(riis_surface_create(valve, &how, &handle), subject);
   const Surface surface(handle);
   StepProgress progress("looking for crossings", n_openings, options.quiet);
   for (int i = 0; i < n_openings; ++i) {

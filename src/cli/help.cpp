@@ -84,8 +84,11 @@ Cases
 
 Leaks
   The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
-  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Nothing here finds gaps
-  between leaflets.
+  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. It does not
+  find gaps between leaflets, nor ways round the valve. --check-leaks FROM TO does: two points, one on either side, each as
+  X,Y,Z in the mesh. The program says whether unmarked nodes join them, where the widest passage is, and which half thickness
+  closes it. Take points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z].
+  All its valves count together, each where it is least open.
 
 States
   --states measures the valve in its own frame at 101 openings, or as many as --state-count says, and takes no MESH. The table

@@ -21,7 +21,7 @@ std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves) {
   return first;
 }
 
-Surface joined_surface(const std::vector<MovingValve> &valves) {
+Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options) {
   std::vector<double> xyz;
   std::vector<int64_t> corners;
   std::vector<int32_t> leaflets;
@@ -50,7 +50,7 @@ Surface joined_surface(const std::vector<MovingValve> &valves) {
   arrays.vertex_id_bits = 64;
   arrays.leaflet_id = leaflets.data();
   riis_surface *surface = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, nullptr, &surface));
+  check(riis_surface_create_from_arrays(&arrays, options, &surface));
   return Surface(surface);
 }
 

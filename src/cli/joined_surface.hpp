@@ -16,6 +16,7 @@ namespace riis::cli {
 int32_t n_leaflets_of(const riis_surface *surface);
 // Returns each valve's first leaflet among the leaflets of all valves, and the number of all.
 std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
-Surface joined_surface(const std::vector<MovingValve> &valves);
+// options may be NULL, for the defaults.
+Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options = nullptr);
 
 }  // namespace riis::cli

@@ -31,18 +31,6 @@ riis_leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, 
   return leaks;
 }
 
-// Rounds to three digits, never below x, so that the number that a user types closes the leaks.
-double rounded_up(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
-  for (int steps = 0;; ++steps) {
-    char text[64];
-    double rounded = 0;
-    const char *end = std::to_chars(text, text + sizeof text, x + steps * unit, std::chars_format::general, 3).ptr;
-    std::from_chars(text, end, rounded);
-    if (rounded >= x) return rounded;
-  }
-}
-
 // Marks once more, with another half thickness, and finds what leaks then.
 riis_leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
@@ -98,6 +86,17 @@ void warn_of_leaks(const LeakReport &report, const std::string &surface, double 
 
 }  // namespace
 
+double rounded_up(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  for (int steps = 0;; ++steps) {
+    char text[64];
+    double rounded = 0;
+    const char *end = std::to_chars(text, text + sizeof text, x + steps * unit, std::chars_format::general, 3).ptr;
+    std::from_chars(text, end, rounded);
+    if (rounded >= x) return rounded;
+  }
+}
+
 void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
@@ -106,7 +105,7 @@ void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &re
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
   leaks.found = leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
-  if (leaks.found.n_edges > 0) {
+  if (leaks.found.n_edges > 0 && !options.check_leaks) {
     if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
     warn_of_leaks(leaks, marked.surface_name, half_thickness);
   }

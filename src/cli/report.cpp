@@ -84,6 +84,21 @@ void add_crossings(const CrossingReport &report, std::ostringstream &out) {
   out << "\n";
 }
 
+const char *state_name(int32_t state) {
+  return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
+}
+
+nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
+  const riis_passage &found = passage.found;
+  return {{"state", state_name(found.state)},
+          {"node_id", found.node_id},
+          {"distance", found.distance},
+          {"point", found.point},
+          {"closing_half_thickness", passage.closing_half_thickness > 0
+                                         ? nlohmann::ordered_json(passage.closing_half_thickness)
+                                         : nlohmann::ordered_json()}};
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
   out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
       << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
@@ -112,6 +127,21 @@ std::string surface_title(const Report &report) {
   out << report.surface_name;
   if (report.opening) out << (is_valve_file(report.surface_name) ? "" : " valve") << ", opening " << *report.opening;
   if (report.time) out << ", time " << *report.time;
+  return out.str();
+}
+
+std::string line_of_passage(const LeakReport &leaks) {
+  if (!leaks.passage) return "";
+  const riis_passage &found = leaks.passage->found;
+  std::ostringstream out = table_stream();
+  out << "passage   ";
+  if (found.state == RIIS_PASSAGE_NONE)
+    out << "none: the mesh itself does not join the two points";
+  else
+    out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << found.point[0] << " " << found.point[1]
+        << " " << found.point[2] << ", " << found.distance << " from the surface"
+        << (leaks.passage->is_end ? ", an end" : "");
+  out << "\n";
   return out.str();
 }
 
@@ -154,6 +184,7 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
+  if (report.leaks.passage) json["passage"] = json_of_passage(*report.leaks.passage);
   if (report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},
                     {"search", search_name(report.step->search)},
@@ -185,6 +216,7 @@ std::string table_of(const Report &report) {
   if (!report.mesh_name.empty()) {
     add_marks(report, out);
     add_leaks(report.leaks, out);
+    out << line_of_passage(report.leaks);
   }
   if (report.crossings) add_crossings(*report.crossings, out);
   add_seconds(report.seconds, out);

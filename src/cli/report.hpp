@@ -24,10 +24,17 @@ struct Seconds {
   double picture = 0;
 };
 
+struct PassageReport {
+  riis_passage found{};
+  bool is_end = false;                // the place is the node of a point: the passage may be wider
+  double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
+};
+
 struct LeakReport {
   riis_leaks found{};
-  double closing_half_thickness = 0;  // for the user to type; 0: none
-  int64_t n_cells_left_out = 0;       // cells of volume whose edges are not known
+  double closing_half_thickness = 0;     // for the user to type; 0: none
+  int64_t n_cells_left_out = 0;          // cells of volume whose edges are not known
+  std::optional<PassageReport> passage;  // if two points are checked
 };
 
 struct CrossingReport {
@@ -59,6 +66,8 @@ std::string grouped(int64_t n);
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);
+// A line of the table; "" if no points were checked.
+std::string line_of_passage(const LeakReport &leaks);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
 

@@ -16,6 +16,7 @@
 #include "cli/movie.hpp"
 #include "cli/outputs.hpp"
 #include "cli/parameters.hpp"
+#include "cli/passage_check.hpp"
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/report.hpp"
@@ -79,6 +80,7 @@ MarkResult mark(const Options &options, const riis_surface *surface, const riis_
   report.distance = options.surface_options.distance;
   report.mesh_name = options.mesh;
   look_for_leaks(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
+  check_passage(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include "cli/moving_valve.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
+#include "cli/passage_check.hpp"
 #include "cli/progress.hpp"
 #include "cli/series_files.hpp"
 #include "cli/series_pictures.hpp"
@@ -183,12 +184,13 @@ double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &t
 
 // Warns of leaks at the time when each valve is least open: only then can it be meant to stop the flow.
 void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
-                           const riis_vtk_mesh *file) {
+                           const riis_vtk_mesh *file, Report &report) {
   for (MovingValve &valve : valves) {
     valve.move_to(time_of_least_opening(valve.source().law, all.options.series.times));
     valve.mark(mesh, 0);
   }
   look_for_leaks_of(all, valves, mesh, file);
+  check_passage_of(all, valves, mesh, file, report);
 }
 
 // Warns of marks that look wrong, by the times at which each valve marks most nodes.
@@ -211,6 +213,7 @@ void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int
   text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
           (writing.meshes().is_wanted() ? ", " + grouped(n_written) + " written\n" : "\n");
   text += writing.table().summary();
+  text += line_of_passage(report.leaks);
   for (const SeriesFiles *files : {&writing.meshes(), &writing.surfaces()}) {
     if (!files->is_wanted()) continue;
     report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
@@ -234,7 +237,7 @@ ExitCode run_series(Case &all) {
   {
     const Mesh mesh = borrow_nodes(file.get(), options.mesh);
     sweep = sweep_of(valves, options.series.times, mesh.get(), n_nodes, options.quiet);
-    look_for_closed_leaks(all, valves, mesh.get(), file.get());
+    look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
   warn_of_sweep(all, sweep, file.get());
   // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.

@@ -13,7 +13,7 @@ using Triangle = std::array<Vec3, 3>;
 
 // Returns the length of the shortest translation of one triangle after which both only touch, or 0 if that is at most `limit`.
 // Triangles that touch or lie in a plane have depth 0. The result is right to 2^-24 of the longest edge and 2^-48 of the largest
-// coordinate (docs/theory.md, section 12).
+// coordinate (docs/theory.md, section 16).
 double penetration_depth(const Triangle &a, const Triangle &b, double limit);
 
 struct CommonSegment {

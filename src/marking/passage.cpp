@@ -149,6 +149,9 @@ class Opening {
   UnfilledVector<std::int64_t> parent_;
 };
 
+// No node is so far from a surface.
+constexpr double beyond_all = 10 * max_coordinate;
+
 }  // namespace
 
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
@@ -158,10 +161,11 @@ riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends)
   const double widest =
       std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
   Opening opening(request, ends);
-  double limit = half_thickness, beyond = -1;
-  while (opening.joins_beyond(limit)) {
+  double limit = half_thickness, beyond = -1, growth = 2;
+  for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    limit = limit < widest ? std::min(2 * limit, widest) : 2 * limit;
+    if (step >= 4) growth *= growth;  // the surface may be tiny beside the mesh
+    limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);
   riis_passage passage{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0};

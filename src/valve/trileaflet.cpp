@@ -22,6 +22,9 @@ constexpr double turns[3] = {0, 120, -120};
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
+// Lengths in centimetres. Sources of the values, more in docs/theory.md: the root by Roman et al. 1989, the cylinder between
+// Thubrikar et al. 1981 and Jelenc et al. 2024, heights by Bierbach et al. 2010 and Schaefers et al. 2013, the orifice by Bonow
+// et al. 2006, the expansion of the commissures by Pang et al. 2000. The bending curve is chosen to fit them.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;

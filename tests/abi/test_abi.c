@@ -19,7 +19,7 @@
     assert_int_equal(sizeof(((type *)0)->field), size); \
   } while (0)
 /* Checks the type of a function, including its arguments. Callers in other languages do not see the header and rely on it. */
-#define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments: 1, default: 0))
+#define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
 
 static void test_structs(void **state) {
   (void)state;
@@ -200,6 +200,14 @@ static void test_structs(void **state) {
   FIELD(riis_leaks, half_thickness, 56, 8);
   FIELD(riis_leaks, seconds, 64, 8);
 
+  SIZE(riis_passage, 56);
+  FIELD(riis_passage, node_id, 0, 8);
+  FIELD(riis_passage, distance, 8, 8);
+  FIELD(riis_passage, point, 16, 24);
+  FIELD(riis_passage, seconds, 40, 8);
+  FIELD(riis_passage, state, 48, 4);
+  FIELD(riis_passage, reserved, 52, 4);
+
   SIZE(riis_mark_fields, 72);
   FIELD(riis_mark_fields, n_nodes, 0, 8);
   FIELD(riis_mark_fields, point, 8, 8);
@@ -356,6 +364,9 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_INTERPOLATION_CUBIC, 1);
   assert_int_equal(RIIS_TRIANGULATION_ADAPTED, 0);
   assert_int_equal(RIIS_TRIANGULATION_FIXED, 1);
+  assert_int_equal(RIIS_PASSAGE_CLOSED, 0);
+  assert_int_equal(RIIS_PASSAGE_OPEN, 1);
+  assert_int_equal(RIIS_PASSAGE_NONE, 2);
   assert_int_equal(RIIS_PHASE_CLOSING, 0);
   assert_int_equal(RIIS_PHASE_OPENING, 1);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
@@ -369,7 +380,7 @@ static void test_signatures(void **state) {
   (void)state;
   SIZE(riis_status, 4);
   assert_true((riis_status)-1 < 0);
-  assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *): 1, default: 0));
+  assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *) : 1, default : 0));
   SIGNATURE(riis_status_name, const char *, (riis_status));
   SIGNATURE(riis_last_error, const char *, (void));
   SIGNATURE(riis_version, void, (int32_t *, int32_t *, int32_t *));
@@ -442,6 +453,11 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_find_crossings, int32_t, (riis_surface *, const riis_crossing_options *, riis_crossings *, int64_t));
   SIGNATURE(riis_surface_crossing_pairs, int32_t,
             (const riis_surface *, int64_t *, const int64_t **, const double **, const double **, const double **));
+  SIGNATURE(riis_label_open_regions, int32_t,
+            (const riis_mesh *, const riis_mark_options *, const riis_mark_result *, int64_t, int64_t *, int64_t *));
+  SIGNATURE(riis_find_passage, int32_t,
+            (const riis_surface *, const riis_mesh *, const riis_mark_options *, int64_t, const int64_t *, int64_t,
+             const int64_t *, riis_passage *, int64_t));
   SIGNATURE(riis_valve_copy, int32_t, (const riis_valve *, riis_valve **));
   SIGNATURE(riis_surface_update_moving, int32_t,
             (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,
@@ -510,8 +526,9 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_motion_destroy, void, (riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, riis_keyframe_arrays *));
   SIGNATURE(riis_vtk_picture_options_init, int32_t, (riis_vtk_picture_options *, int64_t));
-  SIGNATURE(riis_vtk_film_create, int32_t,
-            (const riis_vtk_mesh *, const double *, const double *, const riis_vtk_picture_options *, riis_vtk_film **));
+  SIGNATURE(
+      riis_vtk_film_create, int32_t,
+      (const riis_vtk_mesh *, const double *, const double *, const riis_vtk_picture_options *, riis_vtk_film **));
   SIGNATURE(riis_vtk_film_draw, int32_t, (riis_vtk_film *, const riis_surface *, const char *, const char *));
   SIGNATURE(riis_vtk_film_destroy, void, (riis_vtk_film **));
   SIGNATURE(riis_vtk_draw, int32_t,

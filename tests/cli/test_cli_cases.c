@@ -239,8 +239,10 @@ static void test_refused_cases(void **state) {
   expect_case_refused("times: the time 1 is not above the time before it, 2", mitral, "\"times\": [2, 1],");
   expect_case_refused("parameters: 'anulus' is not a parameter",
                       "{\"valve\": \"mitral\", \"parameters\": {\"anulus\": 1}}", "");
-  expect_case_refused("opening is 0.5, but the aortic valve has one state only",
-                      "{\"valve\": \"aortic\", \"opening\": 0.5}", "");
+  expect_case_refused("in the open state, the left cusp's leaflet curve reaches",
+                      "{\"valve\": \"aortic\", \"opening\": 0.5,"
+                      " \"parameters\": {\"left.leaflet_radius_out\": 5, \"commissure_expansion\": 0.5}}",
+                      "");
   expect_case_refused("surface: a surface that moves needs times", "{\"surface\": \"a.pvd\"}", "");
   expect_case_refused("period: it needs a \"surface\" that moves", "{\"surface\": \"a.stl\", \"period\": 1}", "");
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"mitral\"}]}");

@@ -92,6 +92,7 @@ static void expect_title(const char *title, const char *setting, const char *val
 static void test_titles(void **state) {
   (void)state;
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "open_radius_ratio=0.9");
   expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
 }
 

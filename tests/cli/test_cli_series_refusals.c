@@ -111,8 +111,6 @@ static void test_options(void **state) {
 static void test_valves(void **state) {
   (void)state;
   write_cycle("0,0\n1,0.5\n");
-  RUN_REFUSED(1, "opening is 0.25, but the aortic valve has one state only", "missing.vtu", "--cycle",
-              scratch_path("cycle.csv"), "--times", "0.5,1", "--output", scratch_path("s.pvd"));
   scratch_write_text(
       "patch.json",
       "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"

@@ -47,7 +47,12 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--steps has no effect with --print-params", "--valve", "mitral", "--steps", "2", "--print-params");
   RUN_REFUSED(2, "--surface excludes --steps", mesh, "--surface", scratch_path("a.vtp"), "--steps", "2");
   /* This valve cannot move. */
-  RUN_REFUSED(1, "--steps: opening is 0.02, but the aortic valve has one state only", mesh, "--steps", "2");
+  scratch_write_text(
+      "patch.json",
+      "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
+      "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
+  RUN_REFUSED(1, "opening is 0.02, but the patches valve has one state only", mesh, "--valve",
+              scratch_path("patch.json"), "--steps", "2");
 }
 
 int main(void) {

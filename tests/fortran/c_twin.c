@@ -11,6 +11,7 @@ static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *movin
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
 static riis_mark_result *result, *leaking, *resisting;
+static int64_t *region_labels;
 static void *memory[24];
 static int n_memory;
 
@@ -283,6 +284,12 @@ static riis_status find_leaks(twin_leaks *leaks) {
   options.n_threads = 2;
   TRY(riis_find_leaks(thin, mesh, &options, leaking, &leaks->sum, sizeof leaks->sum));
   TRY(riis_mark_result_leaking_edges(leaking, &leaks->n, &leaks->node_id, &leaks->length, &leaks->distance));
+  const int64_t from = 0, to = csr.n_rows - 1;
+  free(region_labels);
+  region_labels = malloc((size_t)csr.n_rows * sizeof *region_labels);
+  TRY(riis_label_open_regions(mesh, &options, leaking, csr.n_rows, region_labels, &leaks->n_regions));
+  leaks->label = region_labels;
+  TRY(riis_find_passage(thin, mesh, &options, 1, &from, 1, &to, &leaks->passage, sizeof leaks->passage));
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
@@ -451,6 +458,8 @@ void twin_end(void) {
   riis_surface_destroy(&framed);
   riis_surface_destroy(&crossed);
   riis_mark_result_destroy(&leaking);
+  free(region_labels);
+  region_labels = NULL;
   riis_surface_destroy(&thin);
   riis_valve_destroy(&thin_valve);
   riis_mark_result_destroy(&result);

@@ -29,6 +29,9 @@ module c_twin
     type(riis_leaks) :: sum
     integer(c_int64_t) :: n
     type(c_ptr) :: node_id, length, distance
+    type(c_ptr) :: label
+    integer(c_int64_t) :: n_regions
+    type(riis_passage) :: passage
   end type twin_leaks
 
   type, bind(c) :: twin_crossings

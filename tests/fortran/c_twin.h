@@ -34,6 +34,9 @@ typedef struct twin_leaks {
   int64_t n;
   const int64_t *node_id;
   const double *length, *distance;
+  const int64_t *label; /* of each node's open region */
+  int64_t n_regions;
+  riis_passage passage; /* from the first node to the last one */
 } twin_leaks;
 
 /* The pairs of triangles that go through each other. */

@@ -831,6 +831,9 @@ contains
     type(riis_mark_options) :: options
     type(riis_leaks) :: leaks
     type(twin_leaks) :: list
+    type(riis_passage) :: passage
+    integer(c_int64_t), allocatable, target :: label(:)
+    integer(c_int64_t) :: n_regions
     type(c_ptr) :: thin, thin_valve, leaking
 
     thin = c_null_ptr
@@ -865,6 +868,15 @@ contains
     call check_same_bytes(list%node_id, twin%leaks%node_id, 16 * list%n, 'nodes of edges that leak')
     call check_same_bytes(list%length, twin%leaks%length, 8 * list%n, 'their lengths')
     call check_same_bytes(list%distance, twin%leaks%distance, 8 * list%n, 'their distances')
+    allocate (label(n_nodes))
+    call check_ok(riis_label_open_regions(mesh, options, leaking, n_nodes, label, n_regions), 'open regions')
+    call check(n_regions == twin%leaks%n_regions .and. n_regions > 0, 'as many regions as from C')
+    call check_same_bytes(c_loc(label), twin%leaks%label, 8 * n_nodes, 'the labels')
+    call check_ok(riis_find_passage(thin, mesh, options, 1_c_int64_t, [0_c_int64_t], 1_c_int64_t, [n_nodes - 1], passage, &
+      c_sizeof(passage)), 'a passage')
+    call check(passage%node_id == twin%leaks%passage%node_id .and. passage%state == twin%leaks%passage%state .and. &
+      all(transfer([passage%distance, passage%point], [0_c_int64_t]) == &
+      transfer([twin%leaks%passage%distance, twin%leaks%passage%point], [0_c_int64_t])), 'the passage')
     call riis_mark_result_destroy(leaking)
     call riis_surface_destroy(thin)
     call riis_valve_destroy(thin_valve)

@@ -441,10 +441,51 @@ C     A thin valve, and edges that cross it between unmarked nodes.
         IF (EDGE3(1,I) .NE. EDGE(1,I) .OR. EDGE3(2,I) .NE. EDGE(2,I))
      &    CALL FAILED('the same edges')
    10 CONTINUE
+      CALL REGION(SURF, MESH, RES)
       CALL RIISF_MESH_CLEAR_ADJACENCY(MESH, STAT)
       CALL OK(STAT)
       CALL RIISF_MARK_RESULT_DESTROY(RES)
       CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+C     The regions between marked nodes, and the passage from the first
+C     node to the last one.
+      SUBROUTINE REGION(SURF, MESH, RES)
+      INTEGER NN
+      PARAMETER (NN = 9261)
+      INTEGER*8 SURF, MESH, RES, NREG3, NODE3, LABEL3(NN)
+      INTEGER STAT, STATE, I, NREG, NODE, LABEL(NN), FROM(1), TO(1)
+      DOUBLE PRECISION DIST, DIST3, POINT(3), POINT3(3)
+      SAVE LABEL, LABEL3
+      INCLUDE 'riisf.h'
+      CALL RIISF_LABEL_OPEN_REGIONS(MESH, 1, RES, 5, LABEL, NREG, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_nodes is 5')
+      CALL RIISF_LABEL_OPEN_REGIONS(MESH, 1, RES, NN, LABEL, NREG, STAT)
+      CALL OK(STAT)
+      CALL RIISF_LABEL_OPEN_REGIONS_64(MESH, 1, RES, INT(NN, 8), LABEL3,
+     &  NREG3, STAT)
+      CALL OK(STAT)
+      IF (NREG .LT. 1 .OR. NREG3 .NE. NREG .OR. LABEL(1) .NE. 1)
+     &  CALL FAILED('regions')
+      DO 10 I = 1, NN
+        IF (LABEL(I) .LT. 0 .OR. LABEL(I) .GT. I
+     &    .OR. LABEL3(I) .NE. LABEL(I)) CALL FAILED('a label')
+   10 CONTINUE
+      FROM(1) = 1
+      TO(1) = NN
+      CALL RIISF_FIND_PASSAGE(SURF, MESH, 1, 0, FROM, 1, TO, STATE,
+     &  NODE, DIST, POINT, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_from is 0')
+      CALL RIISF_FIND_PASSAGE(SURF, MESH, 1, 1, FROM, 1, TO, STATE,
+     &  NODE, DIST, POINT, STAT)
+      CALL OK(STAT)
+      IF (STATE .NE. RIIS_PASSAGE_OPEN .OR. DIST .LE. 0.02D0)
+     &  CALL FAILED('a passage')
+      CALL RIISF_FIND_PASSAGE_64(SURF, MESH, 1, INT(1, 8), INT(FROM, 8),
+     &  INT(1, 8), INT(TO, 8), STATE, NODE3, DIST3, POINT3, STAT)
+      CALL OK(STAT)
+      IF (NODE3 .NE. NODE .OR. DIST3 .NE. DIST .OR.
+     &  POINT3(1) .NE. POINT(1)) CALL FAILED('the same passage')
       END
 
 C     A valve that moves by 0.01 in 2 ms, the fields of its closest

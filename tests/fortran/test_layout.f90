@@ -25,6 +25,7 @@ program test_layout
   type(riis_leaks), target :: lk
   type(riis_crossing_options), target :: xo
   type(riis_crossings), target :: xs
+  type(riis_passage), target :: pg
   type(riis_mark_fields), target :: mf
   type(riis_resistance), target :: re
   type(riis_band_sums), target :: bs
@@ -89,6 +90,8 @@ program test_layout
     at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%instructions)), at(c_loc(ms%n_unreached))])
   call compare('riis_leaks', c_sizeof(lk), c_loc(lk), [at(c_loc(lk%n_edges)), at(c_loc(lk%longest_node_id)), &
     at(c_loc(lk%longest_length)), at(c_loc(lk%longest_middle)), at(c_loc(lk%half_thickness)), at(c_loc(lk%seconds))])
+  call compare('riis_passage', c_sizeof(pg), c_loc(pg), [at(c_loc(pg%node_id)), at(c_loc(pg%distance)), &
+    at(c_loc(pg%point)), at(c_loc(pg%seconds)), at(c_loc(pg%state)), at(c_loc(pg%reserved))])
   call compare('riis_mark_fields', c_sizeof(mf), c_loc(mf), [at(c_loc(mf%n_nodes)), at(c_loc(mf%point)), &
     at(c_loc(mf%normal)), at(c_loc(mf%barycentric)), at(c_loc(mf%uv)), at(c_loc(mf%velocity)), at(c_loc(mf%side)), &
     at(c_loc(mf%rim)), at(c_loc(mf%patch_id))])

@@ -19,6 +19,7 @@ program test_marking
   call test_masks()
   call test_dense()
   call test_leaks()
+  call test_passages()
   call test_errors()
   call test_assignment()
   call test_threads()
@@ -247,6 +248,82 @@ contains
     call adjacency%destroy()
     call thin%destroy()
   end subroutine test_leaks
+
+  ! In the box, by every kind of mask and number; a lone node is a region of its own.
+  subroutine test_passages()
+    type(riis_surface) :: thin
+    type(riis_mesh) :: joined
+    type(riis_adjacency) :: adjacency
+    type(riis_mark_result) :: result
+    type(riis_passage) :: passage, again
+    integer(int64) :: region_num(n_nodes), again_num(n_nodes), n_regions
+    integer, pointer :: no_nodes(:)
+    logical :: mask(n_nodes)
+    integer :: i
+    call thin%create(valve, half_thickness=0.02d0)
+    call joined%create(xyz)
+    call riis_mark_nodes(thin, joined, result)
+    region_num = -7
+    call riis_label_open_regions(joined, result, region_num, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'mesh has no adjacency')
+    call riis_find_passage(thin, joined, [1], [n_nodes], passage, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'mesh has no adjacency')
+    call adjacency%create_from_grid(per_side, per_side, per_side)
+    call joined%set_adjacency(adjacency)
+    call riis_label_open_regions(joined, result, region_num(2:), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of region_num is 9260')
+    call check(all(region_num == -7), 'refused calls write nothing')
+
+    call riis_label_open_regions(joined, result, region_num, n_regions, n_threads=2)
+    call check(n_regions == count(region_num == [(i, i=1, n_nodes)]), 'as many regions as lowest nodes')
+    call check(count(region_num == 0) == result%n_marked() .and. minval(region_num) == 0, 'marked nodes are in no region')
+    call check(region_num(1) == 1, 'the first node')
+    mask = .true.
+    mask([2, 1 + per_side, 1 + per_side**2]) = .false. ! the neighbours of the first node
+    call riis_label_open_regions(joined, result, region_num, node_mask=mask)
+    call check(count(region_num == 1) == 1 .and. region_num(2) == 0, 'a lone node')
+    call riis_label_open_regions(joined, result, again_num, n_regions, merge(1_int8, 0_int8, mask))
+    call check(all(again_num == region_num), 'masked out by bytes')
+    call riis_label_open_regions(joined, result, again_num, n_regions, merge(5, 0, mask), 1_int64)
+    call check(all(again_num == region_num), 'masked out by integers')
+
+    call riis_find_passage(thin, joined, [1], [n_nodes, n_nodes - 1], passage)
+    call check(passage%state == RIIS_PASSAGE_OPEN .and. passage%distance > 0.02d0, 'an open passage')
+    call check(all(same(passage%point, xyz(:, passage%node_id + 1))), 'its place')
+    call riis_find_passage(thin, joined, [1_int64], int([n_nodes, n_nodes - 1], int64), again, n_threads=2)
+    call check(again%node_id == passage%node_id .and. all(same([again%distance], [passage%distance])), 'by int64')
+    call riis_find_passage(thin, joined, [1], [n_nodes], again, mask)
+    call check(again%state == RIIS_PASSAGE_NONE .and. again%node_id == -1, 'no passage round the mask')
+    call riis_find_passage(thin, joined, [1_int64], [int(n_nodes, int64)], again, mask)
+    call check(again%state == RIIS_PASSAGE_NONE, 'by int64')
+    again%state = -7
+    call riis_find_passage(thin, joined, [1], [n_nodes], again, merge(1_int8, 0_int8, mask))
+    call check(again%state == RIIS_PASSAGE_NONE, 'masked out by bytes')
+    again%state = -7
+    call riis_find_passage(thin, joined, [1_int64], [int(n_nodes, int64)], again, merge(1_int8, 0_int8, mask))
+    call check(again%state == RIIS_PASSAGE_NONE, 'by int64')
+    again%state = -7
+    call riis_find_passage(thin, joined, [1], [n_nodes], again, merge(5, 0, mask))
+    call check(again%state == RIIS_PASSAGE_NONE, 'masked out by integers')
+    again%state = -7
+    call riis_find_passage(thin, joined, [1_int64], [int(n_nodes, int64)], again, merge(5, 0, mask))
+    call check(again%state == RIIS_PASSAGE_NONE, 'by int64')
+
+    allocate (no_nodes(0))
+    call riis_find_passage(thin, joined, no_nodes, [1], again, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_from is 0')
+    call riis_find_passage(thin, joined, [1], [n_nodes + 1], again, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'to[0] is 9261')
+    call riis_find_passage(thin, joined, [0], [1], again, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'from[0] is -1')
+    deallocate (no_nodes)
+    call result%destroy()
+    call riis_label_open_regions(joined, result, region_num, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call joined%destroy()
+    call adjacency%destroy()
+    call thin%destroy()
+  end subroutine test_passages
 
   ! Options out of range, and handles that there are not.
   subroutine test_errors()

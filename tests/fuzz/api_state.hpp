@@ -108,6 +108,8 @@ void mark(Input &in, State &state);
 void read_marks(Input &in, State &state);
 void find_leaks(Input &in, State &state);
 void find_crossings(Input &in, State &state);
+void label_regions(Input &in, State &state);
+void find_passage(Input &in, State &state);
 void destroy_something(Input &in, State &state);
 void add_forces(Input &in, State &state);
 void advance_laws(Input &in, State &state);

@@ -39,6 +39,8 @@ const char *const names[] = {"opening",
                              "anterior_horn_height",
                              "ALPM_position_ratio",
                              "posteromedial_commissure_height",
+                             "open_radius_ratio",
+                             "commissure_expansion",
                              "bogus",
                              "",
                              ".",
@@ -75,8 +77,8 @@ void put(ValveSlot &slot, riis_valve *valve, double size) {
 }  // namespace
 
 void make_valve(Input &in, State &state) {
-  static const char *const kinds[] = {"aortic", "mitral",    "aortic", "mitral", "aortic",
-                                      "mitral", "tricuspid", "",       nullptr};
+  static const char *const kinds[] = {"aortic",     "mitral", "trileaflet", "aortic", "mitral",
+                                      "trileaflet", "mitral", "tricuspid",  "",       nullptr};
   ValveSlot &slot = slot_of(in, state);
   const char *kind = in.one_of(kinds);
   put(slot, made_by<riis_valve>(in, [&](riis_valve **valve) { return riis_valve_create(kind, valve); }), 1);

@@ -163,6 +163,8 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            give_adjacency,
                                            mark,
                                            find_leaks,
+                                           label_regions,
+                                           find_passage,
                                            read_marks,
                                            make_adjacency_of_grid,
                                            give_adjacency,
@@ -190,6 +192,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   fuzz::State state;
   riis_set_log(in.one_in(4) ? fuzz::log_nothing : nullptr, nullptr);
   constexpr int n_calls = static_cast<int>(sizeof fuzz::calls / sizeof *fuzz::calls);
-  for (int i = 0; i < 40 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
+  for (int i = 0; i < 42 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
   return 0;
 }

@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   file().hold(bytes, size);
   read_valve();
   read_opening();
-  for (const char *kind : {"aortic", "mitral"}) {
+  for (const char *kind : {"aortic", "mitral", "trileaflet"}) {
     file().hold(bytes, size);
     read_parameters(kind);
   }

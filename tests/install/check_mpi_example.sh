@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_mpi_example.sh EXAMPLES_BUILD_DIR N_RANKS [Fortran]
-# Runs the example of MPI where check_install.sh built it. The program itself compares the ranks' marks with those of the whole
-# mesh.
+# Runs the examples of MPI where check_install.sh built them. The programs themselves compare the ranks' marks and labels with
+# those of the whole mesh.
 # Environment: MPIEXEC
 set -euo pipefail
 build=$1 n_ranks=$2
@@ -20,11 +20,20 @@ export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_b
 # The same for Open MPI 5, which starts its ranks by PRRTE.
 export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 
-programs=("$build/mpi_partition")
-[[ " $* " != *" Fortran "* ]] || programs+=("$build/mpi_partition_fortran")
-for program in "${programs[@]}"; do
-  printed=$("$MPIEXEC" -n "$n_ranks" "$program" </dev/null) ||
-    { echo "problem: $program failed; it printed: $printed" >&2; exit 1; }
-  diff <(printf '%s\n' "19683 nodes, marked: 823" "$n_ranks ranks, marked: 823, the same nodes and distances") \
-    <(printf '%s\n' "$printed") || { echo "problem: $program does not print what it should" >&2; exit 1; }
-done
+suffixes=("")
+[[ " $* " != *" Fortran "* ]] || suffixes+=(_fortran)
+
+check() { # example, lines that it prints
+  local example=$1 suffix program printed
+  shift
+  for suffix in "${suffixes[@]}"; do
+    program=$build/$example$suffix
+    printed=$("$MPIEXEC" -n "$n_ranks" "$program" </dev/null) ||
+      { echo "problem: $program failed; it printed: $printed" >&2; exit 1; }
+    diff <(printf '%s\n' "$@") <(printf '%s\n' "$printed") ||
+      { echo "problem: $program does not print what it should" >&2; exit 1; }
+  done
+}
+
+check mpi_partition "19683 nodes, marked: 823" "$n_ranks ranks, marked: 823, the same nodes and distances"
+check mpi_leaks "19683 nodes, 2 open regions: the valve seals" "$n_ranks ranks: the same labels"

@@ -21,6 +21,10 @@ static inline uint64_t add_surface(uint64_t digest, const riis_surface *surface)
   digest = add_bytes(digest, all.vertex_id, n_triangles * 24);
   digest = add_bytes(digest, all.leaflet_id, n_triangles * 4);
   digest = add_bytes(digest, all.patch_id, n_triangles * 4);
+  int64_t n_pairs = 0;
+  const int64_t *crossing_id = NULL;
+  CHECK_OK(riis_surface_crossing_pairs(surface, &n_pairs, &crossing_id, NULL, NULL, NULL));
+  digest = add_bytes(digest, crossing_id, (size_t)n_pairs * 16);
   for (int i = -3; i <= 3; ++i) {
     const riis_closest closest = closest_to(surface, 0.4 * i, 0.3, 0.2 * i);
     digest = add_bytes(digest, &closest, sizeof closest);

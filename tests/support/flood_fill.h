@@ -73,7 +73,7 @@ static inline riis_surface *random_surface(void) {
   const int64_t n = random_integer(1, 6);
   const riis_surface_arrays arrays = triangle_arrays(3 * n, xyz, n, ids);
   riis_surface_options options = surface_options();
-  options.half_thickness = pow(10, random_between(&rng, -2, -0.2));
+  options.half_thickness = one_in(8) ? 1e-40 : pow(10, random_between(&rng, -2, -0.2));
   return surface_from(&arrays, &options);
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -189,6 +190,19 @@ double kernel_point_triangle(const double *p, const double *abc, double *point, 
 
 int segment_triangle_meet(const double *a, const double *b, const double *abc) {
   return segment_meets_triangle(vec(a), vec(b), {vec(abc), vec(abc + 3), vec(abc + 6)});
+}
+
+riis_status triangulate_deviating(const char *kind, double deviation, double max_error, int is_fixed, deviating *made) {
+  return guarded([&] {
+    PatchSet set = Valve(find_valve_kind(kind)).make_patches();
+    set.deviation = deviation;
+    const Placement in_place{1, no_rotation, {0, 0, 0}};
+    std::optional<TriangulationPlan> plan;
+    if (is_fixed) plan = plan_triangulation({set}, max_error, 1);
+    const TriangleSet triangles = triangulate(set, {max_error, in_place, false, 1, nullptr, plan ? &*plan : nullptr});
+    *made = {triangles.n_triangles(), triangles.error_bound,
+             PlacedPatches(set, max_error, in_place, false).largest_error(), !plan || is_within(set, *plan, max_error)};
+  });
 }
 
 riis_status aortic_patches(const char *name, double value, patch_set *set) {

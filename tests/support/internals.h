@@ -82,6 +82,15 @@ typedef struct bounded_quad {
 riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
+/* The triangles and the bound of a valve of the given kind whose curves are `deviation` from their shape. A fixed triangulation
+ * is planned for this state alone. bound_of_patches is that of the patches for other distances. */
+typedef struct deviating {
+  int64_t n_triangles;
+  double bound, bound_of_patches;
+  int is_within; /* by the plan; 1 without one */
+} deviating;
+riis_status triangulate_deviating(const char *kind, double deviation, double max_error, int is_fixed, deviating *made);
+
 /* Finds the closest triangle to each point twice: by the Embree scene of the triangles xyz(9, n_triangles), with every
  * instruction set that there is, and by a loop over all of them with the same kernel. Returns how often the squared distance
  * (bits) or the triangle differ. Points beyond the limit must give none. */

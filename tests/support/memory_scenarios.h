@@ -224,6 +224,27 @@ static riis_status closest_points(world *w) {
   return status;
 }
 
+/* The right cusp is turned into its neighbours. */
+static void crossing(world *w) {
+  const double turned[3] = {0, 0, 60};
+  aortic(w);
+  CHECK_OK(riis_valve_set(w->valve, "right.rotation", 3, turned));
+  CHECK_OK(triangulate(w));
+}
+static riis_status find_crossings(world *w) {
+  riis_crossing_options options;
+  riis_crossings crossings;
+  CHECK_OK(riis_crossing_options_init(&options, sizeof options));
+  options.n_threads = w->scenario->n_threads;
+  const riis_status status = riis_find_crossings(w->surface, &options, &crossings, sizeof crossings);
+  if (!status) assert_true(crossings.n_pairs > 10);
+  return status;
+}
+static void crossings_found(world *w) {
+  crossing(w);
+  CHECK_OK(find_crossings(w));
+}
+
 /* --- Meshes and adjacency -------------------------------------------------------------------------------------------- */
 
 static riis_status make_mesh(world *w) {
@@ -435,6 +456,9 @@ static const scenario scenarios[] = {
     {"closest point", aortic_made, closest_point, 0, 0, 0},
     {"closest points, 1 thread", aortic_made, closest_points, 1, 0, 0},
     {"closest points, 4 threads", aortic_made, closest_points, 4, 0, 0},
+    {"crossings, 1 thread", crossing, find_crossings, 1, 0, 0},
+    {"crossings, 4 threads", crossing, find_crossings, 4, 0, ON_WORKERS},
+    {"crossings again", crossings_found, find_crossings, 1, 0, 0},
     {"mesh", nothing, make_mesh, 0, 0, 0},
     {"mesh update", mesh_made, update_mesh, 0, 0, ALLOCATES_NONE},
     {"mesh preparation, 1 thread", mesh_made, prepare, 1, 0, 0},

@@ -193,23 +193,31 @@ def draw_placement(sheet, cusps):
 
 
 def draw_opening(sheet, aortic):
-    panel = sheet.panel((9.95, 0.55), (4.95, 3.85), "e   Opening to a second state", (-0.35, -0.3), 0.43)
+    panel = sheet.panel((9.95, 0.55), (4.95, 3.85), "e   Opening to the state of the last two parameters", (-0.35, -0.3), 0.43)
     index = [cusp["name"] for cusp in aortic["cusps"]].index(CUSP)
-    states = aortic["opening_example"]
-    ways = []
+    states = aortic["openings"]
+    ways, ends = [], []
     for state, color in zip(states, (DARK, GREY, PALE)):
         symmetry = state["cusps"][index]["symmetry"]
         panel.curve(symmetry, section, color, 2.2 if state["opening"] == 0 else 1.6)
         ways.append(section(symmetry[0][-1]))
+        ends.append(plan(state["cusps"][index]["leaflet"][0][0][-1]))
         panel.points(ways[-1], color=color, size=5)
         panel.note((ways[-1][0], ways[-1][1] + 0.07), plain(state["opening"]), color=color, ha="center", fontsize=NORMAL)
     sheet.check("opening", states[0]["opening"])
     sheet.check("opening", distance(ways[0], ways[1]) / distance(ways[0], ways[2]), states[1]["opening"])
     panel.line((0, -0.1), (0, 1.2), color=GREY, width=0.6, style=(0, (8, 3, 2, 3)))
     panel.arrow(along(ways[0], ways[2], 0.05), along(ways[0], ways[2], 0.95), both=False)
-    value = f"{sheet.value_text('opening')}: this state, to 1:\nthe state to open\nto, if one is set\n(here an example)"
-    panel.label("opening", (0.06, 0.52), along(ways[0], ways[2], 0.25), value=value)
-    panel.note((0.05, -0.2), "Every control point moves on a straight line.")
+    value = f"{sheet.value_text('opening')}: this state, to 1:\nthe open state"
+    panel.label("opening", (0.06, 0.62), along(ways[0], ways[2], 0.25), value=value)
+    root_radius = sheet.value("root_radius")
+    sheet.check("open_radius_ratio", ways[2][0] / root_radius)
+    value = f"{sheet.value_text('open_radius_ratio')}, times\nroot_radius: {plain(round(ways[2][0], 9))} cm"
+    panel.label("open_radius_ratio", (1.12, 1.18), ways[2], value=value)
+    sheet.check("commissure_expansion", math.hypot(*ends[2]) / math.hypot(*ends[0]) - 1)
+    value = f"{sheet.value_text('commissure_expansion')}: leaflet_radius_out\ngrows by this share (not seen here)"
+    panel.label("commissure_expansion", (0.05, 0.0), value=value)
+    panel.note((0.05, -0.26), "Every control point moves on a straight line.")
 
 
 def draw(aortic):

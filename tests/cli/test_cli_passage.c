@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * --check-leaks, against the C interface. The mesh is a box inside the valve's annulus, so that nothing goes round the valve. */
+#include <math.h>
+#include <riis/riis_vtk.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expect.h"
+#include "program.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+static const double below[3] = {0.01, 0, -1.2}, above[3] = {0, 0.02, 0.9};
+#define ENDS "0.01,0,-1.2", "0,0.02,0.9"
+#define SEALED "--set", "leaflet_radius_in=0.02"
+
+static int write_box(void **state) {
+  const double lower[3] = {-0.8, -0.8, -1.3}, upper[3] = {0.8, 0.8, 1};
+  const int failed = scratch_setup(state);
+  return failed || shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 25, lower, upper, 0) != 1;
+}
+
+static int64_t nearest(int64_t n, const double *xyz, const double *point) {
+  int64_t found = 0;
+  double least = INFINITY;
+  for (int64_t i = 0; i < n; ++i) {
+    const double *p = xyz + 3 * i, d = hypot(hypot(p[0] - point[0], p[1] - point[1]), p[2] - point[2]);
+    if (d < least) least = d, found = i;
+  }
+  return found;
+}
+
+/* Of the default valve. */
+static riis_passage passage_by_c(void) {
+  riis_vtk_mesh *file = NULL;
+  riis_adjacency *adjacency = NULL;
+  riis_mesh *mesh = NULL;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_csr csr;
+  riis_passage passage;
+  int64_t n = 0;
+  const double *xyz = NULL;
+  expect_fine(riis_valve_create("aortic", &valve));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &file));
+  expect_fine(riis_vtk_mesh_nodes(file, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_adjacency(file, 0, &adjacency));
+  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  expect_fine(riis_mesh_set_adjacency(mesh, &csr));
+  const int64_t from = nearest(n, xyz, below), to = nearest(n, xyz, above);
+  expect_fine(riis_find_passage(surface, mesh, NULL, 1, &from, 1, &to, &passage, sizeof passage));
+  riis_mesh_destroy(&mesh);
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&file);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return passage;
+}
+
+/* The advice works when it is typed as printed. */
+static void test_open_valve(void **state) {
+  (void)state;
+  const riis_passage passage = passage_by_c();
+  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, "--stats", "-");
+  assert_true(json_has_text(program_out, "state", "\"open\""));
+  assert_true(json_number(program_out, "node_id") == (double)passage.node_id);
+  assert_true(json_number(strstr(program_out, "passage"), "distance") == passage.distance);
+  char expected[256], typed[32] = {0};
+  snprintf(expected, sizeof expected,
+           "riis-mark: the surface leaks: unmarked nodes join 0.01 0 -1.2 and 0 0.02 0.9; the passage is at %.3g %.3g ",
+           passage.point[0], passage.point[1]);
+  assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
+  assert_int_equal(sscanf(strstr(program_leaks, "--half-thickness ") + 17, "%31s", typed), 1);
+  assert_true(strtod(typed, NULL) >= passage.distance && strtod(typed, NULL) < 1.2 * passage.distance);
+  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, "--half-thickness", typed);
+  assert_string_equal(program_leaks, "");
+  assert_non_null(strstr(program_out, "\npassage   closed: at "));
+}
+
+static void test_closed_valve(void **state) {
+  (void)state;
+  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, SEALED);
+  assert_string_equal(program_leaks, "");
+  assert_non_null(strstr(program_out, "\npassage   closed: at "));
+  RUN_FINE(scratch_path("box.vtu"), SEALED);
+  assert_null(strstr(program_out, "passage"));
+}
+
+/* An end that is nearer to the surface than the passage is wide. */
+static void test_end_is_the_narrowest_place(void **state) {
+  (void)state;
+  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", "0,0,-1.2", "0.5,0,-0.1");
+  assert_non_null(strstr(program_leaks, "the passage is at least as wide as the end at "));
+  assert_null(strstr(program_leaks, "--half-thickness"));
+}
+
+static void test_what_is_refused(void **state) {
+  (void)state;
+  const char *box = scratch_path("box.vtu");
+#define REFUSED(text, ...) RUN_REFUSED(2, text, box, "--check-leaks", __VA_ARGS__)
+  REFUSED("--check-leaks: FROM, 9 0 0, is outside the mesh, which goes from -0.8 -0.8 -1.3 to 0.8 0.8 1", "9,0,0",
+          "0,0,0.9");
+  REFUSED("--check-leaks: TO, 0 0 -1.4, is outside the mesh", "0,0,0.9", "0,0,-1.4");
+  REFUSED("--check-leaks: TO is node ", "0,0,0.9", "0,0,0", SEALED);
+  REFUSED(", in the band: its distance to the surface, ", "0,0,0.9", "0,0,0", SEALED);
+  REFUSED("--check-leaks", "0,0", "0,0,-1.4");
+  REFUSED("--check-leaks", "0,0,x", "0,0,-1.4");
+  RUN_REFUSED(2, "--check-leaks", box, "--check-leaks", "0,0,0.9");
+  RUN_REFUSED(2, "--check-leaks needs a MESH", "--surface-output", "out.vtp", "--check-leaks", ENDS);
+}
+
+/* Two pieces of mesh. A point between them is in the box, but far from every node. */
+static void test_pieces(void **state) {
+  (void)state;
+  scratch_write_text("pieces.vtk",
+                     "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+                     "0 0 0.5 1 0 0.5 0 1 0.5 0 0 1 0 0 9 1 0 9 0 1 9 0 0 8\n"
+                     "CELLS 2 10\n4 0 1 2 3\n4 4 5 6 7\nCELL_TYPES 2\n10 10\n");
+  scratch_write_text("one.stl",
+                     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                     "endloop\nendfacet\nendsolid\n");
+  run_program(scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none", "--check-leaks",
+              "0.1,0,0.6", "0,0,8.5", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_err, "nothing to seal: the mesh itself does not join 0.1 0 0.6 and 0 0 8.5\n"));
+  assert_non_null(strstr(program_out, "\npassage   none: the mesh itself does not join the two points\n"));
+  RUN_REFUSED(2, "--check-leaks: FROM, 0 0 4, is outside the mesh: the nearest node, 3, is 3 away",
+              scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none", "--check-leaks",
+              "0,0,4", "0,0,8.5");
+}
+
+/* Two valves in a row: either one alone closes the way. */
+static void test_cases(void **state) {
+  (void)state;
+  scratch_write_text("one.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
+                     " \"valves\": [{\"valve\": \"aortic\"}]}\n");
+  RUN_FINE("--case", scratch_path("one.json"));
+  assert_non_null(strstr(program_leaks, "riis-mark: the surface leaks: unmarked nodes join"));
+  assert_non_null(strstr(program_out, "\npassage   open: at "));
+  scratch_write_text(
+      "two.json",
+      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
+      " \"valves\": [{\"name\": \"open\", \"valve\": \"aortic\", \"translate\": [0, 0, 0.3]},\n"
+      "  {\"name\": \"closed\", \"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02}}]}\n");
+  RUN_FINE("--case", scratch_path("two.json"));
+  assert_string_equal(program_leaks, "");
+  assert_non_null(strstr(program_out, "\npassage   closed: at "));
+  RUN_REFUSED(2, "--check-leaks: FROM, 9 9 9, is outside the mesh", "--case", scratch_path("two.json"), "--check-leaks",
+              "9,9,9", "0,0,0.9");
+  scratch_write_text("outside.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [9,0,0, 0,0.02,0.9],\n"
+                     " \"valves\": [{\"valve\": \"aortic\"}]}\n");
+  RUN_REFUSED(1, "outside.json: check_leaks: FROM, 9 0 0, is outside the mesh", "--case", scratch_path("outside.json"));
+  scratch_write_text("unequal.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
+                     " \"valves\": [{\"name\": \"a\", \"valve\": \"aortic\", \"half_thickness\": 0.2},\n"
+                     "  {\"name\": \"b\", \"valve\": \"aortic\"}]}\n");
+  run_program("--case", scratch_path("unequal.json"), NULL);
+  assert_int_equal(program_exit_code, 1);
+  assert_non_null(strstr(program_err, "the valves must have one half thickness; that of a is 0.2, that of b 0.1"));
+}
+
+/* Looked for where the valve is least open. */
+static void test_series(void **state) {
+  (void)state;
+  scratch_write_text("beat.csv", "0,0.5\n1,0\n2,1\n");
+  scratch_write_text("open.json", "{\"leaflet_radius_in\": 0.8}");
+  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, SEALED, "--params-open", scratch_path("open.json"),
+           "--cycle", scratch_path("beat.csv"), "--times", "0:2:0.5", "--series-table", scratch_path("table.csv"));
+  assert_string_equal(program_leaks, "");
+  assert_non_null(strstr(program_out, "\npassage   closed: at "));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_open_valve),
+      cmocka_unit_test(test_closed_valve),
+      cmocka_unit_test(test_end_is_the_narrowest_place),
+      cmocka_unit_test(test_what_is_refused),
+      cmocka_unit_test(test_pieces),
+      cmocka_unit_test(test_cases),
+      cmocka_unit_test(test_series),
+  };
+  return cmocka_run_group_tests(tests, write_box, scratch_teardown);
+}

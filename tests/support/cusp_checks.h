@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Measures of valves with three cusps, taken from their triangles: free edges, the orifice, and the sectors that keep cusps
+ * apart. Include after handles.h. */
+#ifndef RIIS_TEST_CUSP_CHECKS_H
+#define RIIS_TEST_CUSP_CHECKS_H
+
+static const double cusp_degree = 3.14159265358979323846 / 180;
+
+static inline riis_valve *valve_at(const char *kind, double opening) {
+  riis_valve *valve = new_valve(kind);
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  return valve;
+}
+
+/* Adds up the edges on the sides v = 1 of the top patches. */
+static inline void free_edge_lengths(const riis_surface *surface, double *lengths) {
+  const surface_content all = surface_content_of(surface);
+  for (int cusp = 0; cusp < 3; ++cusp) lengths[cusp] = 0;
+  for (int64_t t = 0; t < all.n_triangles; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int64_t a = all.vertex_id[3 * t + k], b = all.vertex_id[3 * t + (k + 1) % 3];
+      if (all.patch_id[t] % 2 == 0 || all.uv[2 * a + 1] != 1 || all.uv[2 * b + 1] != 1) continue;
+      const double *p = all.xyz + 3 * a, *q = all.xyz + 3 * b;
+      lengths[all.leaflet_id[t]] += hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
+    }
+}
+
+/* The part of a disc about the axis that no triangle covers, seen along the axis, by a grid of n x n squares. */
+static inline double orifice_area(const riis_surface *surface, double radius, int n) {
+  const surface_content all = surface_content_of(surface);
+  const double h = 2 * radius / n;
+  unsigned char *covered = own(calloc((size_t)n * (size_t)n, 1));
+  for (int64_t t = 0; t < all.n_triangles; ++t) {
+    const double *p[3];
+    double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
+    for (int k = 0; k < 3; ++k) {
+      p[k] = all.xyz + 3 * all.vertex_id[3 * t + k];
+      for (int c = 0; c < 2; ++c) low[c] = fmin(low[c], p[k][c]), high[c] = fmax(high[c], p[k][c]);
+    }
+    int first[2], last[2];
+    for (int c = 0; c < 2; ++c) {
+      first[c] = (int)fmax(0, floor((low[c] + radius) / h - 1));
+      last[c] = (int)fmin(n - 1, ceil((high[c] + radius) / h + 1));
+    }
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i) {
+        const double x = (i + 0.5) * h - radius, y = (j + 0.5) * h - radius;
+        int n_left = 0, n_right = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double *a = p[k], *b = p[(k + 1) % 3];
+          const double side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+          n_left += side >= -1e-12, n_right += side <= 1e-12;
+        }
+        if (n_left == 3 || n_right == 3) covered[(size_t)j * (size_t)n + (size_t)i] = 1;
+      }
+  }
+  int64_t n_open = 0;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      n_open += hypot((i + 0.5) * h - radius, (j + 0.5) * h - radius) <= radius &&
+                !covered[(size_t)j * (size_t)n + (size_t)i];
+  free_one_owned(covered);
+  return (double)n_open * h * h;
+}
+
+/* Returns how far a cusp reaches out of its sector, the wedge between its two commissures. The wedges are convex, so cusps
+ * that stay in theirs do not cross. */
+static inline double reach_out_of_sectors(const riis_surface *surface, const double *turn, const double *half_angle) {
+  const surface_content all = surface_content_of(surface);
+  double worst = 0;
+  for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
+    const int cusp = all.leaflet_id[i / 3];
+    const double *p = all.xyz + 3 * all.vertex_id[i];
+    for (int side = -1; side <= 1; side += 2) {
+      const double a = (turn[cusp] + side * half_angle[cusp]) * cusp_degree;
+      worst = fmax(worst, side * (p[1] * cos(a) - p[0] * sin(a)));
+    }
+  }
+  return worst;
+}
+
+/* Returns the least cosine between a triangle's normal and the way outwards and up. A fold would turn it over. */
+static inline double least_uprightness(const riis_surface *surface, const double *turn) {
+  const surface_content all = surface_content_of(surface);
+  double least = 1;
+  for (int64_t t = 0; t < all.n_triangles; ++t) {
+    const double *p[3], a = turn[all.leaflet_id[t]] * cusp_degree;
+    double n[3];
+    for (int k = 0; k < 3; ++k) p[k] = all.xyz + 3 * all.vertex_id[3 * t + k];
+    for (int c = 0; c < 3; ++c) {
+      const int d = (c + 1) % 3, e = (c + 2) % 3;
+      n[c] = (p[1][d] - p[0][d]) * (p[2][e] - p[0][e]) - (p[1][e] - p[0][e]) * (p[2][d] - p[0][d]);
+    }
+    const double up = (n[0] * cos(a) + n[1] * sin(a) + n[2]) / sqrt(2);
+    least = fmin(least, up / hypot(hypot(n[0], n[1]), n[2]));
+  }
+  return least;
+}
+
+/* 101 openings: free edges stay within a share of their length at opening 0, the orifice grows, cusps neither cross nor
+ * fold. Returns the orifice at opening 1. */
+static inline double check_opening(riis_valve *valve, double radius, const double *turn, const double *half_angle,
+                                   double share, const char *name) {
+  double at_rest[3] = {0, 0, 0}, least[3] = {1, 1, 1}, most[3] = {1, 1, 1}, orifice = -1;
+  for (int i = 0; i <= 100; ++i) {
+    double lengths[3];
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 100.0));
+    riis_surface *surface = new_surface(valve, NULL);
+    free_edge_lengths(surface, i == 0 ? at_rest : lengths);
+    if (i == 0) memcpy(lengths, at_rest, sizeof lengths);
+    for (int cusp = 0; cusp < 3; ++cusp) {
+      least[cusp] = fmin(least[cusp], lengths[cusp] / at_rest[cusp]);
+      most[cusp] = fmax(most[cusp], lengths[cusp] / at_rest[cusp]);
+    }
+    CHECK_AT_MOST(reach_out_of_sectors(surface, turn, half_angle), 1e-14);
+    assert_true(least_uprightness(surface, turn) > 0.2);
+    if (i % 10 == 0) {
+      const double wider = orifice_area(surface, radius, 300);
+      assert_true(wider > orifice);
+      orifice = wider;
+    }
+    free_one_owned(surface);
+  }
+  for (int cusp = 0; cusp < 3; ++cusp) {
+    printf("%s, cusp %d: free edge %.3f, from %.3f to %.3f of it\n", name, cusp, at_rest[cusp], least[cusp],
+           most[cusp]);
+    assert_true(least[cusp] >= 1 - share && most[cusp] <= 1 + share);
+  }
+  printf("%s: orifice %.2f\n", name, orifice);
+  return orifice;
+}
+
+#endif
