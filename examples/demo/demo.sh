@@ -37,6 +37,8 @@ demo_parts() {
 demo_valves=(aortic mitral)
 declare -A demo_kind=([aortic]=trileaflet [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)
+# Points upstream and downstream, or the other way round.
+declare -A demo_from=([aortic]=0,0,-1.6 [mitral]=0,0.2,-1.3) demo_to=([aortic]=0,0,1.1 [mitral]=0,0.2,2.1)
 
 # of_each_valve COMMAND: runs it for both valves at the same time.
 of_each_valve() {
@@ -49,12 +51,14 @@ of_each_valve() {
   return "$status"
 }
 
-# demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo.
+# demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Looks for ways
+# through the closed valve.
 demo_states() {
-  local opening name
+  local opening name check
   for opening in "${demo_openings[@]}"; do
-    name=$1_$opening
-    "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" \
+    name=$1_$opening check=()
+    [[ $opening != 0 ]] || check=(--check-leaks "${demo_from[$1]}" "${demo_to[$1]}")
+    "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" "${check[@]}" \
       --output "out/$name.vtu" --surface-output "out/${name}_surface.vtp" --stats "$build/demo/$name.json" \
       --picture "out/${name}_side.png" --view side --picture "out/${name}_top.png" --view top || return
   done
@@ -136,6 +140,9 @@ demo_row() {
   done
 }
 
+# demo_seal VALVE: prints whether unmarked nodes lead through the closed valve, or around it.
+demo_seal() { printf '  %-13s %s, by --check-leaks' "$1 valve" "$(number_of "$1_0" state | tr -d '"')"; }
+
 # demo_beat_line VALVE: prints what its heartbeat did.
 demo_beat_line() {
   printf '  %-13s %s to %s nodes marked, leaflets move at up to %.0f cm/s' "$1 valve" "$(of_beat "$1" 3 '<' | thousands)" \
@@ -156,6 +163,11 @@ of a leaflet. A flow solver resists the flow at these nodes.
 $(printf '  %-27s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
 $(demo_row aortic)
 $(demo_row mitral)
+
+Do marked nodes part inflow from outflow at opening 0?
+
+$(demo_seal aortic)
+$(demo_seal mitral)
 
 A valve that moves is marked again in each time step. For the mitral valve a step takes $step
 on one thread of this machine: $surface for the new surface, $marks for the marks. This is
