@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of an aortic root that the trileaflet valve fills: outflow tract, three sinuses, ascending aorta, in centimetres. The
-// cusps' attachment lies on the wall, and the sinuses bulge above it. With -setnumber paper 1 it is a root for the paper's aortic
-// valve. fill.geo fills it with about 100,000 nodes. For gmsh: gmsh -2 -format msh2 -o SURFACE.msh aortic_root.geo
+// The surface of an aortic root that the trileaflet valve fills: outflow tract, three sinuses, ascending aorta, in centimetres.
+// The cusps' attachment lies on the wall, and the sinuses bulge above it. With -setnumber paper 1 it is a root for the paper's
+// aortic valve. fill.geo fills it with about 100,000 nodes. For gmsh: gmsh -2 -format msh2 -o SURFACE.msh aortic_root.geo
 SetFactory("OpenCASCADE");
 DefineConstant[ paper = 0 ];
 h = 0.05;
@@ -30,7 +30,8 @@ joint = 3;      // degrees of the wall at a commissure, in which it passes from 
 
 Macro Section // at height z above the root
   // The attachment of half a cusp is a parabola through the root, the bending curve's end and the commissure (docs/theory.md,
-  // section 3). t is its parameter at this height: its points are radius away from the axis, half_angle away from the cusp's middle.
+  // section 3). t is its parameter at this height: its points are radius away from the axis, half_angle from the
+  // cusp's middle.
   t = Min(1, Max(0, z / leaflet_height));
   s = bending_height / leaflet_height;
   For c In {0 : 2}

@@ -51,8 +51,8 @@ of_each_valve() {
   return "$status"
 }
 
-# demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Looks for ways
-# through the closed valve.
+# demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Looks for
+# ways through the closed valve.
 demo_states() {
   local opening name check
   for opening in "${demo_openings[@]}"; do

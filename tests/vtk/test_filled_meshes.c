@@ -165,8 +165,8 @@ static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
   return n;
 }
 
-/* Tells whether unmarked nodes join the two ends of the mesh, and which half thickness closes the valve. The library's regions and
- * passage must agree with the flood fill. */
+/* Tells whether unmarked nodes join the two ends of the mesh, and which half thickness closes the valve. The library's regions
+ * and passage must agree with the flood fill. */
 static int is_joined(const filled_mesh *in, const riis_surface *surface, const riis_mark_options *options,
                      const riis_mark_result *result, const uint8_t *marks, double *closing) {
   const size_t size = (size_t)in->n_nodes * sizeof(int64_t);
@@ -261,8 +261,8 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
   }
 }
 
-/* Its cusps end at different radii, 0.13 apart at a commissure. So no wall is within half a half thickness of all ends. Flow passes
- * through the middle. */
+/* Its cusps end at different radii, 0.13 apart at a commissure. So no wall is within half a half thickness of all ends. Flow
+ * passes through the middle. */
 static void the_papers_valve_leaks_in_its_root(void **state) {
   (void)state;
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");
