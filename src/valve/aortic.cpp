@@ -2,6 +2,7 @@
 #include "valve/aortic.hpp"
 
 #include <string>
+#include <utility>
 
 #include "valve/cusp.hpp"
 

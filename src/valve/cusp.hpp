@@ -3,7 +3,9 @@
 // In: lengths, angles and exponents of one cusp. Out: Bezier curves in the cusp's frame, and patches in a set.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
 
 #include "geometry/bezier.hpp"
 #include "valve/patches.hpp"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "valve/trileaflet.hpp"
 
+#include <utility>
+
+#include "base/array_view.hpp"
+#include "geometry/placement.hpp"
 #include "valve/cusp.hpp"
 
 namespace riis {

@@ -882,7 +882,7 @@ contains
     call riis_valve_destroy(thin_valve)
   end subroutine test_leaks
 
-  ! Of an aortic valve whose right cusp is turned into its neighbours.
+  ! The right cusp of an aortic valve is turned into its neighbours.
   subroutine test_crossings()
     type(riis_crossing_options) :: options
     type(riis_crossings), target :: crossings

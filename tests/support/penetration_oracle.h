@@ -10,7 +10,7 @@
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 quad;
 #else
-typedef long double quad; /* has 113 bits, too, where the other type is missing */
+typedef long double quad; /* also has 113 bits where the other type is missing */
 #endif
 
 typedef struct quad3 {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface of an aortic root that the trileaflet valve fills: outflow tract, three sinuses, ascending aorta, in centimetres.
+// The cusps' attachment lies on the wall, and the sinuses bulge above it. With -setnumber paper 1 it is a root for the paper's
+// aortic valve. fill.geo fills it with about 100,000 nodes. For gmsh: gmsh -2 -format msh2 -o SURFACE.msh aortic_root.geo
+SetFactory("OpenCASCADE");
+DefineConstant[ paper = 0 ];
+h = 0.05;
+// The valve's parameters of these names. Lists have a number for each cusp: right, left, non-coronary.
+If (paper)
+  root_radius = 1.29; leaflet_height = 1.02; bending_height = 0.71;
+  leaflet_radius[] = {1.365, 1.495, 1.38}; leaflet_angle[] = {61, 58.5, 60.5};
+  bending_radius[] = {1.39, 1.355, 1.435}; bending_angle[] = {47.3, 43, 42.75};
+  rotation[] = {0, 119.5, 238.5}; root_z = -1;
+Else
+  root_radius = 1.25; leaflet_height = 1.2; bending_height = 0.6;
+  leaflet_radius[] = {1.25, 1.25, 1.25}; leaflet_angle[] = {60, 60, 60};
+  bending_radius[] = {1.275, 1.275, 1.275}; bending_angle[] = {35, 35, 35};
+  rotation[] = {0, 120, 240}; root_z = -1.2;
+EndIf
+// The tubes below and above the sinuses, and how far a sinus reaches beyond the attachment. Above the sinuses, at the sinotubular
+// junction, the root is as wide as at the commissures.
+outflow_length = 0.5;
+sinus_height = leaflet_height + 0.4;
+sinus_depth = 0.5;
+aorta_length = 0.8;
+
+n_points = 72;  // of a section
+spacing = 0.1;  // of the sections, from the root to the end of the sinuses
+joint = 3;      // degrees of the wall at a commissure, in which it passes from one cusp's radius to the next one's
+
+Macro Section // at height z above the root
+  // The attachment of half a cusp is a parabola through the root, the bending curve's end and the commissure (docs/theory.md,
+  // section 3). t is its parameter at this height: its points are radius away from the axis, half_angle from the
+  // cusp's middle.
+  t = Min(1, Max(0, z / leaflet_height));
+  s = bending_height / leaflet_height;
+  For c In {0 : 2}
+    end_x = leaflet_radius[c] * Cos(leaflet_angle[c] * Pi / 180);
+    end_y = leaflet_radius[c] * Sin(leaflet_angle[c] * Pi / 180);
+    middle_x = (bending_radius[c] * Cos(bending_angle[c] * Pi / 180) - (1 - s)^2 * root_radius - s^2 * end_x) / (2 * s * (1 - s));
+    middle_y = (bending_radius[c] * Sin(bending_angle[c] * Pi / 180) - s^2 * end_y) / (2 * s * (1 - s));
+    x = (1 - t)^2 * root_radius + 2 * t * (1 - t) * middle_x + t^2 * end_x;
+    y = 2 * t * (1 - t) * middle_y + t^2 * end_y;
+    radius[c] = Hypot(x, y);
+    half_angle[c] = Max(Atan2(y, x) * 180 / Pi, 1e-6);
+  EndFor
+  bulge = sinus_depth * Sin(Pi * Min(1, Max(0, z / sinus_height))^0.65);
+
+  points[] = {};
+  For i In {0 : n_points - 1}
+    angle = 360 * i / n_points;
+    // The mean of the cusps' radii, with their weights: 1 in a cusp, falling to 0 from there to the next cusp. And the sinus.
+    sum = 0;
+    weights = 0;
+    sinus = 0;
+    For c In {0 : 2}
+      away = Fabs(angle - rotation[c]);
+      away = Min(away, 360 - away);
+      first = Min(half_angle[c], 60 - joint / 2);
+      weight = Min(1, Max(0, 1 - (away - first) / (120 - 2 * first)));
+      sum = sum + weight * radius[c];
+      weights = weights + weight;
+      sinus = sinus + bulge * half_angle[c] / 60 * (1 - Min(1, away / half_angle[c])^4)^2;
+    EndFor
+    r = sum / weights + sinus;
+    p = newp;
+    Point(p) = {r * Cos(angle * Pi / 180), r * Sin(angle * Pi / 180), root_z + z};
+    points[] += p;
+  EndFor
+  curve = newl;
+  BSpline(curve) = {points[], points[0]};
+  curves[] += curve;
+  section = newll;
+  Curve Loop(section) = {curve};
+  sections[] += section;
+Return
+
+z = -outflow_length;
+Call Section;
+n_sinus = Round(sinus_height / spacing);
+For k In {0 : n_sinus}
+  z = sinus_height * k / n_sinus;
+  Call Section;
+EndFor
+z = sinus_height + aorta_length;
+Call Section;
+Ruled ThruSections(1) = sections[];
+Recursive Delete { Curve{curves[]}; }
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
+Mesh.Binary = 1;

@@ -1,0 +1,199 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run demo, which reads this file: compile riis-mark, mesh, mark and draw, time, tell. They use its $build, $logs,
+# $n_jobs, $demo_packages, install_missing and step.
+
+# build_demo: compiles riis-mark. A folder that is configured for the tests keeps its configuration, so that ./run test does not
+# start again.
+build_demo() {
+  local less=(-D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF)
+  ! grep -qs '^RIIS_BUILD_TESTS:BOOL=ON' "$build/CMakeCache.txt" || less=()
+  cmake --preset default "${less[@]}" &&
+    cmake --build --preset default --parallel "$n_jobs" --target riis-mark
+}
+
+# demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it is there. examples/demo/fill.geo says why the surface goes
+# through a file. Uses one thread: with more, gmsh was seen to leave stray cells in the mesh.
+demo_mesh() {
+  local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
+  [[ ! -s $mesh.vtk || $surface -nt $mesh.vtk || $volume -nt $mesh.vtk ]] || return 0
+  gmsh -2 -nt 1 -format msh2 -o "$mesh.msh" "$surface" &&
+    gmsh -3 -nt 1 -format vtk -o "$mesh.vtk.part" "$mesh.msh" "$volume" &&
+    mv "$mesh.vtk.part" "$mesh.vtk"
+}
+
+# demo_parts: compiles and meshes at the same time.
+demo_parts() {
+  local meshing status=0
+  mkdir -p out "$build/demo"
+  { demo_mesh mitral_tube && demo_mesh aortic_root; } &
+  meshing=$!
+  build_demo || status=$?
+  wait "$meshing" || status=$?
+  return "$status"
+}
+
+# The demo's valves and their meshes: the aortic valve is the trileaflet valve in its root.
+demo_valves=(aortic mitral)
+declare -A demo_kind=([aortic]=trileaflet [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
+demo_openings=(0 0.25 0.5 0.75 1)
+# Points upstream and downstream, or the other way round.
+declare -A demo_from=([aortic]=0,0,-1.6 [mitral]=0,0.2,-1.3) demo_to=([aortic]=0,0,1.1 [mitral]=0,0.2,2.1)
+
+# of_each_valve COMMAND: runs it for both valves at the same time.
+of_each_valve() {
+  local valve status=0 pids=()
+  for valve in "${demo_valves[@]}"; do
+    "$1" "$valve" &
+    pids+=($!)
+  done
+  for valve in "${pids[@]}"; do wait "$valve" || status=$?; done
+  return "$status"
+}
+
+# demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Looks for
+# ways through the closed valve.
+demo_states() {
+  local opening name check
+  for opening in "${demo_openings[@]}"; do
+    name=$1_$opening check=()
+    [[ $opening != 0 ]] || check=(--check-leaks "${demo_from[$1]}" "${demo_to[$1]}")
+    "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" "${check[@]}" \
+      --output "out/$name.vtu" --surface-output "out/${name}_surface.vtp" --stats "$build/demo/$name.json" \
+      --picture "out/${name}_side.png" --view side --picture "out/${name}_top.png" --view top || return
+  done
+}
+
+# demo_openings_picture: puts the marked cells of all states into one picture: a row for each valve and view, a column for each
+# opening.
+demo_openings_picture() {
+  local valve view opening inputs=() parts='' tiles='' layout='' n=0
+  for valve in "${demo_valves[@]}"; do
+    for view in side top; do
+      for opening in "${demo_openings[@]}"; do
+        inputs+=(-i "out/${valve}_${opening}_$view.png")
+        parts+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
+        tiles+="[t$n]"
+        layout+="|$((n % 5 * 320))_$((n / 5 * 256))"
+        n=$((n + 1))
+      done
+    done
+  done
+  ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex "$parts${tiles}xstack=inputs=$n:layout=${layout:1}" \
+    -frames:v 1 out/openings.png
+}
+
+demo_pictures() {
+  of_each_valve demo_states && demo_openings_picture
+}
+
+# demo_beat VALVE: one heartbeat as a movie of 24 frames, with its first picture, the moving surface and the orifice over time.
+demo_beat() {
+  "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" \
+    --cycle "examples/demo/$1_cycle.csv" --period 0.72 --interpolation cubic --times 0:0.69:0.03 \
+    --surface-output "out/$1_beating.pvd" --movie "out/$1_beating.mp4" --frame-rate 12 \
+    --picture "out/$1_beating.png" --series-table "out/$1_beating.csv" &&
+    "$build/bin/riis-mark" --valve "${demo_kind[$1]}" --states "out/$1_states.csv" --state-count 21 &&
+    orifice_over_time "$1" >"out/$1_orifice.csv"
+}
+
+# orifice_over_time VALVE: prints the orifice at the times of its heartbeat, linearly between the states of its table.
+orifice_over_time() {
+  LC_ALL=C awk -F , '
+    FNR == 1 { next }
+    FNR == NR { opening[++n] = $1; area[n] = $NF; next }
+    FNR == 2 { print "time,opening,orifice_area" }
+    FNR > 1 {
+      for (i = 1; i < n - 1 && $2 > opening[i + 1]; ++i) {}
+      share = ($2 - opening[i]) / (opening[i + 1] - opening[i])
+      printf "%s,%s,%.4g\n", $1, $2, area[i] + share * (area[i + 1] - area[i])
+    }' "out/$1_states.csv" "out/$1_beating.csv"
+}
+
+# of_beat VALVE COLUMN OPERATOR: prints the least (<) or the largest (>) number of a column of the beating valve's table.
+of_beat() {
+  LC_ALL=C awk -F , -v column="$2" -v operator="$3" '
+    NR == 2 || (NR > 2 && (operator == "<" ? $column < best : $column > best)) { best = $column }
+    END { print best }' "out/$1_beating.csv"
+}
+
+# number_of NAME KEY: prints a number of riis-mark's stats, with commas between thousands.
+number_of() { sed -n -E 's/^ *"'"$2"'": ([^,]*),?$/\1/p' "$build/demo/$1.json" | thousands; }
+
+# thousands: puts commas between the thousands of the number that it reads.
+thousands() { sed -E ':a; s/^([0-9]+)([0-9]{3})\b/\1,\2/; ta'; }
+
+# milliseconds_of KEY...: prints the sum of these keys in the marking that timed steps.
+milliseconds_of() {
+  local key
+  for key in "$@"; do number_of mitral_steps "$key"; done | LC_ALL=C awk '{ sum += $1 } END { printf "%.1f ms", 1000 * sum }'
+}
+
+# demo_row VALVE: prints the marked nodes and the orifice at each opening, two lines of the story's table.
+demo_row() {
+  local opening
+  printf '  %-27s' "$1 valve, nodes marked"
+  for opening in "${demo_openings[@]}"; do printf ' %7s' "$(number_of "$1_$opening" n_marked)"; done
+  printf '\n  %-27s' '              orifice, cm2'
+  for opening in "${demo_openings[@]}"; do
+    LC_ALL=C awk -F , -v opening="$opening" 'FNR > 1 && $1 == opening { printf " %7.1f", $NF }' "out/$1_states.csv"
+  done
+}
+
+# demo_seal VALVE: prints whether unmarked nodes lead through the closed valve, or around it.
+demo_seal() { printf '  %-13s %s, by --check-leaks' "$1 valve" "$(number_of "$1_0" state | tr -d '"')"; }
+
+# demo_beat_line VALVE: prints what its heartbeat did.
+demo_beat_line() {
+  printf '  %-13s %s to %s nodes marked, leaflets move at up to %.0f cm/s' "$1 valve" "$(of_beat "$1" 3 '<' | thousands)" \
+    "$(of_beat "$1" 3 '>' | thousands)" "$(of_beat "$1" 4 '>')"
+}
+
+demo_story() {
+  local step surface marks
+  step=$(milliseconds_of seconds_surface seconds_search)
+  surface=$(milliseconds_of seconds_surface)
+  marks=$(milliseconds_of seconds_search)
+  cat <<TEXT
+
+gmsh has made meshes that the valves fill: an aortic root of $(number_of aortic_0 n_nodes) nodes, and a tube of
+$(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis-mark has marked the nodes within $(number_of aortic_0 half_thickness) cm
+of a leaflet. A flow solver resists the flow at these nodes.
+
+$(printf '  %-27s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
+$(demo_row aortic)
+$(demo_row mitral)
+
+Do marked nodes part inflow from outflow at opening 0?
+
+$(demo_seal aortic)
+$(demo_seal mitral)
+
+A valve that moves is marked again in each time step. For the mitral valve a step takes $step
+on one thread of this machine: $surface for the new surface, $marks for the marks. This is
+the median of $(number_of mitral_steps n_steps) steps that open and close the valve by 2 %.
+
+Both valves through a heartbeat, 24 times:
+
+$(demo_beat_line aortic)
+$(demo_beat_line mitral)
+
+Movies: out/aortic_beating.mp4, out/mitral_beating.mp4; for ParaView out/*_beating.pvd
+Orifices over time: out/aortic_orifice.csv, out/mitral_orifice.csv
+Pictures of both valves at all openings, from the side and from above: out/openings.png
+One by one, with their surfaces: out/aortic_*_side.png, out/aortic_*_top.png, out/mitral_*.png
+Meshes and surfaces, for ParaView: out/*.vtu, out/*.vtp. Full tables: $logs/*.log
+TEXT
+}
+
+demo() {
+  packages=("${demo_packages[@]}")
+  install_missing
+  step "compile riis-mark, mesh an aortic root and a mitral tube meanwhile" demo_parts
+  # Pictures are drawn through X. A temporary virtual screen draws the same ones everywhere.
+  step "mark and draw both valves at five openings" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-pictures
+  step "move both valves through a heartbeat, for movies" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-beats
+  step "time the steps of a moving valve" "$build/bin/riis-mark" "$build/demo/mitral_tube.vtk" --valve mitral \
+    --opening 0 --threads 1 --steps 200 --stats "$build/demo/mitral_steps.json"
+  demo_story
+}
