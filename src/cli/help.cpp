@@ -152,7 +152,6 @@ std::string short_help() {
   return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
   riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
   riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
-  riis-mark MESH.vtu --valve bileaflet --opening 1 --output MARKED.vtu      a mechanical prosthesis, open
   riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
 riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
 )";
