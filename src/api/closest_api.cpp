@@ -38,7 +38,8 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
     const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
     if (to.point) riis::put_vector(to.point, i, on.point);
     if (to.barycentric) riis::put_vector(to.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
-    if (to.side) to.side[i] = content.pseudonormals().side(p - on.point, found.triangle, on.barycentric);
+    if (to.side)
+      to.side[i] = riis::side_of(p - on.point, content.pseudonormals().at(found.triangle, on.barycentric).normal);
   }
 }
 

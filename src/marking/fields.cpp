@@ -87,9 +87,10 @@ class TriangleFields {
       if (!has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) continue;
       const Vec3 weights = lane_of(on.barycentric, lane);
       const std::array<double, 3> barycentric{weights.x, weights.y, weights.z};
+      const auto [normal_there, is_on_rim] = normals_->at(at, barycentric);
       if (has(RIIS_FIELD_SIDE))
-        view(made_.side)[i] = normals_->side(lane_of(pairs.point, lane) - lane_of(on.point, lane), at, barycentric);
-      if (has(RIIS_FIELD_RIM)) view(made_.rim)[i] = normals_->is_on_rim(at, barycentric) ? 1 : 0;
+        view(made_.side)[i] = side_of(lane_of(pairs.point, lane) - lane_of(on.point, lane), normal_there);
+      if (has(RIIS_FIELD_RIM)) view(made_.rim)[i] = is_on_rim ? 1 : 0;
     }
   }
 

@@ -136,26 +136,21 @@ Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &baryce
   const auto is_zero = [&](std::int64_t k) { return view(barycentric)[k] == 0.0; };
   for (std::int64_t k = 0; k < 3; ++k) {
     const std::int64_t next = (k + 1) % 3, previous = (k + 2) % 3;
-    if (is_zero(next) && is_zero(previous)) return {Feature::vertex, k};
-    if (is_zero(previous) && !is_zero(k) && !is_zero(next)) return {Feature::edge, k};
+    if (is_zero(next) && is_zero(previous)) return {Kind::vertex, k};
+    if (is_zero(previous) && !is_zero(k) && !is_zero(next)) return {Kind::edge, k};
   }
-  return {Feature::face, 0};
+  return {Kind::face, 0};
 }
 
-Vec3 Pseudonormals::at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
-  const auto [feature, corner] = place_of(barycentric);
-  if (feature == Feature::face) return of_face(triangle);
-  const std::int64_t slot = 3 * triangle + corner;
-  const Vec3 normal = feature == Feature::vertex ? view(corner_)[view(position_)[slot]] : view(edge_)[slot];
+Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
+  const auto [kind, corner] = place_of(barycentric);
+  if (kind == Kind::face) return {of_face(triangle), false};
+  const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];
+  const bool is_vertex = kind == Kind::vertex;
+  const Vec3 normal = is_vertex ? view(corner_)[position] : view(edge_)[slot];
+  const bool is_on_rim = (is_vertex ? view(corner_is_rim_)[position] : view(edge_is_rim_)[slot]) != 0;
   // Faces folded onto each other cancel up to rounding; the triangle's own normal then takes their place.
-  return dot(normal, normal) > 1e-18 ? normal : of_face(triangle);
-}
-
-bool Pseudonormals::is_border_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
-  const auto [feature, corner] = place_of(barycentric);
-  const std::int64_t slot = 3 * triangle + corner;
-  return feature == Feature::vertex ? view(corner_is_rim_)[view(position_)[slot]] != 0
-                                    : feature == Feature::edge && view(edge_is_rim_)[slot] != 0;
+  return {dot(normal, normal) > 1e-18 ? normal : of_face(triangle), is_on_rim};
 }
 
 }  // namespace riis

@@ -18,43 +18,39 @@ namespace riis {
 // Returns the unit normal of a triangle by the right-hand rule.
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners);
 
+// Returns +1, -1 or 0: the side of the surface that a point is on, by the way to it from its closest point and the normal there.
+inline int side_of(Vec3 way, Vec3 normal) {
+  const double height = dot(way, normal);
+  return (height > 0) - (height < 0);
+}
+
 class Pseudonormals {
  public:
   explicit Pseudonormals(const TriangleSet &set);
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // Returns the normal, of any length, of the face, edge or vertex that the barycentric weights lie on.
-  Vec3 at(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
-    return is_inside(barycentric) ? of_face(triangle) : at_border(triangle, barycentric);
-  }
-
-  // Returns +1, -1 or 0: the side of the surface that a point is on, given the way to it from its closest point on that triangle.
-  int side(Vec3 way, std::int64_t triangle, const std::array<double, 3> &barycentric) const {
-    const double height = dot(way, at(triangle, barycentric));
-    return (height > 0) - (height < 0);
-  }
-
-  // Returns whether the edge or vertex that the barycentric weights lie on is of the rim. The rim of a valve consists of the
-  // sides that only one patch has (surface/rims.hpp). The rim of triangles from arrays consists of the edges that only one
-  // triangle has.
-  bool is_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
-    return !is_inside(barycentric) && is_border_on_rim(triangle, barycentric);
+  // The face, edge or vertex that barycentric weights lie on: its normal, of any length, and whether it is of the rim. The rim
+  // of a valve consists of the sides that only one patch has (surface/rims.hpp). The rim of triangles from arrays consists of the
+  // edges that only one triangle has.
+  struct Feature {
+    Vec3 normal;
+    bool is_on_rim;
+  };
+  Feature at(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
+    // Most closest points are inside, so that this is decided where it is called.
+    const bool is_inside = barycentric[0] != 0 && barycentric[1] != 0 && barycentric[2] != 0;
+    return is_inside ? Feature{of_face(triangle), false} : at_border(triangle, barycentric);
   }
 
  private:
-  // Most closest points are inside, so that this is decided where it is called.
-  static bool is_inside(const std::array<double, 3> &barycentric) {
-    return barycentric[0] != 0 && barycentric[1] != 0 && barycentric[2] != 0;
-  }
-  // These two do the same for points that may be on an edge or a vertex.
-  Vec3 at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
-  bool is_border_on_rim(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
+  // Does the same for points that may be on an edge or a vertex.
+  Feature at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
 
   // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
-  enum class Feature { face, edge, vertex };
+  enum class Kind { face, edge, vertex };
   struct Place {
-    Feature feature;
+    Kind kind;
     std::int64_t corner;
   };
   static Place place_of(const std::array<double, 3> &barycentric);
