@@ -80,6 +80,7 @@ void make_mesh(Input &in, State &state) {
       made_by<riis_mesh>(in, [&](riis_mesh **mesh) { return riis_mesh_create(n, x, y, z, stride, mesh); });
   if (!made) return;
   riis_mesh_destroy(&slot.handle);
+  nodes->n = n;            // 0 is also right
   nodes->stride = stride;  // any stride is right for a single node
   slot = {made, nodes, nullptr, true};
 }
@@ -108,6 +109,7 @@ void move_mesh(Input &in, State &state) {
       in, [&] { return riis_mesh_update(mesh.handle, n, mostly(in, nodes->x), nodes->y, nodes->z, nodes->stride); });
   if (!mesh.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) return;
+  nodes->n = n;
   if (nodes->n != slot.nodes->n) slot.adjacency.reset();
   slot.nodes = nodes;
   slot.was_told = true;
