@@ -156,7 +156,6 @@ struct MotionArguments {
 };
 
 riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
-  require_handle(motion.valve_before, "valve_before");
   // A shorter or longer time is a mistake. Within these limits the velocity stays far from overflow.
   if (!(std::abs(motion.seconds) >= 1e-30 && std::abs(motion.seconds) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "seconds is ", motion.seconds,
@@ -293,6 +292,8 @@ riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *
                                        const riis_surface_options *options_before) {
   return guarded([&] {
     require_handle(surface, "surface");
+    require_handle(valve, "valve");
+    require_handle(valve_before, "valve_before");
     const MotionArguments motion{valve_before, seconds, options_before};
     fill_from_valve(*surface, valve,
                     riis::completed<options_size>(options, "options", options ? default_options : surface->options),
