@@ -129,20 +129,30 @@ void add_caption(vtkRenderer *renderer, const Layout &layout, int panel, const s
   }
 }
 
-// Adds the key from `left` to the panel's right end, in one line or more.
+// Adds the key from `left` to the panel's right end, in one line or more. Dots stand for the entries that do not fit.
 void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left, int n_lines,
              const std::vector<KeyEntry> &key) {
-  const double right = layout.panel_left(panel) + layout.panel_width() - layout.margin();
+  const double right = layout.panel_left(panel) + layout.panel_width() - layout.margin(), gap = 1.5 * layout.letter();
+  const std::string dots = "...";
+  const double width_of_dots = width_of(dots, layout.letter());
   double x = left;
   int line = 0;
-  for (const KeyEntry &entry : key) {
-    const int width = width_of(entry.text, layout.letter());
-    if (x + width > right) {
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    const double width = width_of(key[i].text, layout.letter());
+    const auto fits = [&] {
+      const bool is_followed = line + 1 == n_lines && i + 1 < key.size();
+      return x + width + (is_followed ? gap + width_of_dots : 0) <= right;
+    };
+    if (!fits() && line + 1 < n_lines) {
       x = left;
-      if (++line == n_lines || x + width > right) return;
+      ++line;
     }
-    add_text(renderer, entry.text, x, layout.key_line(line), layout.letter(), entry.colour);
-    x += width + 1.5 * layout.letter();
+    if (!fits()) {
+      add_text(renderer, dots, x, layout.key_line(line), layout.letter(), key[i].colour);
+      return;
+    }
+    add_text(renderer, key[i].text, x, layout.key_line(line), layout.letter(), key[i].colour);
+    x += width + gap;
   }
 }
 
@@ -185,7 +195,8 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
 }
 
 std::string drawable(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 
