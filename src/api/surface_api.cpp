@@ -168,7 +168,6 @@ riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_op
 
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options,
                      const MotionArguments *motion = nullptr) {
-  require_handle(valve, "valve");
   check_options(options);
   std::optional<riis::ValveMotion> valve_motion;
   if (motion) valve_motion.emplace(motion_of(*motion, options));
@@ -190,6 +189,17 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.faces.leaflet_id.clear();
   if (!is_fixed) surface.fixed.reset();
   if (newly_fixed) surface.fixed = std::move(newly_fixed);
+}
+
+// Checks all handles before the options. motion may be NULL.
+void update_from_valve(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options,
+                       const MotionArguments *motion) {
+  require_handle(surface, "surface");
+  require_handle(valve, "valve");
+  if (motion) require_handle(motion->valve_before, "valve_before");
+  fill_from_valve(*surface, valve,
+                  riis::completed<options_size>(options, "options", options ? default_options : surface->options),
+                  motion);
 }
 
 riis_surface_arrays completed(const riis_surface_arrays *arrays) {
@@ -265,8 +275,10 @@ riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
   return guarded([&] {
-    create(options, surface,
-           [&](riis_surface &made, const riis_surface_options &whole) { fill_from_valve(made, valve, whole); });
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
+      require_handle(valve, "valve");
+      fill_from_valve(made, valve, whole);
+    });
   });
 }
 
@@ -280,24 +292,15 @@ riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, c
 }
 
 riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
-  return guarded([&] {
-    require_handle(surface, "surface");
-    fill_from_valve(*surface, valve,
-                    riis::completed<options_size>(options, "options", options ? default_options : surface->options));
-  });
+  return guarded([&] { update_from_valve(surface, valve, options, nullptr); });
 }
 
 riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve, const riis_valve *valve_before,
                                        double seconds, const riis_surface_options *options,
                                        const riis_surface_options *options_before) {
   return guarded([&] {
-    require_handle(surface, "surface");
-    require_handle(valve, "valve");
-    require_handle(valve_before, "valve_before");
     const MotionArguments motion{valve_before, seconds, options_before};
-    fill_from_valve(*surface, valve,
-                    riis::completed<options_size>(options, "options", options ? default_options : surface->options),
-                    &motion);
+    update_from_valve(surface, valve, options, &motion);
   });
 }
 

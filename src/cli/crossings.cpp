@@ -2,7 +2,6 @@
 #include "cli/crossings.hpp"
 
 #include <cstdio>
-#include <limits>
 #include <string>
 
 #include "cli/drawing.hpp"
@@ -10,6 +9,7 @@
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/valve_file.hpp"
+#include "cli/valve_source.hpp"
 
 namespace riis::cli {
 namespace {
@@ -25,12 +25,6 @@ riis_crossings crossings_of(const Options &options, riis_surface *surface) {
   return found;
 }
 
-Valve copy_of(const riis_valve *valve) {
-  riis_valve *copy = nullptr;
-  check(riis_valve_copy(valve, &copy));
-  return Valve(copy);
-}
-
 // Crossings do not depend on how distances are measured, and triangles make the least work.
 riis_surface_options by_triangles(const Options &options) {
   riis_surface_options how = options.surface_options;
@@ -39,15 +33,10 @@ riis_surface_options by_triangles(const Options &options) {
   return how;
 }
 
-// A valve that has one state refuses every opening above 0. The smallest one makes the closed valve where there are two.
 bool can_open(const Options &options, riis_valve *valve) {
   riis_surface_options how = by_triangles(options);
   how.triangulation = RIIS_TRIANGULATION_ADAPTED;
-  check(riis_valve_set_scalar(valve, "opening", std::numeric_limits<double>::min()));
-  riis_surface *surface = nullptr;
-  const riis_status status = riis_surface_create(valve, &how, &surface);
-  const Surface owned(surface);
-  return status == RIIS_OK;
+  return why_closed(valve, how).empty();
 }
 
 void sweep_openings(const Options &options, riis_valve *valve, CrossingReport &report) {

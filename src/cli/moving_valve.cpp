@@ -22,9 +22,7 @@ MovingValve::MovingValve(ValveSource &source, double time) : source_(source), re
   is_at_rest_ = !source.keyframes && (!source.valve || source.law.is_constant());
   if (source.keyframes) source.options.time = time;
   if (source.valve) {
-    riis_valve *copy = nullptr;
-    check(riis_valve_copy(source.valve.get(), &copy));
-    before_.reset(copy);
+    before_ = copy_of(source.valve.get());
     opening_ = source.law.at(time);
     set_opening_of(source.valve.get(), opening_, subject());
   }

@@ -53,7 +53,7 @@ std::vector<std::int64_t> triangles_of_vertices(const SurfaceArrays &surface) {
   std::vector<std::int64_t> triangle(static_cast<std::size_t>(surface.n_vertices), nowhere);
   for (std::int64_t i = 0; i < 3 * surface.n_triangles; ++i) view(triangle)[surface.vertex_id[i]] = i / 3;
   const auto patch_of = [&](std::int64_t id) { return surface.patch_id[view(triangle)[id]]; };
-  std::int64_t last = nowhere;  // that is in a triangle
+  std::int64_t last = nowhere;  // the last vertex in a triangle
   for (std::int64_t id = 0; id < surface.n_vertices; ++id) {
     if (view(triangle)[id] == nowhere) continue;
     const bool is_next_patch = last == nowhere || patch_of(last) != patch_of(id);
@@ -100,7 +100,7 @@ class SidesByEnds {
       }
   }
 
-  // Whether another side has the same place. Sides of other leaflets count only if any_leaflet.
+  // Returns whether another side has the same place. Sides of other leaflets count only if any_leaflet.
   bool is_shared(const SideId &id, bool any_leaflet) const {
     const PatchSides &own = patches_[id.patch];
     const Line &line = own.lines[id.side];

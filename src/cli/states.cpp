@@ -31,7 +31,7 @@ riis_surface_options own_frame(const Options &options) {
 }
 
 struct Disc {
-  std::string parameter{};  // that has the radius
+  std::string parameter{};  // its name, such as root_radius
   double radius = 0;
   PlanePoint centre{};  // the mean of the translations, of the valve or of its cusps
 };
@@ -52,15 +52,12 @@ class OpeningValve {
     surface_.reset(surface);
   }
 
-  void open_to(double opening) { check(try_opening(opening), subject()); }
-
-  // A valve that is sound at 0 and refused at 1 has one state.
-  std::string why_closed() {
-    const riis_status status = try_opening(1);
-    if (status == RIIS_INVALID_PARAMETER) return riis_last_error();
-    check(status, subject());
-    return "";
+  void open_to(double opening) {
+    set_opening(opening);
+    check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject());
   }
+
+  std::string why_closed() { return cli::why_closed(valve_.get(), own_frame(options_)); }
 
   // The disc of the root, or of a housing, about the axis; none if the valve has no radius.
   std::optional<Disc> disc() const {
@@ -90,7 +87,7 @@ class OpeningValve {
     for (int64_t i = 0; i < n; ++i) check(riis_valve_parameter(valve_.get(), i, &view(all)[i], sizeof all[0]));
     return all;
   }
-  // In the unit of the surface.
+  // Returns the values in the unit of the surface.
   Point values_of(const riis_parameter &parameter) const {
     Point values{};
     check(riis_valve_get(valve_.get(), parameter.name, parameter.n_values, values.data()));
@@ -100,10 +97,6 @@ class OpeningValve {
 
   std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
   void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
-  riis_status try_opening(double opening) {
-    set_opening(opening);
-    return riis_surface_update(surface_.get(), valve_.get(), nullptr);
-  }
 
   const Options &options_;
   Valve valve_;
@@ -150,7 +143,7 @@ class Measures {
     return state;
   }
 
-  // What is the same at all openings, from the closed state.
+  // Returns the closed state's names, ids and disc, which all openings share.
   States frame() {
     valve_.open_to(0);
     const SurfaceArrays surface = valve_.arrays();

@@ -93,6 +93,21 @@ double opening_of(const riis_valve *valve) {
   return opening;
 }
 
+Valve copy_of(const riis_valve *valve) {
+  riis_valve *copy = nullptr;
+  check(riis_valve_copy(valve, &copy));
+  return Valve(copy);
+}
+
+// A valve that is sound at 0 and refused at 1 has one state. What else fails is said where the surface is wanted.
+std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
+  check(riis_valve_set_scalar(valve, "opening", 1));
+  riis_surface *surface = nullptr;
+  const riis_status status = riis_surface_create(valve, &how, &surface);
+  const Surface owned(surface);
+  return status == RIIS_INVALID_PARAMETER ? riis_last_error() : "";
+}
+
 void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
 
 SurfaceFile read_surface(const Options &options, Seconds &seconds) {

@@ -27,6 +27,10 @@ Valve make_kind(const std::string &kind, const std::string &subject);
 // Makes the valve of --valve, --params and the options that go with them.
 Valve make_valve(const Options &options);
 double opening_of(const riis_valve *valve);
+Valve copy_of(const riis_valve *valve);
+// Returns "" if the valve opens, or else why it has one state, as the library says it. The options are those of surfaces that
+// the valve is fit for at 0. Leaves the opening at 1.
+std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
 // Adds to the component's refusal of a mesh the command that makes a readable file of it.
 void check_mesh_read(riis_status status, const std::string &path);

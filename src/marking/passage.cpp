@@ -45,7 +45,7 @@ struct Candidate {
   double distance;
   std::int64_t node;
 
-  // The farthest first; of equal ones the lowest id.
+  // Orders the farthest first, and the lowest id first among equal distances.
   bool operator<(const Candidate &other) const {
     return distance != other.distance ? distance > other.distance : node < other.node;
   }
@@ -123,7 +123,7 @@ class Opening {
     return made;
   }
 
-  // Edges to nodes that are not open, and whose own rows lack them. Most adjacencies have none.
+  // Returns the edges to nodes that are not open and whose own rows lack the edge. Most adjacencies have none.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;
