@@ -25,7 +25,7 @@ struct Subject {
   const char *kind, *title, *from_above, *from_the_side;
   View side;
   std::vector<const char *> leaflets;
-  const char *disc;  // that the orifice is a part of
+  const char *disc;  // its name; the orifice is a part of it
   const char *caption, *paper;
 };
 
@@ -101,7 +101,7 @@ Points circle(double radius, Vec3 centre) {
   return points;
 }
 
-// The edge of the disc that the orifice is a part of.
+// Returns the edge of the disc that the orifice is a part of.
 Points edge_of_disc(const Valve &valve, const PatchSet &set) {
   const std::string kind = valve.kind().name;
   if (kind == "mitral") return samples(mitral_curves(set).annulus);
@@ -238,7 +238,7 @@ std::string fixed(double value, int n_digits) {
   return text;
 }
 
-// The value, and its change since the valve was closed.
+// Returns a table cell: the value, and its change since the valve was closed.
 std::string cell_of(const Measure &measure, std::size_t i) {
   std::string text = fixed(measure.values[i], 2);
   if (i == 0 || measure.shares.empty()) return text;

@@ -926,7 +926,7 @@ RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_m
                                              const riis_mark_result *result, int64_t n_nodes, int64_t *label,
                                              int64_t *n_regions);
 
-/* Whether marked nodes part two sets of nodes. */
+/* These values say whether marked nodes part two sets of nodes. */
 enum {
   RIIS_PASSAGE_CLOSED = 0, /* they do: each path has a node within the half thickness */
   RIIS_PASSAGE_OPEN = 1,   /* they do not: some path has none */

@@ -78,7 +78,7 @@ inline int threads_asked_for(std::int32_t n_threads, const char *name) {
   return n_threads ? n_threads : default_thread_count();
 }
 
-// Where an option leaves the number open (0), returns as many threads as pay for their start.
+// Returns the number of threads of an option. If the option is 0, returns as many as pay for their start.
 inline int threads_for_triangles(std::int32_t n_threads, std::int64_t n_triangles) {
   if (n_threads > 0) return n_threads;
   constexpr std::int64_t triangles_per_thread = 4096;

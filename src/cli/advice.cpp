@@ -99,7 +99,7 @@ double better_half_thickness(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// What the sizes look like, and the options that make the scale.
+// Two phrases of a warning: which unit the sizes suggest, and which options make the scale.
 struct Cure {
   std::string look, write;
 };

@@ -79,7 +79,7 @@ struct Options {
 // Derives the scale from the units, and the half thickness unless the user gave one.
 void apply_units(Options &options);
 
-// Whether the user gave the valve's opening, by --opening or --set.
+// Returns whether the user gave the valve's opening, by --opening or --set.
 bool sets_opening(const Options &options);
 
 // Whether arrays can be named so.

@@ -13,14 +13,14 @@
 namespace riis::cli {
 namespace {
 
-// How much of its closed length a free edge may gain or lose.
+// A free edge may gain or lose this share of its closed length.
 constexpr double fair_change = 0.1;
-// The rounding of a length or area that stays the same, as a share of it.
+// Lengths and areas that differ by this share are the same but for rounding.
 constexpr double same = 1e-9;
 
 using Value = std::function<double(const State &)>;
 
-// The least and the greatest value of all states, the first of equal ones.
+// The states of the least and of the greatest value. Of equal states the first one counts.
 struct Extremes {
   const State *least, *most;
 };
@@ -31,7 +31,7 @@ Extremes extremes_of(const States &states, const Value &value) {
   return {&*std::min_element(begin, end, less), &*std::max_element(begin, end, less)};
 }
 
-// A ratio or an area near 0, as a reader wants it.
+// Returns a ratio or an area as readable text.
 std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4); }
 
 std::string at(const State &state) { return " at " + shown(state.opening); }

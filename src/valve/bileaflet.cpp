@@ -69,7 +69,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // What is the same in both states stays so to the last bit: a housing is at rest.
+  // A value that both states share is not blended, so that a housing rests to the last bit.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);

@@ -24,7 +24,7 @@ struct CuspShape {
   CuspProfile leaflet, bending;
 };
 
-// How a cusp opens: parameters that kinds of valves with cusps have at the end of their lists.
+// These parameters say how a cusp opens. Kinds of valves with cusps have them at the end of their lists.
 struct CuspOpening {
   double radius_ratio;  // of the open free edge at the symmetry plane and the root
   double expansion;     // of the commissures, a share of their radius
@@ -48,7 +48,7 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 // bending curve near the root. `cusp` begins the message, as in "the right cusp"; `also` ends its list of parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const std::string &cusp, const char *also);
 
-// A place of a cusp, and the ids of its halves.
+// A cusp is turned, then shifted. The id of its leaflet also numbers its patches.
 struct CuspPlace {
   Rotation turn;
   Vec3 shift;
