@@ -14,6 +14,7 @@
 
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
+#include "parallel/arena.hpp"
 
 namespace riis {
 namespace {
@@ -186,7 +187,8 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
   rtcCommitGeometry(in.geometry.get());
   check("take the triangles");
-  rtcCommitScene(in.scene.get());
+  // Embree builds with TBB, which would otherwise call as many threads as there are processors.
+  Arena(n_threads).run([&] { rtcCommitScene(in.scene.get()); });
   check("build the scene");
 }
 
