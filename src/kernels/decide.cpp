@@ -47,6 +47,9 @@ RIIS_INLINE Doubles root(Doubles a) {
   return r;
 }
 
+RIIS_INLINE Doubles least(Doubles a, Doubles b) { return choose(a < b, a, b); }
+RIIS_INLINE Doubles greatest(Doubles a, Doubles b) { return choose(b < a, a, b); }
+
 struct Weights {
   Doubles b, c;
 };
@@ -144,6 +147,49 @@ void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
   store(closest.weights, located.barycentric);
 }
 
+void bound_corners(const double *corners, int64_t n, double *lower, double *upper) {
+  // Eight triangles have nine times eight numbers. Lane i of every third eight has the same coordinate.
+  Doubles least_of[3], greatest_of[3];
+  for (int k = 0; k < 3; ++k)
+    least_of[k] = Doubles::all(__builtin_inf()), greatest_of[k] = Doubles::all(-__builtin_inf());
+  int64_t i = 0;
+  for (; i + Doubles::n <= n; i += Doubles::n)
+    for (int k = 0; k < 9; k += 3)
+#pragma GCC unroll 3
+      for (int j = 0; j < 3; ++j) {
+        const Doubles x = Doubles::load_unaligned(corners + 9 * i + (k + j) * Doubles::n);
+        least_of[j] = least(x, least_of[j]);
+        greatest_of[j] = greatest(x, greatest_of[j]);
+      }
+  for (int c = 0; c < 3; ++c) lower[c] = upper[c] = corners[c];
+  const auto add = [&](int c, double least_x, double greatest_x) RIIS_LAMBDA {
+    lower[c] = least_x < lower[c] ? least_x : lower[c];
+    upper[c] = greatest_x > upper[c] ? greatest_x : upper[c];
+  };
+  for (int k = 0; k < 3; ++k) {
+    alignas(64) double from[Doubles::n], to[Doubles::n];
+    least_of[k].store(from);
+    greatest_of[k].store(to);
+    for (int lane = 0; lane < Doubles::n; ++lane) add((k * Doubles::n + lane) % 3, from[lane], to[lane]);
+  }
+  for (; i < n; ++i)
+    for (int c = 0; c < 9; ++c) add(c % 3, corners[9 * i + c], corners[9 * i + c]);
+}
+
+void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
+                 GroupCorners &framed) {
+  const Doubles scale = Doubles::all(frame.scale);
+  const Doubles centre[3] = {Doubles::all(frame.centre[0]), Doubles::all(frame.centre[1]),
+                             Doubles::all(frame.centre[2])};
+  for (int from = 0; from < triangles_per_group; from += Doubles::n) {
+    const double *of_lane[Doubles::n];
+    // Lanes without a triangle repeat the first.
+    for (int lane = 0; lane < Doubles::n; ++lane)
+      of_lane[lane] = corners + int64_t{9} * triangle[from + lane < n ? from + lane : 0];
+    for (int c = 0; c < 9; ++c) (scale * (Doubles::gather(of_lane, c) - centre[c % 3])).store(framed.xyz[c] + from);
+  }
+}
+
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
 
 RIIS_INLINE void put(Doubles x, float *to) {
@@ -180,10 +226,6 @@ RIIS_INLINE float round_down(double x) {
   return static_cast<float>(x - unit);
 }
 RIIS_INLINE float round_up(double x) { return -round_down(-x); }
-
-RIIS_INLINE Floats choose(Floats::Mask where, Floats yes, Floats no) {
-  return choose<float, FloatRegister, 16>(where, yes, no);
-}
 
 struct Floats3 {
   Floats x, y, z;
@@ -309,8 +351,7 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
     // If rounding has left nothing of the triangle's height, the part across e is noise and may again be along e.
     Doubles3 over = across(ac);
     const Doubles over_sq = dot(over, over);
-    const Doubles::Mask has_height =
-        both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));
+    const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));
     if (any(opposite(has_height))) {
       const Doubles::Mask steep = magnitude(e.unit.x) < Doubles::all(0.6);
       const Doubles3 any_other = {choose(steep, one, zero), choose(steep, zero, one), zero};
@@ -343,6 +384,6 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {make_group, decide, locate};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {bound_corners, frame_group, make_group, decide, locate};
 
 }  // namespace riis

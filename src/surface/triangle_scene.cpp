@@ -156,9 +156,10 @@ double rounding_of_distances(const Bounds &bounds) {
 TriangleScene::TriangleScene() : implementation_(std::make_unique<Implementation>()) {}
 
 void TriangleScene::make(const TriangleSet &set, int n_threads) {
-  bounds_ = bounds_of(set, n_threads);
-  rounding_ = rounding_of_distances(bounds_);
   Implementation &in = *implementation_;
+  in.groups.take_corners(set, n_threads);
+  bounds_ = in.groups.of_all;
+  rounding_ = rounding_of_distances(bounds_);
   const Frame frame(bounds_);
   in.groups.make(set, frame, n_threads);
   in.rounding = rounding_ * frame.scale;
