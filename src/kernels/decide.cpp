@@ -176,6 +176,20 @@ void bound_corners(const double *corners, int64_t n, double *lower, double *uppe
     for (int c = 0; c < 9; ++c) add(c % 3, corners[9 * i + c], corners[9 * i + c]);
 }
 
+bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+  const double *of_lane[3][Doubles::n];
+  // Lanes without a triangle repeat the first.
+  for (int lane = 0; lane < Doubles::n; ++lane)
+    for (int k = 0; k < 3; ++k) of_lane[k][lane] = vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k];
+  const auto vertex = [&](int k) RIIS_LAMBDA {
+    return Doubles3{Doubles::gather(of_lane[k], 0), Doubles::gather(of_lane[k], 1), Doubles::gather(of_lane[k], 2)};
+  };
+  const Doubles3 a = vertex(0), ab = vertex(1) - a, ac = vertex(2) - a, twice_area = cross(ab, ac);
+  const Doubles size = dot(ab, ab) + dot(ac, ac);
+  return !any(
+      opposite(both(dot(twice_area, twice_area) > Doubles::all(4e-23) * size * size, size > Doubles::all(1e-119))));
+}
+
 void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
   const Doubles scale = Doubles::all(frame.scale);
@@ -384,6 +398,7 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {bound_corners, frame_group, make_group, decide, locate};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {bound_corners, have_area, frame_group,
+                                                        make_group,    decide,    locate};
 
 }  // namespace riis
