@@ -41,10 +41,9 @@
  * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default: the processors in the calling thread's affinity mask, whatever
- *   OMP_NUM_THREADS and omp_set_num_threads say. With 1 no thread is started, except that Embree builds its
- *   scene on threads of TBB. A child of fork() may use 1 only, and no surfaces if another thread was inside
- *   the library at the fork. If the system refuses a thread, or its memory, the run-times of OpenMP and TBB
- *   end the process (docs/building.md).
+ *   OMP_NUM_THREADS and omp_set_num_threads say. With 1 no thread is started. A child of fork() may use 1
+ *   only, and no surfaces if another thread was inside the library at the fork. If the system refuses a
+ *   thread, or its memory, the run-times of OpenMP and TBB end the process (docs/building.md).
  * - Environment: each call, including a log function, runs with the default floating-point environment and
  *   restores the caller's. The caller's OpenMP and TBB settings stay.
  *

@@ -28,7 +28,8 @@ class Surface {
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
   double half_thickness() const { return half_thickness_; }
-  double area() const { return area_; }
+  // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
+  double area() const;
 
   // Returns the method that measures distances. Null means the triangles' scene.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
@@ -42,12 +43,15 @@ class Surface {
   }
 
  private:
+  static constexpr double not_known = -1;
+
   const Pseudonormals &make_pseudonormals() const;
 
   TriangleSet triangles_;
   TriangleScene scene_;
   double half_thickness_ = 0;
-  double area_ = 0;
+  // Marking never needs the area. It does not depend on who computes it.
+  mutable std::atomic<double> area_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
   // They are made at the first query of a side: marking never needs them.

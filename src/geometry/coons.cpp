@@ -161,6 +161,8 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
   const Vector<GridLine> &u_lines = lines.u, &v_lines = lines.v;
   QuadGrid grid{middles(u_lines), middles(v_lines), {}, {}};
   SideVectors sides_on_lines;
+  for (auto *vectors : {&sides_on_lines.v0, &sides_on_lines.v1}) vectors->reserve(u_lines.size());
+  for (auto *vectors : {&sides_on_lines.u0, &sides_on_lines.u1}) vectors->reserve(v_lines.size());
   for (const GridLine &line : u_lines) {
     sides_on_lines.v0.push_back(evaluate(*sides.side_v0, line.t0));
     sides_on_lines.v1.push_back(evaluate(*sides.side_v1, line.t1));
@@ -201,8 +203,11 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows) {
   QuadGrid grid{middles(lines.u_lines), {}, {}, {}};
+  grid.v.reserve(n_rows + 1);
   for (std::size_t j = 0; j <= n_rows; ++j) grid.v.push_back(static_cast<double>(j) / static_cast<double>(n_rows));
   Vector<Vec3> base, edge;
+  base.reserve(lines.u_lines.size());
+  edge.reserve(lines.u_lines.size());
   for (const GridLine &line : lines.u_lines) {
     base.push_back(evaluate(*sides.side_v0, line.t0));
     edge.push_back(evaluate(*sides.side_v1, line.t1));

@@ -21,6 +21,8 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
   places_.reserve(n);
   const auto behind = [&](std::size_t i) { return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length(); };
   Vector<double> in_piece, t;
+  in_piece.reserve(n);
+  t.reserve(n);
   double start = 0;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
     const double length = curve.length(piece);
@@ -60,6 +62,7 @@ Vec3 CurvePoints::tangent(std::size_t i) const {
 const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
   const Place &from = is_reversed_ ? place(j) : place(i), &to = is_reversed_ ? place(i) : place(j);
   parts_.clear();
+  parts_.reserve(to.piece - from.piece + 1);
   for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {
     const double t0 = piece == from.piece ? from.t : 0, t1 = piece == to.piece ? to.t : 1;
     // A part that ends where the later piece starts has nothing of that piece.

@@ -47,6 +47,9 @@ RIIS_INLINE Doubles root(Doubles a) {
   return r;
 }
 
+RIIS_INLINE Doubles least(Doubles a, Doubles b) { return choose(a < b, a, b); }
+RIIS_INLINE Doubles greatest(Doubles a, Doubles b) { return choose(b < a, a, b); }
+
 struct Weights {
   Doubles b, c;
 };
@@ -144,6 +147,63 @@ void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
   store(closest.weights, located.barycentric);
 }
 
+void bound_corners(const double *corners, int64_t n, double *lower, double *upper) {
+  // Eight triangles have nine times eight numbers. Lane i of every third eight has the same coordinate.
+  Doubles least_of[3], greatest_of[3];
+  for (int k = 0; k < 3; ++k)
+    least_of[k] = Doubles::all(__builtin_inf()), greatest_of[k] = Doubles::all(-__builtin_inf());
+  int64_t i = 0;
+  for (; i + Doubles::n <= n; i += Doubles::n)
+    for (int k = 0; k < 9; k += 3)
+#pragma GCC unroll 3
+      for (int j = 0; j < 3; ++j) {
+        const Doubles x = Doubles::load_unaligned(corners + 9 * i + (k + j) * Doubles::n);
+        least_of[j] = least(x, least_of[j]);
+        greatest_of[j] = greatest(x, greatest_of[j]);
+      }
+  for (int c = 0; c < 3; ++c) lower[c] = upper[c] = corners[c];
+  const auto add = [&](int c, double least_x, double greatest_x) RIIS_LAMBDA {
+    lower[c] = least_x < lower[c] ? least_x : lower[c];
+    upper[c] = greatest_x > upper[c] ? greatest_x : upper[c];
+  };
+  for (int k = 0; k < 3; ++k) {
+    alignas(64) double from[Doubles::n], to[Doubles::n];
+    least_of[k].store(from);
+    greatest_of[k].store(to);
+    for (int lane = 0; lane < Doubles::n; ++lane) add((k * Doubles::n + lane) % 3, from[lane], to[lane]);
+  }
+  for (; i < n; ++i)
+    for (int c = 0; c < 9; ++c) add(c % 3, corners[9 * i + c], corners[9 * i + c]);
+}
+
+bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+  const double *of_lane[3][Doubles::n];
+  // Lanes without a triangle repeat the first.
+  for (int lane = 0; lane < Doubles::n; ++lane)
+    for (int k = 0; k < 3; ++k) of_lane[k][lane] = vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k];
+  const auto vertex = [&](int k) RIIS_LAMBDA {
+    return Doubles3{Doubles::gather(of_lane[k], 0), Doubles::gather(of_lane[k], 1), Doubles::gather(of_lane[k], 2)};
+  };
+  const Doubles3 a = vertex(0), ab = vertex(1) - a, ac = vertex(2) - a, twice_area = cross(ab, ac);
+  const Doubles size = dot(ab, ab) + dot(ac, ac);
+  return !any(
+      opposite(both(dot(twice_area, twice_area) > Doubles::all(4e-23) * size * size, size > Doubles::all(1e-119))));
+}
+
+void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
+                 GroupCorners &framed) {
+  const Doubles scale = Doubles::all(frame.scale);
+  const Doubles centre[3] = {Doubles::all(frame.centre[0]), Doubles::all(frame.centre[1]),
+                             Doubles::all(frame.centre[2])};
+  for (int from = 0; from < triangles_per_group; from += Doubles::n) {
+    const double *of_lane[Doubles::n];
+    // Lanes without a triangle repeat the first.
+    for (int lane = 0; lane < Doubles::n; ++lane)
+      of_lane[lane] = corners + int64_t{9} * triangle[from + lane < n ? from + lane : 0];
+    for (int c = 0; c < 9; ++c) (scale * (Doubles::gather(of_lane, c) - centre[c % 3])).store(framed.xyz[c] + from);
+  }
+}
+
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
 
 RIIS_INLINE void put(Doubles x, float *to) {
@@ -174,38 +234,20 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Round to single precision and a unit beyond, so that the bounds hold.
+// Round outwards by more than a number's rounding to single precision, so that bounds hold also for numbers that were rounded.
 RIIS_INLINE float round_down(double x) {
-  const double unit = (x < 0 ? -x : x) * 0x1p-23 + 0x1p-120;
+  const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
 }
 RIIS_INLINE float round_up(double x) { return -round_down(-x); }
 
-RIIS_INLINE Doubles least(Doubles a, Doubles b) { return choose(a < b, a, b); }
-RIIS_INLINE Doubles greatest(Doubles a, Doubles b) { return choose(b < a, a, b); }
-
-struct Extent {
-  double from, to;
+struct Floats3 {
+  Floats x, y, z;
 };
-
-// Returns the extent of one coordinate of all corners.
-RIIS_INLINE Extent extent_of(const Doubles (*coordinates)[3]) {
-  Doubles lower = coordinates[0][0], upper = lower;
-  for (int h = 0; h < halves; ++h)
-    for (int k = 0; k < 3; ++k) {
-      lower = least(lower, coordinates[h][k]);
-      upper = greatest(upper, coordinates[h][k]);
-    }
-  alignas(64) double from[Doubles::n], to[Doubles::n];
-  lower.store(from);
-  upper.store(to);
-  Extent extent{from[0], to[0]};
-  for (int i = 1; i < Doubles::n; ++i) {
-    extent.from = from[i] < extent.from ? from[i] : extent.from;
-    extent.to = to[i] > extent.to ? to[i] : extent.to;
-  }
-  return extent;
+RIIS_INLINE Floats3 load3(const float (*from)[triangles_per_group]) {
+  return {Floats::load(from[0]), Floats::load(from[1]), Floats::load(from[2])};
 }
+RIIS_INLINE Floats dot(Floats3 a, Floats3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 RIIS_INLINE double sum_of(Doubles x) {
   alignas(64) double numbers[Doubles::n];
@@ -215,33 +257,29 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Chooses unit vectors across the triangles, along an edge, and across both. Any three at right angles are right; these
-// make a small box.
-RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const GroupCorners &as_given, float (*axis)[3]) {
-  double across[3] = {0, 0, 0};
-  for (int h = 0; h < halves; ++h) {
-    const Doubles3 normal = cross(corners[h][1] - corners[h][0], corners[h][2] - corners[h][0]);
-    across[0] += sum_of(normal.x);
-    across[1] += sum_of(normal.y);
-    across[2] += sum_of(normal.z);
-  }
-  const auto dot3 = [](const double *a, const double *b)
-                        RIIS_LAMBDA { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto normalize = [&](double *a) RIIS_LAMBDA {
-    const double length = __builtin_sqrt(dot3(a, a));
-    if (!(length > 1e-12)) return false;
-    for (int i = 0; i < 3; ++i) a[i] /= length;
-    return true;
-  };
+RIIS_INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+RIIS_INLINE bool normalize(double *a) {
+  const double length = __builtin_sqrt(dot(a, a));
+  if (!(length > 1e-12)) return false;
+  const double inverse = 1 / length;
+  for (int i = 0; i < 3; ++i) a[i] *= inverse;
+  return true;
+}
+
+// Chooses unit vectors across the triangles, along their first edge, and across both. Any three at right angles are right; these
+// make a small box. `across` is the sum of the triangles' normals, each as long as twice its area.
+RIIS_INLINE void choose_axes(double (&across)[3], const GroupCorners &as_given, float (*axis)[3]) {
   // The largest component is the unit, so that the squares for small triangles do not vanish.
   double largest = 0;
   for (int i = 0; i < 3; ++i) largest = __builtin_fmax(largest, __builtin_fabs(across[i]));
-  for (int i = 0; i < 3; ++i) across[i] = largest > 0 ? across[i] / largest : i == 2;
+  const double inverse = largest > 0 ? 1 / largest : 0;
+  for (int i = 0; i < 3; ++i) across[i] = inverse > 0 && inverse < __builtin_inf() ? across[i] * inverse : i == 2;
   normalize(across);
   double along[3];
   for (int i = 0; i < 3; ++i) along[i] = as_given.xyz[3 + i][0] - as_given.xyz[i][0];
   const auto take_across_away = [&] {
-    const double share = dot3(along, across);
+    const double share = dot(along, across);
     for (int i = 0; i < 3; ++i) along[i] -= share * across[i];
     return normalize(along);
   };
@@ -258,100 +296,109 @@ RIIS_INLINE void choose_axes(const Doubles3 (*corners)[3], const GroupCorners &a
   }
 }
 
-RIIS_INLINE void bound_group(const Doubles3 (*corners)[3], const GroupCorners &as_given, GroupBounds &bounds) {
-  Doubles coordinates[halves][3];
-  double middle[3];
-  for (int i = 0; i < 3; ++i) {
-    for (int h = 0; h < halves; ++h)
-      for (int k = 0; k < 3; ++k)
-        coordinates[h][k] = i == 0 ? corners[h][k].x : i == 1 ? corners[h][k].y : corners[h][k].z;
-    const Extent extent = extent_of(coordinates);
-    bounds.lower[i] = round_down(extent.from);
-    bounds.upper[i] = round_up(extent.to);
-    middle[i] = 0.5 * (extent.from + extent.to);
-  }
-  choose_axes(corners, as_given, bounds.axis);
+// Bounds the corners, rounded to single precision, of a group in the surface's frame.
+RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupBounds &bounds) {
+  const Floats3 corner[3] = {load3(rounded), load3(rounded + 3), load3(rounded + 6)};
+  const Floats zero = Floats::all(0);
+  // Lower ends, and upper ends with the other sign, of the box along the axes, then of the box along the group's own.
+  Floats ends[3][4];
+  const auto set_ends = [&](int at, Floats a, Floats b, Floats c) RIIS_LAMBDA {
+    ends[at / 2][at % 2 * 2] = least(least(a, b), c);
+    ends[at / 2][at % 2 * 2 + 1] = zero - greatest(greatest(a, b), c);
+  };
+  set_ends(0, corner[0].x, corner[1].x, corner[2].x);
+  set_ends(1, corner[0].y, corner[1].y, corner[2].y);
+  set_ends(2, corner[0].z, corner[1].z, corner[2].z);
   for (int i = 0; i < 3; ++i) {
     const float *axis = bounds.axis[i];
-    const Doubles3 direction = {Doubles::all(axis[0]), Doubles::all(axis[1]), Doubles::all(axis[2])};
-    for (int h = 0; h < halves; ++h)
-      for (int k = 0; k < 3; ++k) coordinates[h][k] = dot(corners[h][k], direction);
-    const Extent extent = extent_of(coordinates);
-    bounds.from[i] = round_down(extent.from);
-    bounds.to[i] = round_up(extent.to);
+    const Floats3 direction = {Floats::all(axis[0]), Floats::all(axis[1]), Floats::all(axis[2])};
+    set_ends(3 + i, dot(corner[0], direction), dot(corner[1], direction), dot(corner[2], direction));
+  }
+  float end[12];
+  for (int i = 0; i < 3; ++i) least_lanes(ends[i], end + 4 * i);
+  // The products are right to 9 units, since coordinates are at most 1.
+  constexpr double products = 0x1p-20;
+  for (int i = 0; i < 3; ++i) {
+    bounds.lower[i] = round_down(end[2 * i]);
+    bounds.upper[i] = -round_down(end[2 * i + 1]);
+    bounds.from[i] = round_down(end[6 + 2 * i] - products);
+    bounds.to[i] = -round_down(end[6 + 2 * i + 1] - products);
   }
   // Finds the corner that is nearest to the middle. Lanes without a triangle have the first triangle's corners.
-  const Doubles3 to = {Doubles::all(middle[0]), Doubles::all(middle[1]), Doubles::all(middle[2])};
-  Doubles nearest = Doubles::all(__builtin_inf());
-  Doubles3 nearest_corner = to;
-  for (int h = 0; h < halves; ++h)
-    for (int k = 0; k < 3; ++k) {
-      const Doubles3 from_middle = corners[h][k] - to;
-      const Doubles distance_sq = dot(from_middle, from_middle);
-      const Doubles::Mask is_nearer = distance_sq < nearest;
-      nearest = choose(is_nearer, distance_sq, nearest);
-      nearest_corner = choose(is_nearer, corners[h][k], nearest_corner);
-    }
-  alignas(64) double of_lane[Doubles::n], corner[3][Doubles::n];
-  nearest.store(of_lane);
-  nearest_corner.x.store(corner[0]);
-  nearest_corner.y.store(corner[1]);
-  nearest_corner.z.store(corner[2]);
-  int lane = 0;
-  for (int i = 1; i < Doubles::n; ++i) lane = of_lane[i] < of_lane[lane] ? i : lane;
-  for (int j = 0; j < 3; ++j) bounds.corner[j] = static_cast<float>(corner[j][lane]);
+  const auto middle = [&](int i) RIIS_LAMBDA { return Floats::all(0.5f * (end[2 * i] - end[2 * i + 1])); };
+  const Floats3 to = {middle(0), middle(1), middle(2)};
+  Floats distances[4];
+  for (int k = 0; k < 3; ++k) {
+    const Floats3 from_middle = {corner[k].x - to.x, corner[k].y - to.y, corner[k].z - to.z};
+    distances[k] = dot(from_middle, from_middle);
+  }
+  distances[3] = distances[2];
+  float nearest[4];
+  least_lanes(distances, nearest);
+  int k = nearest[1] < nearest[0] ? 1 : 0;
+  k = nearest[2] < nearest[k] ? 2 : k;
+  const int lane = __builtin_ctz(bits_at_most(distances[k], Floats::all(nearest[k])));
+  for (int i = 0; i < 3; ++i) bounds.corner[i] = rounded[3 * k + i][lane];
 }
 
 void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
-  Doubles3 all_corners[halves][3];
-  Doubles lengths[halves][3];
+  alignas(64) float rounded[9][triangles_per_group];
+  Doubles3 sum = {zero, zero, zero};
   for (int half = 0; half < halves; ++half) {
     const int from = half * Doubles::n;
-    Doubles3 *q = all_corners[half];
-    for (int i = 0; i < 3; ++i)
-      q[i] = {Doubles::load(corners.xyz[3 * i] + from), Doubles::load(corners.xyz[3 * i + 1] + from),
-              Doubles::load(corners.xyz[3 * i + 2] + from)};
-    const Doubles3 ac = q[2] - q[0];
-    const Direction e = direction(q[1] - q[0], {one, zero, zero});
+    const auto corner = [&](int i) RIIS_LAMBDA {
+      return Doubles3{Doubles::load(corners.xyz[3 * i] + from), Doubles::load(corners.xyz[3 * i + 1] + from),
+                      Doubles::load(corners.xyz[3 * i + 2] + from)};
+    };
+    const Doubles3 a = corner(0), b = corner(1), c = corner(2), ac = c - a;
+    put(a, group.a, from);
+    put(a, rounded, from);
+    put(b, rounded + 3, from);
+    put(c, rounded + 6, from);
+    const Direction e = direction(b - a, {one, zero, zero});
+    put(e.unit, group.e, from);
+    put(e.length, group.ab + from);
     // Returns the part of v across e. It is called twice: the second call removes the part along e that rounding leaves
     // in a needle.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
     // If rounding has left nothing of the triangle's height, the part across e is noise and may again be along e.
-    const Doubles3 over = across(ac);
-    const Doubles::Mask has_height = dot(over, over) > Doubles::all(0x1p-88) * dot(ac, ac);
-    Doubles3 other = {zero, zero, one};
+    Doubles3 over = across(ac);
+    const Doubles over_sq = dot(over, over);
+    const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));
     if (any(opposite(has_height))) {
       const Doubles::Mask steep = magnitude(e.unit.x) < Doubles::all(0.6);
       const Doubles3 any_other = {choose(steep, one, zero), choose(steep, zero, one), zero};
-      other = direction(across(any_other), {zero, zero, one}).unit;
+      over = choose(has_height, over, direction(across(any_other), {zero, zero, one}).unit);
     }
-    const Doubles3 roughly = choose(has_height, direction(over, other).unit, other);
-    const Doubles3 f = direction(across(roughly), {zero, zero, one}).unit;
+    const Doubles3 f = direction(across(over), {zero, zero, one}).unit, g = cross(e.unit, f);
     const Doubles c_e = dot(ac, e.unit), c_f = dot(ac, f);
-    const Direction along_ac = direction({c_e, c_f, zero}, {one, zero, zero});
-    const Direction along_bc = direction({c_e - e.length, c_f, zero}, {one, zero, zero});
-    put(q[0], group.a, from);
-    put(e.unit, group.e, from);
     put(f, group.f, from);
-    put(cross(e.unit, f), group.g, from);
-    lengths[half][0] = e.length;
-    lengths[half][1] = along_ac.length;
-    lengths[half][2] = along_bc.length;
-    put(e.length, group.ab + from);
+    put(g, group.g, from);
+    sum = sum + (e.length * c_f) * g;
+    const Direction along_ac = direction({c_e, c_f, zero}, {one, zero, zero});
     put(along_ac.length, group.ac + from);
-    put(along_bc.length, group.bc + from);
     put(along_ac.unit.x, group.ac_e + from);
     put(along_ac.unit.y, group.ac_f + from);
+    const Direction along_bc = direction({c_e - e.length, c_f, zero}, {one, zero, zero});
+    put(along_bc.length, group.bc + from);
     put(along_bc.unit.x, group.bc_e + from);
     put(along_bc.unit.y, group.bc_f + from);
   }
-  bound_group(all_corners, corners, bounds);
-  bounds.longest_edge = round_up(extent_of(lengths).to);
+  double normal[3] = {sum_of(sum.x), sum_of(sum.y), sum_of(sum.z)};
+  choose_axes(normal, corners, bounds.axis);
+  bound_group(rounded, bounds);
+  const Floats longest = greatest(greatest(Floats::load(group.ab), Floats::load(group.ac)), Floats::load(group.bc));
+  const Floats opposite_of_longest = Floats::all(0) - longest;
+  const Floats four[4] = {opposite_of_longest, opposite_of_longest, opposite_of_longest, opposite_of_longest};
+  float longest_lane[4];
+  least_lanes(four, longest_lane);
+  bounds.longest_edge = -round_down(longest_lane[0]);
 }
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {make_group, decide, locate};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {bound_corners, have_area, frame_group,
+                                                        make_group,    decide,    locate};
 
 }  // namespace riis

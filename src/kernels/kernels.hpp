@@ -29,6 +29,11 @@ struct alignas(64) GroupCorners {
   double xyz[9][triangles_per_group];
 };
 
+// Coordinates relative to the surface are (x - centre) * scale.
+struct SurfaceFrame {
+  double centre[3], scale;
+};
+
 // The place of a group's triangles: a box along the axes, a box along the group's own axes, and one of the corners.
 struct GroupBounds {
   float lower[3], upper[3];
@@ -102,6 +107,14 @@ struct FilterKernels {
 };
 
 struct DecisionKernels {
+  // Finds the least and the greatest coordinates of n triangles (9 doubles each), n > 0.
+  void (*bound_corners)(const double *corners, int64_t n, double *lower, double *upper);
+  // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area: if the square of twice its
+  // area is at most 1e-23 of the square of 2 (|ab|^2 + |ac|^2).
+  bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n);
+  // Takes the corners of up to 16 triangles, given by index, to the surface's frame.
+  void (*frame_group)(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
+                      GroupCorners &framed);
   // Makes the frames and the bounds of triangles from their corners in the surface's frame.
   void (*make_group)(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds);
   // Computes squares of the distances of pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.

@@ -87,6 +87,9 @@ struct Lanes {
     Comparison part[n_registers];
   };
 
+  typedef Register InMemory __attribute__((may_alias));
+  typedef Register Unaligned __attribute__((may_alias, aligned(alignof(Scalar))));
+
   Register part[n_registers];
 
   static RIIS_INLINE Lanes all(Scalar x) {
@@ -94,10 +97,16 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes.
+  // load and store need memory aligned to 64 bytes. Each register is moved as a whole: GCC copies longer memory in other pieces,
+  // and a register that is read from two pieces has to wait until both are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
-    __builtin_memcpy(lanes.part, __builtin_assume_aligned(from, 64), sizeof lanes.part);
+    for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
+    return lanes;
+  }
+  static RIIS_INLINE Lanes load_unaligned(const Scalar *from) {
+    Lanes lanes;
+    for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
   // Gathers one number from each of n places.
@@ -115,7 +124,9 @@ struct Lanes {
     }
     return lanes;
   }
-  RIIS_INLINE void store(Scalar *to) const { __builtin_memcpy(__builtin_assume_aligned(to, 64), part, sizeof part); }
+  RIIS_INLINE void store(Scalar *to) const {
+    for (int i = 0; i < n_registers; ++i) reinterpret_cast<InMemory *>(to)[i] = part[i];
+  }
 };
 
 typedef Lanes<float, FloatRegister, 16> Floats;

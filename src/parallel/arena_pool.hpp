@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arenas that walks run in. An arena is kept for the next walk. TBB frees an arena only after the workers that it called
-// have come and have found nothing to do. On a busy machine the workers do not come to a short walk. With a new arena
-// for each walk, the process grew by some kilobytes a walk without end (TBB 2021.8).
+// The arenas that walks and builds of scenes run in. An arena is kept for the next of them. TBB frees an arena only after the
+// workers that it called have come and have found nothing to do. On a busy machine the workers do not come to a short walk. With
+// a new arena for each walk, the process grew by some kilobytes a walk without end (TBB 2021.8).
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -19,7 +19,7 @@ struct PooledArena {
 };
 
 // Lends an arena of n_threads threads until it is given back. The arena comes from the pool, or is new if the pool has none of
-// that number. So there are never more arenas of a number than walks of that number ran at the same time.
+// that number. So there are never more arenas of a number than borrowers of that number at the same time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 

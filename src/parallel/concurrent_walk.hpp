@@ -1,55 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every loop whose bodies add more work goes through this file. Only this file and arena_pool.* name TBB.
+// Every loop whose bodies add more work goes through this file. Only this file, arena.hpp and arena_pool.* name TBB.
 #pragma once
 
 #if defined(RIIS_STD_THREADS)
 #include "parallel/walk_by_threads.hpp"
 #else
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/float_environment.hpp"
-#include "parallel/arena_pool.hpp"
+#include "parallel/arena.hpp"
 #include "parallel/range.hpp"
 
 namespace riis {
-
-// An arena of up to n_threads threads, including the calling one. The pool lends it while this object lives. TBB limits the
-// threads of the process. If that limit is lower than n_threads, this object raises it while it lives, unless the caller set
-// it. The arena stays within the limit, because TBB would announce a larger one on stderr.
-class Arena {
- public:
-  explicit Arena(int n_threads) {
-    const auto wanted = static_cast<std::size_t>(n_threads);
-    if (allowed() < wanted) limit_.emplace(tbb::global_control::max_allowed_parallelism, wanted);
-    lent_ = borrow_arena(static_cast<int>(std::min(allowed(), wanted)));
-  }
-  ~Arena() { give_back(lent_); }
-  Arena(const Arena &) = delete;
-  Arena &operator=(const Arena &) = delete;
-
-  template <class Work>
-  void run(const Work &work) {
-    lent_->arena.execute(work);
-  }
-
- private:
-  static std::size_t allowed() {
-    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  }
-
-  std::optional<tbb::global_control> limit_;
-  PooledArena *lent_;
-};
 
 // Runs body(range, add, thread) for every range of the list, and for every range that a body adds by add(range). Up to
 // n_threads threads run bodies in no particular order, 0 <= thread < n_threads. Returns how many threads ran. The first

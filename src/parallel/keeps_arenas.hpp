@@ -3,8 +3,9 @@
 
 namespace riis {
 
-// The pool (arena_pool.hpp) keeps its arenas while an object of this type lives. Each handle that a walk needs has one. The
-// arenas go with the last object: a caller may want to end TBB (tbb::finalize), and TBB refuses that while there are arenas.
+// The pool (arena_pool.hpp) keeps its arenas while an object of this type lives. Each handle that a walk or a scene needs has
+// one. The arenas go with the last object: a caller may want to end TBB (tbb::finalize), and TBB refuses that while there are
+// arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;

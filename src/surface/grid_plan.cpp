@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/array_view.hpp"
@@ -70,12 +71,14 @@ class PlannedArcs {
         shares_(shares_for(plan.n_parts)),
         base_(set.curve_of(patch.v0), patch.v0.reversed, shares_),
         edge_(set.curve_of(patch.v1), patch.v1.reversed, shares_) {
+    offsets_.reserve(shares_.size());
     for (std::size_t i = 0; i < shares_.size(); ++i)
       offsets_.push_back(arc_offset(edge_.point(i) - base_.point(i), base_.tangent(i), patch.bulge));
   }
 
   Vector<ColumnErrors> errors() {
     Vector<ColumnErrors> made;
+    made.reserve(at_.size());
     for (std::size_t i = 0; i + 1 < at_.size(); ++i) made.push_back(column(at_[i], at_[i + 1]));
     return made;
   }
@@ -90,6 +93,9 @@ class PlannedArcs {
   // The neighbours have the same offsets at the ends, to the last bit.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
+    made.u_lines.reserve(lines_.size());
+    made.offsets.reserve(lines_.size());
+    made.errors.reserve(errors.size());
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
       made.offsets.push_back(offsets_[at_[i]]);
@@ -103,6 +109,8 @@ class PlannedArcs {
   // Returns the lines and the shares between them; at_ tells where the lines are.
   Vector<double> shares_for(const Vector<int> &n_parts) {
     Vector<double> shares;
+    at_.reserve(lines_.size());
+    shares.reserve(static_cast<std::size_t>(std::accumulate(n_parts.begin(), n_parts.end(), 1)));
     for (std::size_t i = 0; i + 1 < lines_.size(); ++i) {
       at_.push_back(shares.size());
       for (int k = 0; k < n_parts[i]; ++k)
@@ -138,6 +146,8 @@ class PlannedArcs {
   Polyline polyline(const CurvePoints &points, const Curve &curve, const Vector<ColumnErrors> &errors,
                     double ColumnErrors::*error) const {
     Polyline made{{}, lines_, {}, curve.length()};
+    made.points.reserve(at_.size());
+    made.errors.reserve(errors.size());
     for (const std::size_t at : at_) made.points.push_back(points.point(at));
     for (const ColumnErrors &column : errors) made.errors.push_back(column.*error);
     return made;
@@ -157,6 +167,8 @@ class PlannedArcs {
 Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double enough) {
   CurvePoints points(curve, false, shares);
   Polyline made{{}, shares, {}, curve.length()};
+  made.points.reserve(shares.size());
+  made.errors.reserve(shares.size());
   for (std::size_t i = 0; i < shares.size(); ++i) {
     made.points.push_back(points.point(i));
     if (i > 0) made.errors.push_back(points.chord_error(i - 1, i, enough));

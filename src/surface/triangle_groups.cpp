@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "base/array_view.hpp"
@@ -59,21 +60,6 @@ float round_down(double x) {
 }
 float round_up(double x) { return -round_down(-x); }
 
-Bounds bounds_of(const TriangleSet &set, int n_threads) {
-  const auto n = view(set.vertex_id).size();
-  constexpr std::int64_t corners_per_block = 12288;
-  Vector<Bounds> blocks;
-  resize(blocks, (n + corners_per_block - 1) / corners_per_block);
-  parallel_for_ranges(n, corners_per_block, n_threads, [&](const Range &range, int) {
-    Bounds bounds;
-    for (std::int64_t i = range.begin; i < range.end; ++i) bounds.add(set.vertex(view(set.vertex_id)[i]));
-    view(blocks)[range.begin / corners_per_block] = bounds;
-  });
-  Bounds bounds;
-  for (const Bounds &block : blocks) bounds.add(block);
-  return bounds;
-}
-
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping) {
   Vector<Centroid> centroids;
   centroids.reserve(static_cast<std::size_t>(end - begin));
@@ -98,10 +84,33 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
   });
 }
 
+void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
+  const std::int64_t n = set.n_triangles();
+  resize(corners, 9 * n);
+  constexpr std::int64_t triangles_per_block = 4096, triangles_at_once = 128;
+  Vector<Bounds> blocks;
+  resize(blocks, (n + triangles_per_block - 1) / triangles_per_block);
+  const Kernels &simd = kernels(best_instruction_set());
+  parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &block, int) {
+    Bounds &of_block = view(blocks)[block.begin / triangles_per_block];
+    for (std::int64_t first = block.begin; first < block.end; first += triangles_at_once) {
+      const std::int64_t end = std::min(block.end, first + triangles_at_once);
+      double *to = corners.data() + 9 * first;
+      const std::int64_t *id = set.vertex_id.data() + 3 * first;
+      for (std::int64_t i = 3 * first; i < 3 * end; ++i, ++id, to += 3)
+        std::memcpy(to, set.xyz.data() + 3 * *id, 3 * sizeof *to);
+      double lower[3], upper[3];
+      simd.bound_corners(corners.data() + 9 * first, end - first, lower, upper);
+      of_block.add(Bounds{{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}});
+    }
+  });
+  of_all = {};
+  for (const Bounds &block : blocks) of_all.add(block);
+}
+
 void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
   constexpr double much = 2;
   frame = surface_frame;
-  resize(corners, 9 * set.n_triangles());
   const bool is_by_place = set.grouping.end.empty();
   // Groups by place are kept until they fall apart: if the number of triangles is the same, most triangles have only moved.
   const bool are_known = is_by_place ? is_by_place_ && view(grouping_.order).size() == set.n_triangles()
@@ -112,7 +121,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
     is_by_place_ = is_by_place;
   };
   if (!are_known) group_anew();
-  enclose(set, n_threads);
+  enclose(n_threads);
   // The longest edge of all does not depend on the groups.
   longest_edge = 0;
   for (const GroupBounds &group : bounds) longest_edge = std::max(longest_edge, group.longest_edge);
@@ -120,7 +129,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   if (are_as_before) return;
   if (are_known && is_by_place) {
     group_anew();
-    enclose(set, n_threads);
+    enclose(n_threads);
   }
   size_at_first_ = size();
 }
@@ -133,34 +142,21 @@ double TriangleGroups::size() const {
   return sum;
 }
 
-void TriangleGroups::enclose(const TriangleSet &set, int n_threads) {
+void TriangleGroups::enclose(int n_threads) {
   const Vector<std::int32_t> &order = grouping_.order, &end = grouping_.end;
   groups.resize(end.size());
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
+  const SurfaceFrame surface_frame{{frame.centre.x, frame.centre.y, frame.centre.z}, frame.scale};
   constexpr std::int64_t groups_per_block = 16;
   parallel_for_ranges(view(end).size(), groups_per_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t g = range.begin; g < range.end; ++g) {
       const std::int32_t first = g == 0 ? 0 : view(end)[g - 1];
       GroupBounds &of_group = view(bounds)[g];
       of_group.n = view(end)[g] - first;
+      std::copy_n(order.begin() + first, of_group.n, of_group.triangle);
       GroupCorners framed;
-      for (int i = 0; i < triangles_per_group; ++i) {
-        if (i >= of_group.n) {  // repeats the first triangle
-          for (auto &coordinate : framed.xyz) coordinate[i] = coordinate[0];
-          continue;
-        }
-        const std::int32_t triangle = view(order)[first + i];
-        of_group.triangle[i] = triangle;
-        double *as_is = corners.data() + 9 * static_cast<std::ptrdiff_t>(triangle);
-        int to = 0;
-        for (const Vec3 p : set.corners(triangle)) {
-          const Vec3 q = frame(p);
-          as_is[to] = p.x, as_is[to + 1] = p.y, as_is[to + 2] = p.z;
-          framed.xyz[to][i] = q.x, framed.xyz[to + 1][i] = q.y, framed.xyz[to + 2][i] = q.z;
-          to += 3;
-        }
-      }
+      simd.frame_group(surface_frame, corners.data(), of_group.triangle, of_group.n, framed);
       simd.make_group(framed, view(groups)[g], of_group);
     }
   });

@@ -27,9 +27,6 @@ struct Frame {
 float round_down(double x);
 float round_up(double x);
 
-// Returns the bounds of the corners that triangles use.
-Bounds bounds_of(const TriangleSet &set, int n_threads);
-
 // Bounds the error of the filters' distances in the surface's frame (docs/theory.md, section 8). It holds for points that were
 // in a frame `ratio` times as large and moved by `shift`, up to `reach` from triangles with edges up to `longest_edge`.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
@@ -47,17 +44,20 @@ struct TriangleGroups {
   Frame frame;
   std::vector<double> corners;  // (3, 3, n_triangles), as they are
   std::vector<TriangleGroup> groups;
+  Bounds of_all;  // of all corners, as they are
   std::vector<GroupBounds> bounds;
   float longest_edge = 0;
   // True if the groups have the same positions in the set as before and are not much larger. Structures built over them
   // then still fit.
   bool are_as_before = false;
 
-  // Replaces the groups and keeps their memory.
+  // Copies the corners of a set's triangles, and bounds them.
+  void take_corners(const TriangleSet &set, int n_threads);
+  // Replaces the groups, for the corners that were taken last, and keeps their memory.
   void make(const TriangleSet &set, const Frame &surface_frame, int n_threads);
 
  private:
-  void enclose(const TriangleSet &set, int n_threads);
+  void enclose(int n_threads);
   double size() const;
 
   Grouping grouping_;

@@ -14,6 +14,7 @@
 
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
+#include "parallel/arena.hpp"
 
 namespace riis {
 namespace {
@@ -155,9 +156,10 @@ double rounding_of_distances(const Bounds &bounds) {
 TriangleScene::TriangleScene() : implementation_(std::make_unique<Implementation>()) {}
 
 void TriangleScene::make(const TriangleSet &set, int n_threads) {
-  bounds_ = bounds_of(set, n_threads);
-  rounding_ = rounding_of_distances(bounds_);
   Implementation &in = *implementation_;
+  in.groups.take_corners(set, n_threads);
+  bounds_ = in.groups.of_all;
+  rounding_ = rounding_of_distances(bounds_);
   const Frame frame(bounds_);
   in.groups.make(set, frame, n_threads);
   in.rounding = rounding_ * frame.scale;
@@ -186,7 +188,8 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
   rtcCommitGeometry(in.geometry.get());
   check("take the triangles");
-  rtcCommitScene(in.scene.get());
+  // Embree builds with TBB, which would otherwise call as many threads as there are processors.
+  Arena(n_threads).run([&] { rtcCommitScene(in.scene.get()); });
   check("build the scene");
 }
 

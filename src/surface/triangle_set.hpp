@@ -31,6 +31,7 @@ struct TriangleSet {
   std::int64_t n_zero_area = 0;           // triangles that were left out
   double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
   Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
+  std::uint64_t connectivity = 0;         // whose triangles these are; 0: nobody's (surface/triangulate.cpp)
   Grouping grouping;                      // empty if the maker of the triangles knows no groups
 
   // Empties the set and keeps its memory.
@@ -42,6 +43,7 @@ struct TriangleSet {
     rim_sides.clear();
     n_zero_area = 0;
     error_bound = 0;
+    connectivity = 0;
   }
   std::int64_t n_vertices() const { return view(xyz).size() / 3; }
   std::int64_t n_triangles() const { return view(triangle_id).size(); }

@@ -2,6 +2,7 @@
 #include "surface/triangulate.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -25,9 +26,37 @@ struct Piece {
   std::int64_t first_vertex, first_triangle;
   std::int64_t n_triangles = 0;  // without triangles that turned out to have no area; there may be room for more
   std::int64_t n_zero_area = 0;
+  Vector<LeftOut> left_out{};
   bool is_whole = true;  // false if the triangles kept do not stand for all triangles left out for lack of area
   Grouping grouping{};
 };
+
+// A triangle without area is its longest edge. The edge is still there if it is the diagonal of a quad whose other half was kept.
+// Nothing is lost if the triangle is a point.
+bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
+  const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
+  const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
+  const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;
+  return !is_on_diagonal && std::max(diagonal, other) > min_edge;
+}
+
+// Returns whether no triangle has zero area (has_zero_area).
+bool have_area(const TriangleSet &set, int n_threads) {
+  constexpr std::int64_t triangles_per_block = 4096;
+  const Kernels &simd = kernels(best_instruction_set());
+  std::atomic<bool> all_have{true};
+  parallel_for_ranges(set.n_triangles(), triangles_per_block, n_threads, [&](const Range &block, int) {
+    for (std::int64_t i = block.begin; i < block.end; i += pairs_at_once) {
+      const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(pairs_at_once, block.end - i));
+      if (simd.have_area(set.xyz.data(), set.vertex_id.data() + 3 * i, n)) continue;
+      for (std::int64_t k = i; k < i + n; ++k) {
+        const auto [a, b, c] = set.corners(k);
+        if (has_zero_area(a, b, c)) all_have.store(false, std::memory_order_relaxed);
+      }
+    }
+  });
+  return all_have.load(std::memory_order_relaxed);
+}
 
 class PieceBuilder {
  public:
@@ -35,29 +64,38 @@ class PieceBuilder {
   PieceBuilder(Piece &piece, const Triangulation &how, const ImageMotion *motion, TriangleSet &set)
       : piece_(piece), grid_(piece.levelled->grid), how_(how), motion_(motion), set_(set) {}
 
-  void build() {
+  // Vertices of the grid come first, then those of subdivided quads.
+  void place_vertices() {
+    place_vertices_of_grid();
     auto level_of_next = piece_.levelled->levels.begin();
-    const std::size_t n_u = grid_.u.size(), n_v = grid_.v.size();
-    for (std::size_t j = 0; j < n_v; ++j)
-      for (std::size_t i = 0; i < n_u; ++i) {
-        add_velocity(grid_.point(i, j), [&] { return grid_.displacements[j * n_u + i]; });
-        add_vertex(grid_.point(i, j), grid_.u[i], grid_.v[j]);
-      }
-    const auto grid_vertex = [&](std::size_t i, std::size_t j) {
-      return piece_.first_vertex + static_cast<std::int64_t>(j * n_u + i);
-    };
+    for_each_quad(grid_, [&](std::size_t i, std::size_t j) {
+      const int level = *level_of_next++;
+      if (level > 0) place_vertices_of_quad(i, j, level);
+    });
+  }
+
+  // The vertices have been placed.
+  void add_triangles() {
+    auto level_of_next = piece_.levelled->levels.begin();
+    const auto n_u = static_cast<std::int64_t>(grid_.u.size()), n_v = static_cast<std::int64_t>(grid_.v.size());
+    std::int64_t next_subdivided = piece_.first_vertex + n_u * n_v;
     first_of_quad_.reserve(piece_.levelled->levels.size() + 1);
     for_each_quad(grid_, [&](std::size_t i, std::size_t j) {
       first_of_quad_.push_back(next_triangle());
       const int level = *level_of_next++;
-      if (level == 0)
-        add_quad({grid_vertex(i, j), grid_vertex(i + 1, j), grid_vertex(i + 1, j + 1), grid_vertex(i, j + 1)});
-      else
-        add_subdivided_quad(i, j, level);
+      if (level == 0) {
+        const std::int64_t first =
+            piece_.first_vertex + static_cast<std::int64_t>(j) * n_u + static_cast<std::int64_t>(i);
+        add_quad({first, first + 1, first + n_u + 1, first + n_u});
+      } else {
+        add_quads(next_subdivided, level);
+        const std::int64_t n = (std::int64_t{1} << level) + 1;
+        next_subdivided += n * n;
+      }
     });
     first_of_quad_.push_back(next_triangle());
     // A plan has its own groups.
-    if (!how_.plan) group({0, n_u - 1, 0, n_v - 1});
+    if (!how_.plan) group({0, grid_.u.size() - 1, 0, grid_.v.size() - 1});
   }
 
  private:
@@ -112,6 +150,36 @@ class PieceBuilder {
     to[0] = velocity.x, to[1] = velocity.y, to[2] = velocity.z;
   }
 
+  void place_vertices_of_grid() {
+    const std::size_t n_u = grid_.u.size(), n_v = grid_.v.size();
+    // These are copies, which the compiler knows not to change as vertices are written.
+    const PatchImage image = *piece_.image;
+    const Placement placement = how_.placement;
+    const double *const u = grid_.u.data();
+    double *xyz = set_.xyz.data() + 3 * piece_.first_vertex, *uv = set_.uv.data() + 2 * piece_.first_vertex;
+    for (std::size_t j = 0; j < n_v; ++j) {
+      const double v = grid_.v[j];
+      const Vec3 *const points = grid_.points.data() + j * n_u;
+      for (std::size_t i = 0; i < n_u; ++i, xyz += 3, uv += 2) {
+        const Vec3 placed = place(placement, place(image, points[i]));
+        xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
+        uv[0] = u[i], uv[1] = v;
+      }
+    }
+    if (!piece_.seam && !motion_) {
+      n_vertices_ = static_cast<std::int64_t>(n_u * n_v);
+      return;
+    }
+    for (std::size_t j = 0; j < n_v; ++j)
+      for (std::size_t i = 0; i < n_u; ++i) {
+        add_velocity(grid_.point(i, j), [&] { return grid_.displacements[j * n_u + i]; });
+        if (piece_.seam)
+          add_vertex(grid_.point(i, j), grid_.u[i], grid_.v[j]);
+        else
+          ++n_vertices_;
+      }
+  }
+
   void add_vertex(Vec3 p, double u, double v) {
     const std::int64_t at = piece_.first_vertex + n_vertices_++;
     const PatchImage &image = piece_.seam && piece_.seam->has(u, v) ? *piece_.twin : *piece_.image;
@@ -123,13 +191,12 @@ class PieceBuilder {
 
   // All parts of a bilinear quad at one level have the same flatness. So recursive halving would end in equal parts,
   // and they are made in one go.
-  void add_subdivided_quad(std::size_t i, std::size_t j, int level) {
+  void place_vertices_of_quad(std::size_t i, std::size_t j, int level) {
     const int n = 1 << level;
     const Quad quad = quad_of(grid_, i, j);
     const auto displacement = [&](std::size_t di, std::size_t dj) {
       return grid_.displacements[(j + dj) * grid_.u.size() + i + di];
     };
-    const std::int64_t first = piece_.first_vertex + n_vertices_;
     for (int row = 0; row <= n; ++row) {
       for (int column = 0; column <= n; ++column) {
         const double s = static_cast<double>(column) / n, t = static_cast<double>(row) / n;
@@ -139,6 +206,11 @@ class PieceBuilder {
         add_vertex(quad.at(s, t), (1 - s) * grid_.u[i] + s * grid_.u[i + 1], (1 - t) * grid_.v[j] + t * grid_.v[j + 1]);
       }
     }
+  }
+
+  // Adds the quads of a quad that is subdivided to a level, whose vertices begin with `first`.
+  void add_quads(std::int64_t first, int level) {
+    const int n = 1 << level;
     const auto vertex = [&](int column, int row) { return first + row * (n + 1) + column; };
     for (int row = 0; row < n; ++row)
       for (int column = 0; column < n; ++column)
@@ -148,18 +220,13 @@ class PieceBuilder {
   void add_quad(const std::array<std::int64_t, 4> &corner) {
     const bool first = add_triangle(corner[0], corner[1], corner[2]);
     const bool second = add_triangle(corner[0], corner[2], corner[3]);
-    if (!first) check_left_out(corner[1], corner[0], corner[2], second);
-    if (!second) check_left_out(corner[3], corner[0], corner[2], first);
+    if (!first) leave_out({corner[1], corner[0], corner[2], second});
+    if (!second) leave_out({corner[3], corner[0], corner[2], first});
   }
 
-  // A triangle without area is its longest edge. The edge is still there if it is the diagonal of a quad whose other
-  // half was kept. Nothing is lost if the triangle is a point.
-  void check_left_out(std::int64_t corner, std::int64_t a, std::int64_t b, bool other_was_kept) {
-    const double diagonal = distance(set_.vertex(a), set_.vertex(b));
-    const double other =
-        std::max(distance(set_.vertex(corner), set_.vertex(a)), distance(set_.vertex(corner), set_.vertex(b)));
-    const bool is_on_diagonal = other_was_kept && other <= (1 + 1e-9) * diagonal;
-    if (!is_on_diagonal && std::max(diagonal, other) > min_edge) piece_.is_whole = false;
+  void leave_out(const LeftOut &triangle) {
+    if (is_missed(set_, triangle)) piece_.is_whole = false;
+    if (how_.plan) piece_.left_out.push_back(triangle);
   }
 
   bool add_triangle(std::int64_t a, std::int64_t b, std::int64_t c) {
@@ -266,38 +333,104 @@ const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
   return nullptr;
 }
 
-// Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
-// there are none.
-Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
-                          TriangleSet &triangles) {
-  Vector<Piece> pieces;
+// The pieces of all images, and how much they may need.
+struct Pieces {
+  Vector<Piece> all;
   std::int64_t n_triangles = 0, n_vertices = 0;
-  double error_bound = 0;
+};
+
+Pieces make_pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids) {
+  Pieces pieces;
   for (std::size_t i = 0; i < grids.size(); ++i) {
-    error_bound = std::max(error_bound, grids[i].error_bound);
     const auto &images = set.patches[i].images;
     for (std::size_t k = 0; k < images.size(); ++k) {
       const Seam *seam = seam_of(set, i, k);
-      pieces.push_back({&grids[i], &images[k], seam ? &images[seam->twin] : nullptr, seam, n_vertices, n_triangles});
-      n_triangles += grids[i].n_triangles;
-      n_vertices += grids[i].n_vertices;
-      check_count(static_cast<double>(n_triangles), how.max_error);
+      pieces.all.push_back(
+          {&grids[i], &images[k], seam ? &images[seam->twin] : nullptr, seam, pieces.n_vertices, pieces.n_triangles});
+      pieces.n_triangles += grids[i].n_triangles;
+      pieces.n_vertices += grids[i].n_vertices;
+      check_count(static_cast<double>(pieces.n_triangles), how.max_error);
     }
   }
-  make_room(n_vertices, n_triangles, how.motion != nullptr, triangles);
-  parallel_for(view(pieces).size(), how.n_threads, [&](std::int64_t i, int) {
-    Piece &piece = view(pieces)[i];
+  return pieces;
+}
+
+// Calls work(builder) for the builder of every piece.
+template <class Work>
+void for_each_piece(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, Pieces &pieces,
+                    TriangleSet &triangles, const Work &work) {
+  parallel_for(view(pieces.all).size(), how.n_threads, [&](std::int64_t i, int) {
+    Piece &piece = view(pieces.all)[i];
     std::optional<ImageMotion> image_motion;
     if (how.motion)
       image_motion.emplace(*piece.image, image_before(piece, grids, set, how.motion->patches_before), how.placement,
                            *how.motion);
-    PieceBuilder(piece, how, image_motion ? &*image_motion : nullptr, triangles).build();
+    PieceBuilder builder(piece, how, image_motion ? &*image_motion : nullptr, triangles);
+    work(builder);
   });
-  Vector<std::size_t> vanished = vanished_patches(pieces, grids);
+}
+
+double error_bound_of(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids) {
+  double error_bound = 0;
+  for (const LevelledGrid &grid : grids) error_bound = std::max(error_bound, grid.error_bound);
+  return (error_bound + set.deviation) * how.placement.scale;
+}
+
+// Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
+// there are none. Writes the triangles that were left out by a plan where they are wanted.
+Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
+                          TriangleSet &triangles, Vector<LeftOut> *left_out = nullptr) {
+  Pieces pieces = make_pieces(set, how, grids);
+  triangles.connectivity = 0;
+  make_room(pieces.n_vertices, pieces.n_triangles, how.motion != nullptr, triangles);
+  for_each_piece(set, how, grids, pieces, triangles, [](PieceBuilder &builder) {
+    builder.place_vertices();
+    builder.add_triangles();
+  });
+  Vector<std::size_t> vanished = vanished_patches(pieces.all, grids);
   if (!vanished.empty()) return vanished;
-  close_gaps(pieces, how.plan != nullptr, triangles);
-  triangles.error_bound = (error_bound + set.deviation) * how.placement.scale;
+  close_gaps(pieces.all, how.plan != nullptr, triangles);
+  triangles.error_bound = error_bound_of(set, how, grids);
+  if (left_out)
+    for (const Piece &piece : pieces.all)
+      left_out->insert(left_out->end(), piece.left_out.begin(), piece.left_out.end());
   return vanished;
+}
+
+// Gives a set the triangles of a plan, unless it still has them.
+void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
+  const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
+  // Triangles that were moved away have left an empty set.
+  if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
+  set.connectivity = 0;
+  set.vertex_id = from.vertex_id;
+  if (flip_normals)
+    for (std::size_t i = 0; i < set.vertex_id.size(); i += 3) std::swap(set.vertex_id[i + 1], set.vertex_id[i + 2]);
+  set.triangle_id = from.triangle_id;
+  set.leaflet_id = from.leaflet_id;
+  set.patch_id = from.patch_id;
+  set.grouping = from.grouping;
+  set.n_zero_area = view(from.left_out).size();
+  set.connectivity = number;
+}
+
+// Places the vertices of these grids under the triangles of a plan. Returns false if other triangles have an area here than in
+// the plan, or if some are missed.
+bool place(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles) {
+  const Connectivity &planned = how.plan->connectivity;
+  Pieces pieces = make_pieces(set, how, grids);
+  resize(triangles.xyz, 3 * pieces.n_vertices);
+  resize(triangles.uv, 2 * pieces.n_vertices);
+  resize(triangles.velocity, how.motion ? 3 * pieces.n_vertices : 0);
+  for_each_piece(set, how, grids, pieces, triangles, [](PieceBuilder &builder) { builder.place_vertices(); });
+  take_connectivity(planned, how.flip_normals, triangles);
+  for (const LeftOut &triangle : planned.left_out)
+    if (!has_zero_area(triangles.vertex(triangle.corner), triangles.vertex(triangle.a), triangles.vertex(triangle.b)) ||
+        is_missed(triangles, triangle))
+      return false;
+  if (!have_area(triangles, how.n_threads)) return false;
+  triangles.error_bound = error_bound_of(set, how, grids);
+  return true;
 }
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where) {
@@ -327,13 +460,12 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
       fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
-  const Vector<std::size_t> vanished = build(counted, how, grids, triangles);
-  if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
-  triangles.rim_sides = rim_sides(set);  // shared curves are no rims
-  if (triangles.triangle_id == how.plan->triangle_id)
-    triangles.grouping = how.plan->grouping;
-  else
+  if (!place(counted, how, grids, triangles)) {
+    const Vector<std::size_t> vanished = build(counted, how, grids, triangles);
+    if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), triangles.grouping);
+  }
+  triangles.rim_sides = rim_sides(set);  // shared curves are no rims
   return triangles;
 }
 
@@ -385,6 +517,12 @@ Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Tria
   return {};
 }
 
+// No two plans have the same number, and none has 0.
+std::uint64_t next_number() {
+  static std::atomic<std::uint64_t> last{0};
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 }  // namespace
 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
@@ -407,15 +545,20 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   Vector<double> tightness(middle.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
-    TriangulationPlan plan{plan_grids(states, planned_error, tightness), counting, planned_error, {}, {}, {}};
+    TriangulationPlan plan{plan_grids(states, planned_error, tightness), counting, planned_error, {}, {}};
     for (const PatchSet &state : states) raise_levels(state, planned_error, plan);
     const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};
     TriangleSet triangles;
     const Vector<std::size_t> vanished = vanished_anywhere(states, how, triangles);
     if (vanished.empty()) {
-      build(middle, how, make_levelled_grids(middle, how, {}), triangles);
-      plan.triangle_id = triangles.triangle_id;
-      group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), plan.grouping);
+      Connectivity &made = plan.connectivity;
+      build(middle, how, make_levelled_grids(middle, how, {}), triangles, &made.left_out);
+      group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), made.grouping);
+      made.vertex_id = std::move(triangles.vertex_id);
+      made.triangle_id = std::move(triangles.triangle_id);
+      made.leaflet_id = std::move(triangles.leaflet_id);
+      made.patch_id = std::move(triangles.patch_id);
+      made.number = next_number();
       return plan;
     }
     if (attempt == max_attempts) fail_for_vanished(middle, vanished.front(), " at an opening");

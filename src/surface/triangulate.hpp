@@ -16,14 +16,28 @@
 
 namespace riis {
 
-// A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its groups.
+// A half of a quad without area, by its vertices: a and b are the ends of the quad's diagonal.
+struct LeftOut {
+  std::int64_t corner, a, b;
+  bool other_was_kept;
+};
+
+// The triangles of a plan at one of the openings, for a set of its vertices. They are the same where the same have an area.
+struct Connectivity {
+  std::vector<std::int64_t> vertex_id, triangle_id;
+  std::vector<std::int32_t> leaflet_id, patch_id;
+  Grouping grouping;
+  Vector<LeftOut> left_out;
+  std::uint64_t number = 0;  // of the plan
+};
+
+// A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its triangles.
 struct TriangulationPlan {
   GridPlan grids;
-  Build build;                            // the curves that the grids count by
-  double max_error;                       // that the lines and levels were chosen for
-  Vector<Vector<int>> levels;             // of each patch's quads
-  std::vector<std::int64_t> triangle_id;  // at one of the openings
-  Grouping grouping;                      // of these triangles
+  Build build;                 // the curves that the grids count by
+  double max_error;            // that the lines and levels were chosen for
+  Vector<Vector<int>> levels;  // of each patch's quads
+  Connectivity connectivity;
 };
 
 // Makes the plan for a valve's patches at many openings; max_error as below. Keeps a small part of it for openings between

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * n_threads = 1 starts no thread: the process has as many after each call as before the first. With 2 it has more, so the count
+ * sees threads. The calls with 1 come first, because OpenMP and TBB keep the threads that they start. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include <dirent.h>
+
+#include "handles.h"
+#include "searches.h"
+
+static int n_threads_at_first; /* a sanitizer may have its own */
+
+/* Returns the number of threads of this process. */
+static int n_threads_now(void) {
+  DIR *tasks = opendir("/proc/self/task");
+  assert_non_null(tasks);
+  int n = 0;
+  for (const struct dirent *entry = readdir(tasks); entry; entry = readdir(tasks)) n += entry->d_name[0] != '.';
+  assert_int_equal(closedir(tasks), 0);
+  return n;
+}
+
+#define CALL_ALONE(call)                                                                                     \
+  do {                                                                                                       \
+    CHECK_OK(call);                                                                                          \
+    const int call_n = n_threads_now();                                                                      \
+    if (call_n != n_threads_at_first) fail_msg("%s started %d threads", #call, call_n - n_threads_at_first); \
+  } while (0)
+
+enum { n_side = 40, n_nodes = n_side * n_side * n_side, n_faces = n_nodes - 1 };
+
+static double xyz[3 * n_nodes];
+static int64_t owner[n_faces], neighbor[n_faces], corners_of_cells[8 * n_nodes], label[n_nodes];
+
+static void fill_arrays(void) {
+  for (int64_t i = 0; i < n_nodes; ++i) {
+    const int64_t at[3] = {i % n_side, i / n_side % n_side, i / (n_side * n_side)};
+    for (int c = 0; c < 3; ++c) xyz[3 * i + c] = -2.5 + 5.0 * (double)at[c] / (n_side - 1);
+  }
+  for (int64_t i = 0; i < n_faces; ++i) owner[i] = i, neighbor[i] = i + 1;
+}
+
+/* Returns the number of hexahedra of the lattice. */
+static int64_t fill_cells(void) {
+  static const int64_t step[8] = {0,
+                                  1,
+                                  1 + n_side,
+                                  n_side,
+                                  n_side * n_side,
+                                  n_side * n_side + 1,
+                                  n_side * n_side + n_side + 1,
+                                  n_side * n_side + n_side};
+  int64_t n = 0;
+  for (int64_t i = 0; i < n_nodes; ++i) {
+    if (i % n_side == n_side - 1 || i / n_side % n_side == n_side - 1 || i / (n_side * n_side) == n_side - 1) continue;
+    for (int k = 0; k < 8; ++k) corners_of_cells[8 * n + k] = i + step[k];
+    ++n;
+  }
+  return n;
+}
+
+static riis_surface_options options_with(int32_t n_threads, int32_t triangulation, double tolerance) {
+  riis_surface_options options = surface_options();
+  options.n_threads = n_threads;
+  options.triangulation = triangulation;
+  options.tolerance = tolerance;
+  return options;
+}
+
+static void check_surfaces(int32_t triangulation, double tolerance) {
+  static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+  const riis_surface_options options = options_with(1, triangulation, tolerance);
+  riis_crossing_options of_crossings;
+  CHECK_OK(riis_crossing_options_init(&of_crossings, sizeof of_crossings));
+  of_crossings.n_threads = 1;
+  for (int k = 0; k < 4; ++k) {
+    riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
+    riis_surface *surface = NULL;
+    riis_crossings crossings;
+    CALL_ALONE(riis_surface_create(valve, &options, &surface));
+    own(surface);
+    for (int step = 1; step < 4; ++step) {
+      CALL_ALONE(riis_valve_set_scalar(valve, "opening", 0.1 * step));
+      CALL_ALONE(riis_surface_update(surface, valve, NULL));
+      CALL_ALONE(riis_surface_update_moving(surface, valve, before, 0.1, NULL, NULL));
+      CALL_ALONE(riis_find_crossings(surface, &of_crossings, &crossings, sizeof crossings));
+      closest_to(surface, 0.3, 0.2, 0.1);
+      assert_int_equal(n_threads_now(), n_threads_at_first);
+    }
+  }
+}
+
+static void surfaces_of_valves(void **state) {
+  (void)state;
+  check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.05);
+  check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.005);
+  check_surfaces(RIIS_TRIANGULATION_FIXED, 0.05);
+  check_surfaces(RIIS_TRIANGULATION_FIXED, 0.01);
+}
+
+static void other_distances(void **state) {
+  (void)state;
+  const double point[3] = {0.3, 0.2, 0.1};
+  for (int32_t distance = RIIS_DISTANCE_SAMPLING; distance <= RIIS_DISTANCE_MINIMIZATION; ++distance) {
+    riis_surface_options options = options_with(1, RIIS_TRIANGULATION_ADAPTED, 0.05);
+    options.distance = distance;
+    options.distance_tolerance = 0.5;
+    riis_surface *surface = NULL;
+    riis_closest closest;
+    CALL_ALONE(riis_surface_create(new_valve("aortic"), &options, &surface));
+    own(surface);
+    CALL_ALONE(riis_closest_point(surface, point, &closest, sizeof closest));
+  }
+}
+
+static void surfaces_from_arrays(void **state) {
+  (void)state;
+  enum { n_triangles = 3000 };
+  random_source random = random_start("one thread");
+  double *corners;
+  int32_t *ids;
+  random_soup(&random, n_triangles, 0.1, &corners, &ids);
+  const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);
+  const riis_surface_options options = options_with(1, RIIS_TRIANGULATION_ADAPTED, 0.05);
+  riis_surface *surface = NULL;
+  CALL_ALONE(riis_surface_create_from_arrays(&arrays, &options, &surface));
+  own(surface);
+  CALL_ALONE(riis_surface_update_from_arrays(surface, &arrays, NULL));
+
+  const double time = 0;
+  riis_keyframe_arrays frames;
+  riis_keyframes *keyframes = NULL;
+  CHECK_OK(riis_keyframe_arrays_init(&frames, sizeof frames));
+  frames.n_keys = 1, frames.n_vertices = 3 * n_triangles, frames.time = &time, frames.xyz = corners;
+  CALL_ALONE(riis_keyframes_create(&arrays, &frames, &keyframes));
+  const riis_status updated = riis_surface_update_from_keyframes(surface, keyframes, 0, 0, NULL);
+  riis_keyframes_destroy(&keyframes);
+  CALL_ALONE(updated);
+}
+
+/* Makes adjacencies of all kinds. The last is the lattice's own. */
+static riis_adjacency *make_adjacencies(void) {
+  riis_cells cells;
+  riis_faces faces;
+  riis_adjacency *made[3] = {NULL, NULL, NULL};
+  CHECK_OK(riis_faces_init(&faces, sizeof faces));
+  faces.n_cells = n_nodes, faces.n_faces = n_faces, faces.owner = owner, faces.neighbor = neighbor;
+  faces.id_bits = 64, faces.n_threads = 1;
+  CALL_ALONE(riis_adjacency_create_from_faces(&faces, made));
+  own(made[0]);
+  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  cells.n_nodes = n_nodes, cells.n_cells = fill_cells(), cells.node_ids = corners_of_cells, cells.nodes_per_cell = 8;
+  cells.id_bits = 64, cells.n_threads = 1;
+  CALL_ALONE(riis_adjacency_create_from_cells(&cells, made + 1));
+  own(made[1]);
+  CALL_ALONE(riis_adjacency_create_from_grid(n_side, n_side, n_side, 1, made + 2));
+  return own(made[2]);
+}
+
+static void markings(void **state) {
+  (void)state;
+  fill_arrays();
+  const riis_surface_options of_surface = options_with(1, RIIS_TRIANGULATION_ADAPTED, 0.05);
+  riis_valve *valve = new_valve("mitral");
+  riis_surface *surface = new_surface(valve, &of_surface);
+  CALL_ALONE(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
+  riis_mesh *mesh = NULL;
+  CALL_ALONE(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  own(mesh);
+  riis_csr csr;
+  CHECK_OK(riis_adjacency_csr(make_adjacencies(), &csr, sizeof csr));
+  CALL_ALONE(riis_mesh_set_adjacency(mesh, &csr));
+  CALL_ALONE(riis_mesh_prepare(mesh, 1));
+  CALL_ALONE(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
+
+  riis_mark_result *result = new_result();
+  riis_mark_options options = mark_options();
+  options.n_threads = 1;
+  options.fields = 255;
+  for (options.search = RIIS_SEARCH_AUTO; options.search <= RIIS_SEARCH_CLUSTERS; ++options.search)
+    for (int step = 0; step < 3; ++step) {
+      CALL_ALONE(riis_mark_nodes(surface, mesh, &options, result));
+      assert_int_equal(stats_of(result).n_threads, 1);
+    }
+  assert_true(stats_of(result).n_marked > 100);
+
+  static double k[n_nodes], k_u[3 * n_nodes], distance[n_nodes];
+  riis_resistance resistance;
+  CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
+  resistance.resistance = 1;
+  CALL_ALONE(riis_mark_result_add_resistance(result, &resistance, n_nodes, k, k_u));
+  CALL_ALONE(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
+
+  options.search = RIIS_SEARCH_AUTO;
+  options.fields = 0;
+  riis_leaks leaks;
+  riis_passage passage;
+  const int64_t first = 0, last = n_nodes - 1;
+  CALL_ALONE(riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
+  CALL_ALONE(riis_label_open_regions(mesh, &options, result, n_nodes, label, NULL));
+  CALL_ALONE(riis_find_passage(surface, mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
+
+  riis_closest_options of_points;
+  riis_closest_arrays found;
+  CHECK_OK(riis_closest_options_init(&of_points, sizeof of_points));
+  CHECK_OK(riis_closest_arrays_init(&found, sizeof found));
+  of_points.n_threads = 1;
+  found.distance = distance;
+  CALL_ALONE(riis_closest_points(surface, n_nodes, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
+}
+
+/* OpenMP and TBB each start at most one more. */
+static void two_threads_are_more(void **state) {
+  (void)state;
+  const riis_surface_options options = options_with(2, RIIS_TRIANGULATION_ADAPTED, 0.005);
+  new_surface(new_valve("aortic"), &options);
+  assert_in_range(n_threads_now(), n_threads_at_first + 1, n_threads_at_first + 2);
+}
+
+int main(void) {
+  n_threads_at_first = n_threads_now();
+  const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_of_valves), cmocka_unit_test(other_distances),
+                                     cmocka_unit_test(surfaces_from_arrays), cmocka_unit_test(markings),
+                                     cmocka_unit_test(two_threads_are_more)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
