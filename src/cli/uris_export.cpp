@@ -86,7 +86,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Throws what ends the export after the frame at hand, if the user interrupted it.
+// Ends the export between two frames. The signal ends the process once the files are removed, so nobody reads the text.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "--export-uris: interrupted, and nothing is left"};
 }
