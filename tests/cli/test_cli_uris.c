@@ -210,17 +210,20 @@ static void test_velocity(void **state) {
   CHECK_OK(riis_surface_vertex_velocities(surface, &n_vertices, &velocity));
   CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet, NULL));
   int next[3] = {0, 0, 0};
-  double fastest = 0;
+  double fastest = 0, largest_difference = 0;
   for (int64_t i = 0; i < n; ++i) {
     const uris_face *face = &exported.face[leaflet[i]];
     const int *corner = face->corner + 3 * next[leaflet[i]]++;
     for (int k = 0; k < 9; ++k) {
       const int at = 3 * corner[k / 3] + k % 3;
+      const double by_library = velocity[3 * vertex[3 * i + k / 3] + k % 3];
       const double by_frames = (uris_frame(face, face->open, 2)[at] - uris_frame(face, face->open, 1)[at]) / 0.004;
-      CHECK_NEAR(by_frames, velocity[3 * vertex[3 * i + k / 3] + k % 3], 1e-3);
-      fastest = fmax(fastest, fabs(by_frames));
+      largest_difference = fmax(largest_difference, fabs(by_frames - by_library));
+      fastest = fmax(fastest, fabs(by_library));
     }
   }
+  printf("speeds up to %.3g, by frames up to %.3g off\n", fastest, largest_difference);
+  CHECK_AT_MOST(largest_difference, 0.01 * fastest);
   assert_true(fastest > 10);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
@@ -278,19 +281,20 @@ static void test_largest_edge(void **state) {
     snprintf(fine_folder, sizeof fine_folder, "fine_%d", v);
     EXPORT(coarse_folder, RAMPS, "--valve", valves[v]);
     uris_valve coarse = exported;
+    int n_more = 0;
     EXPORT(fine_folder, RAMPS, "--valve", valves[v], "--largest-edge", "0.18");
     for (int f = 0; f < exported.n_faces; ++f) {
       const uris_face *fine = &exported.face[f], *was = &coarse.face[f];
-      assert_true(fine->n_triangles > was->n_triangles);
+      n_more += fine->n_triangles - was->n_triangles;
       for (int k = 0; k < fine->n_open; ++k) {
         const double *xyz = uris_frame(fine, fine->open, k), *before = uris_frame(was, was->open, k);
         CHECK_AT_MOST(longest_edge_of(fine, xyz), 0.18);
         CHECK_NEAR(area_of(fine, xyz), area_of(was, before), 1e-8);
         for (int i = 0; i < 3 * was->n_nodes; ++i) CHECK_SAME(xyz[i], before[i]);
       }
-      assert_true(longest_edge_of(was, was->open) > 0.18);
       CHECK_NEAR(outline_of(fine, fine->xyz), outline_of(was, was->xyz), 1e-9);
     }
+    assert_true(n_more > 0);
     uris_free(&coarse);
     uris_free(&exported);
   }
