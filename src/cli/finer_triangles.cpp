@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 #include <utility>
 
 #include "base/array_view.hpp"
@@ -82,17 +82,26 @@ bool FinerTriangles::halve_longer(double length) {
 }
 
 void FinerTriangles::find_edges() {
-  edges_.clear();
-  triangle_edges_.clear();
-  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> known;
-  for (const Triangle &triangle : triangles_) {
-    Corners &numbers = triangle_edges_.emplace_back();
+  struct Side {
+    Ends ends;
+    std::size_t triangle, k;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto ends = std::minmax(triangle.corners[k], triangle.corners[(k + 1) % 3]);
-      const auto [at, is_new] = known.try_emplace({ends.first, ends.second}, view(edges_).size());
-      if (is_new) edges_.push_back({{ends.first, ends.second}, 0});
-      numbers[k] = at->second;
+      const auto [a, b] = std::minmax(triangles_[i].corners[k], triangles_[i].corners[(k + 1) % 3]);
+      sides.push_back({{a, b}, i, k});
     }
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side &s, const Side &t) { return std::tie(s.ends.a, s.ends.b) < std::tie(t.ends.a, t.ends.b); });
+  edges_.clear();
+  triangle_edges_.assign(triangles_.size(), {});
+  for (const Side &side : sides) {
+    const bool is_known = !edges_.empty() && edges_.back().ends.a == side.ends.a && edges_.back().ends.b == side.ends.b;
+    if (!is_known) edges_.push_back({side.ends, 0});
+    triangle_edges_[side.triangle][side.k] = view(edges_).size() - 1;
   }
 }
 

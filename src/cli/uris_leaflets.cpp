@@ -16,7 +16,7 @@ namespace riis::cli {
 namespace {
 
 // A text file of so many triangles, in any number of frames, is beyond use.
-constexpr std::int64_t most_triangles = 4000000;
+constexpr std::int64_t most_triangles = 1000000;
 
 std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
   static const std::map<std::string, std::vector<const char *>> known = {
@@ -88,9 +88,9 @@ void UrisLeaflets::open_to(double opening) {
 std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const UrisMotion &motion) {
   struct Seen {
     FinerTriangles::Triangle triangle;
-    std::size_t n_frames;
+    std::size_t n_frames = 0;
   };
-  std::map<std::int64_t, Seen> seen;
+  std::vector<Seen> seen;  // by triangle_id
   std::size_t n_frames = 0;
   for_all_frames(motion, [&](double opening) {
     open_to(opening);
@@ -98,18 +98,18 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
     const std::int64_t *vertex = nullptr, *id = nullptr;
     const std::int32_t *leaflet = nullptr;
     check(riis_surface_triangles(surface_.get(), &n, &vertex, &id, &leaflet, nullptr));
+    if (n > 0 && id[n - 1] >= view(seen).size()) resize(seen, id[n - 1] + 1);
     for (std::int64_t i = 0; i < n; ++i) {
-      const Corners corners{vertex[3 * i], vertex[3 * i + 1], vertex[3 * i + 2]};
-      ++seen.try_emplace(id[i], Seen{{corners, leaflet[i]}, 0}).first->second.n_frames;
+      Seen &of = view(seen)[id[i]];
+      of.triangle = {{vertex[3 * i], vertex[3 * i + 1], vertex[3 * i + 2]}, leaflet[i]};
+      ++of.n_frames;
     }
     ++n_frames;
   });
   std::vector<FinerTriangles::Triangle> lasting;
-  for (const auto &[id, of] : seen) {
-    if (of.n_frames == n_frames)
-      lasting.push_back(of.triangle);
-    else
-      ++n_left_out_;
+  for (const Seen &of : seen) {
+    if (of.n_frames == n_frames) lasting.push_back(of.triangle);
+    n_left_out_ += of.n_frames > 0 && of.n_frames < n_frames;
   }
   return lasting;
 }
