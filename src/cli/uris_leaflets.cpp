@@ -16,7 +16,7 @@ namespace riis::cli {
 namespace {
 
 // A text file of so many triangles, in any number of frames, is beyond use.
-constexpr std::int64_t most_triangles = 1000000;
+constexpr std::int64_t most_triangles = 2000000;
 
 std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
   static const std::map<std::string, std::vector<const char *>> known = {
