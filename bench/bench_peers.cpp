@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the same nodes and triangles to others (CGAL, VTK), on one thread. First their marks are compared with
+// ./run bench peers: gives the same nodes and triangles to others (CGAL, VTK, OpenVDB), on one thread. First their marks are compared with
 // those of a loop over all triangles, then their times are taken in turns. Fails if the library or CGAL does not mark the loop's
 // nodes.
 //   argv[1]  a file for the results as JSON
@@ -12,6 +12,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,9 +20,13 @@
 
 #include "contest.hpp"
 #include "cylinder.hpp"
+#include "middles.hpp"
 #include "references.hpp"
 #if defined(RIIS_WITH_CGAL)
 #include "cgal_reference.hpp"
+#endif
+#if defined(RIIS_WITH_OPENVDB)
+#include "openvdb_reference.hpp"
 #endif
 #if defined(RIIS_WITH_VTK)
 #include "vtk_reference.hpp"
@@ -34,6 +39,8 @@ using nlohmann::json;
 
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
+// Voxels of OpenVDB's band: 4 and 8 a half thickness.
+constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The truth to agree on: distances by a loop over all triangles.
@@ -42,8 +49,11 @@ struct Truth {
   std::vector<bool> nearest_is_thin;  // the nearest triangle's height over its longest edge is below 1e-6 of that edge
 };
 
+// A peer measures to the triangles, or to something near them.
+enum class Measures { triangles, approximately };
+
 // Compares one peer's distances with the truth. Nodes that are marked differently are counted by reason.
-json compared(const Truth &truth, const std::vector<double> &distance) {
+json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
   constexpr double rounding = 1e-12, single = 2e-6;  // cm, of coordinates of some cm
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;
@@ -51,11 +61,13 @@ json compared(const Truth &truth, const std::vector<double> &distance) {
   for (std::size_t i = 0; i < distance.size(); ++i) {
     const bool by_peer = distance[i] <= half_thickness, is_marked = truth.distance[i] <= half_thickness;
     n_marked += by_peer;
-    if (by_peer && is_marked) largest = std::max(largest, std::abs(distance[i] - truth.distance[i]));
+    if ((by_peer || is_marked) && std::isfinite(distance[i]))
+      largest = std::max(largest, std::abs(distance[i] - truth.distance[i]));
     if (by_peer == is_marked) continue;
     ++n_different;
     const double margin = std::abs(truth.distance[i] - half_thickness);
-    const char *reason = margin <= rounding                     ? "rounding"
+    const char *reason = measures == Measures::approximately    ? "approximation"
+                         : margin <= rounding                   ? "rounding"
                          : margin <= single                     ? "float"
                          : truth.nearest_is_thin[i]             ? "degenerate"
                          : is_marked && distance[i] == infinity ? "radius"
@@ -179,9 +191,10 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     arrays.distance = distance.data();
     check(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, &options, &arrays));
   };
-  const auto add = [&](const std::string &name, int turns, const Contest::Work &work) {
+  const auto add = [&](const std::string &name, int turns, const Contest::Work &work,
+                       Measures measures = Measures::triangles) {
     work();
-    marks[name] = compared(truth, distance);
+    marks[name] = compared(truth, distance, measures);
     contest.add(name, turns, work);
   };
   add("riis, every distance", n_slow_turns, all_distances);
@@ -193,14 +206,40 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
 #else
   contest.leave_out("CGAL, AABB_tree bounded", "CGAL was not found when this was built");
 #endif
+  const std::vector<double> middles = middles_of(triangles);
+  add(
+      "nearest middle of a triangle, a loop", n_slow_turns,
+      [&] { distances_to_middles(middles, n, xyz, distance.data()); }, Measures::approximately);
+#if defined(RIIS_WITH_OPENVDB)
+  std::vector<std::unique_ptr<OpenVdbBand>> bands;
+  for (const auto &[text, voxel] : voxels) {
+    OpenVdbBand &band = *bands.emplace_back(std::make_unique<OpenVdbBand>(triangles, voxel, half_thickness));
+    const auto sample = [&] { band.distances(n, xyz, distance.data()); };
+    add(
+        std::string("OpenVDB, band of voxels of ") + text + ", made and sampled", n_slow_turns,
+        [&band, sample] {
+          band.make();
+          sample();
+        },
+        Measures::approximately);
+    add(std::string("OpenVDB, band of voxels of ") + text + ", sampled", n_slow_turns, sample, Measures::approximately);
+  }
+#else
+  contest.leave_out("OpenVDB, band of voxels", "OpenVDB was not found when this was built");
+#endif
 #if defined(RIIS_WITH_VTK)
+  const VtkPoints points(middles);
+  add(
+      "VTK, vtkStaticPointLocator of middles within a radius", n_slow_turns,
+      [&] { points.distances(n, xyz, half_thickness, distance.data()); }, Measures::approximately);
   const VtkLocator locator(triangles);
   add("VTK, vtkStaticCellLocator within a radius", n_slow_turns,
       [&] { locator.distances(n, xyz, half_thickness, distance.data()); });
   const VtkDistance vtk_distance(triangles);
   add("VTK, vtkImplicitPolyDataDistance", n_slow_turns, [&] { vtk_distance.distances(n, xyz, distance.data()); });
 #else
-  for (const char *name : {"VTK, vtkStaticCellLocator within a radius", "VTK, vtkImplicitPolyDataDistance"})
+  for (const char *name : {"VTK, vtkStaticPointLocator of middles within a radius",
+                           "VTK, vtkStaticCellLocator within a radius", "VTK, vtkImplicitPolyDataDistance"})
     contest.leave_out(name, "built without VTK");
 #endif
   contest.run();

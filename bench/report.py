@@ -336,7 +336,7 @@ def marking_values(data):
 
 # ------------------------------------------------------------------------------------------------------------------- peers
 
-BOUNDED = ("CGAL", "VTK, vtkStaticCellLocator", "fcpw")
+BOUNDED = ("CGAL", "VTK, vtkStatic", "OpenVDB", "fcpw")
 
 
 def peers_table(data, valve):

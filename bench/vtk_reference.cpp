@@ -8,6 +8,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStaticCellLocator.h>
+#include <vtkStaticPointLocator.h>
 
 #include <array>
 #include <cmath>
@@ -78,6 +79,29 @@ void VtkDistance::distances(std::int64_t n_nodes, const double *xyz, double *dis
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     double p[3] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
     distance[i] = std::abs(implementation_->distance->EvaluateFunction(p));
+  }
+}
+
+struct VtkPoints::Implementation {
+  vtkNew<vtkPolyData> cloud;
+  vtkNew<vtkStaticPointLocator> locator;
+};
+
+VtkPoints::VtkPoints(const std::vector<double> &points) : implementation_(std::make_unique<Implementation>()) {
+  const vtkNew<vtkPoints> all;
+  all->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < points.size(); i += 3) all->InsertNextPoint(points.data() + i);
+  implementation_->cloud->SetPoints(all);
+  implementation_->locator->SetDataSet(implementation_->cloud);
+  implementation_->locator->BuildLocator();
+}
+VtkPoints::~VtkPoints() = default;
+
+void VtkPoints::distances(std::int64_t n_nodes, const double *xyz, double limit, double *distance) const {
+  for (std::int64_t i = 0; i < n_nodes; ++i) {
+    double squared = 0;
+    const vtkIdType found = implementation_->locator->FindClosestPointWithinRadius(limit, xyz + 3 * i, squared);
+    distance[i] = found >= 0 ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
   }
 }
 

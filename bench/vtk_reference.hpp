@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Competitors of the library's marking, if VTK is there: its tree of cells with a bounded query (vtkStaticCellLocator), and its
-// signed distance (vtkImplicitPolyDataDistance), which has no bound. They run on one thread.
+// Competitors of the library's marking, if VTK is there: its tree of cells with a bounded query (vtkStaticCellLocator), its
+// signed distance (vtkImplicitPolyDataDistance), which has no bound, and its bins of points (vtkStaticPointLocator). They run on
+// one thread.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "references.hpp"
 
@@ -28,6 +30,20 @@ class VtkDistance {
   ~VtkDistance();
   // Writes the distance without its sign.
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// The nearest of given points, such as the middles of triangles.
+class VtkPoints {
+ public:
+  // points: (3, n)
+  explicit VtkPoints(const std::vector<double> &points);
+  ~VtkPoints();
+  // distance: (n_nodes), infinity where no point is found within the limit. xyz: (3, n_nodes).
+  void distances(std::int64_t n_nodes, const double *xyz, double limit, double *distance) const;
 
  private:
   struct Implementation;

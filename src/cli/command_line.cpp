@@ -17,6 +17,7 @@
 #include "cli/refusal.hpp"
 #include "cli/series_options.hpp"
 #include "cli/state_options.hpp"
+#include "cli/uris_options.hpp"
 #include "cli/valve_file.hpp"
 
 namespace riis::cli {
@@ -34,6 +35,7 @@ struct Texts {
       resistance;
   std::string distance_tolerance, unit, surface_unit, steps, time, period, state_count;
   SeriesTexts series;
+  UrisTexts uris;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string triangulation = triangulation_names()[RIIS_TRIANGULATION_ADAPTED];
   std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
@@ -354,7 +356,9 @@ void check_values(const std::vector<const CLI::Option *> &given) {
 
 // Refuses options without effect.
 void check_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
-  check_series_purpose(options, given);
+  const bool exports = !options.uris.folder.empty();
+  check_uris_purpose(options, given);
+  if (!exports) check_series_purpose(options, given);
   check_states_purpose(options, given);
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
                                                       "--set",          "--opening",         "--quiet"};
@@ -369,7 +373,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     if (prints && of_parameters.count(name) == 0) {
       refuse(name + " has no effect with " + (options.print_params ? "--print-params" : "--describe-params"));
     }
-    if (options.mesh.empty() && options.series.case_file.empty() && of_mesh.count(name) != 0)
+    if (options.mesh.empty() && options.series.case_file.empty() && !exports && of_mesh.count(name) != 0)
       refuse(name + " needs a MESH");
   }
   if (!options.params_open.empty() && is_valve_file(options.valve)) {
@@ -377,10 +381,10 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   }
   // At the default opening of most valves the file would have no effect, and nobody would see it.
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty() && options.states.empty() &&
-      !options.check_crossing) {
-    refuse("--params-open needs --opening, --cycle, --states or --check-crossing");
+      !exports && !options.check_crossing) {
+    refuse("--params-open needs --opening, --cycle, --states, --export-uris or --check-crossing");
   }
-  if (prints || options.check_crossing || !options.series.case_file.empty() || !options.states.empty()) return;
+  if (prints || exports || options.check_crossing || !options.series.case_file.empty() || !options.states.empty()) return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
@@ -482,6 +486,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   declare_output(app, options, texts);
   declare_series(app, options.series, texts.series);
   declare_states(app, options, texts.state_count);
+  declare_uris(app, options.uris, texts.uris);
   check_equals_signs(argc, argv);
   try {
     app.parse(argc, argv);
@@ -511,6 +516,7 @@ std::optional<Options> parse_command_line(int argc, char **argv) {
   options.pictures = pair_pictures(texts);
   options.n_steps = parse_steps(texts.steps);
   parse_states(texts.state_count, options);
+  parse_uris(texts.uris, options.uris);
   options.check_leaks = parse_leak_check(texts.check_leaks);
   check_purpose(options, given);
   return options;

@@ -38,6 +38,19 @@ struct LeakCheck {
   ExitCode exit_code = exit_wrong_usage;
 };
 
+struct TimeSpan {
+  double start, stop;
+};
+
+// An export to svMultiPhysics.
+struct UrisOptions {
+  std::string folder;  // "": not wanted
+  std::optional<double> time_step;
+  std::optional<double> opening_seconds, closing_seconds;  // without a cycle
+  std::optional<TimeSpan> opening_span, closing_span;      // of the cycle
+  double largest_edge = 0;                                 // 0: as the library cuts
+};
+
 // At the position of their RIIS_TRIANGULATION_*.
 const std::vector<std::string> &triangulation_names();
 // Returns the names of the views, each at the position of its RIIS_VTK_VIEW_*.
@@ -70,6 +83,7 @@ struct Options {
   bool check_crossing = false;
   std::optional<LeakCheck> check_leaks;
   SeriesOptions series;
+  UrisOptions uris;
   std::string states;           // the table of --states; "": not wanted
   std::int32_t n_states = 101;  // openings in it
   bool print_params = false, describe_params = false;

@@ -22,6 +22,7 @@
 #include "cli/report.hpp"
 #include "cli/states.hpp"
 #include "cli/steps.hpp"
+#include "cli/uris_export.hpp"
 #include "cli/valve_source.hpp"
 #include "cli/warnings.hpp"
 
@@ -158,6 +159,10 @@ ExitCode run_single(const Options &options) {
 ExitCode run(const Options &options) {
   if (!options.states.empty()) {
     run_states(options);
+    return exit_fine;
+  }
+  if (!options.uris.folder.empty()) {
+    export_uris(options);
     return exit_fine;
   }
   const bool has_case = !options.series.case_file.empty();

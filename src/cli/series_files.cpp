@@ -11,29 +11,9 @@
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
 #include "cli/refusal.hpp"
+#include "cli/xml_text.hpp"
 
 namespace riis::cli {
-namespace {
-
-std::string in_xml(const std::string &text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
-}  // namespace
-
 SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times)
     : pvd_(pvd), ending_(ending), n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
   const std::filesystem::path path(pvd);

@@ -14,7 +14,7 @@ const std::set<std::string> of_states = {"--states",      "--state-count",  "--v
                                          "--params-open", "--set",          "--tolerance",      "--scale",
                                          "--unit",        "--surface-unit", "--half-thickness", "--quiet"};
 
-[[noreturn]] void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
+[[noreturn]] void refuse_states(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
 }  // namespace
 
@@ -36,15 +36,15 @@ void parse_states(const std::string &count, Options &options) {
   if (count.empty()) return;
   options.n_states = parse_integer(count, "--state-count");
   if (options.n_states < 2 || options.n_states > most_states)
-    refuse_usage("--state-count: " + count + " is not from 2 to " + std::to_string(most_states));
+    refuse_states("--state-count: " + count + " is not from 2 to " + std::to_string(most_states));
 }
 
 void check_states_purpose(const Options &options, const std::vector<const CLI::Option *> &given) {
   if (options.states.empty()) return;
   for (const CLI::Option *option : given)
-    if (of_states.count(option->get_name()) == 0) refuse_usage(option->get_name() + " has no effect with --states");
+    if (of_states.count(option->get_name()) == 0) refuse_states(option->get_name() + " has no effect with --states");
   for (const std::string &setting : options.settings)
-    if (setting.rfind("opening=", 0) == 0) refuse_usage("--set opening has no effect with --states");
+    if (setting.rfind("opening=", 0) == 0) refuse_states("--set opening has no effect with --states");
 }
 
 }  // namespace riis::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A competitor of the library's marking, if OpenVDB was found: a narrow band of voxels with distances, interpolated at the nodes.
+// It runs on one thread and in single precision.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "references.hpp"
+
+namespace bench {
+
+class OpenVdbBand {
+ public:
+  // The band reaches one voxel beyond the limit.
+  OpenVdbBand(const Triangles &triangles, double voxel, double limit);
+  ~OpenVdbBand();
+  // Makes the band. A surface that moved needs it anew.
+  void make();
+  // distance: (n_nodes), about the limit where the band does not reach. xyz: (3, n_nodes).
+  void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bench

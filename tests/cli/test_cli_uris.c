@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis-mark --export-uris: the files, read back as svMultiPhysics reads them, against the library's own vertices at the openings
+ * of the frames, and marked by the solver's rule. */
+/* clang-format off: test_support.h checks statuses if riis.h came before */
+#include <riis/riis.h>
+#include <riis/riis_vtk.h>
+
+#include "test_support.h"
+/* clang-format on */
+
+#include "program.h"
+#include "scratch.h"
+#include "uris_files.h"
+
+/* ---- The surface by the library's C interface ---- */
+
+/* Options of riis_surface_create and the words of riis-mark that stand for them. */
+typedef struct {
+  const char *words[6];
+  double scale, half_thickness, turn[4], shift[3];
+} place;
+
+static const place places[] = {
+    {{NULL}, 1, 0.1, {0, 0, 1, 0}, {0, 0, 0}},
+    {{"--unit", "m", "--rotate", "1,2,-1,70", "--translate", "0.02,-0.03,0.01"},
+     0.01,
+     0.001,
+     {1, 2, -1, 70},
+     {0.02, -0.03, 0.01}},
+    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"}, 10, 1.2, {0, 1, 0, 180}, {0, 0, 0}}};
+enum { n_places = sizeof places / sizeof places[0] };
+
+static riis_surface *surface_at(const place *where, riis_valve *valve) {
+  riis_surface_options options;
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_options_init(&options, sizeof options));
+  options.scale = where->scale;
+  options.half_thickness = where->half_thickness;
+  memcpy(options.rotation_axis, where->turn, sizeof options.rotation_axis);
+  options.rotation_angle = where->turn[3];
+  memcpy(options.translation, where->shift, sizeof options.translation);
+  options.triangulation = RIIS_TRIANGULATION_FIXED;
+  CHECK_OK(riis_surface_create(valve, &options, &surface));
+  return surface;
+}
+
+/* The corners of every triangle of a leaflet, (3, 3, n) in the order of triangles. The caller frees them. */
+static double *corners_of(const riis_surface *surface, int leaflet, int *n_found) {
+  int64_t n = 0, n_vertices = 0;
+  const int64_t *vertex = NULL;
+  const int32_t *leaflet_id = NULL;
+  const double *xyz = NULL;
+  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &xyz));
+  CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet_id, NULL));
+  double *corners = calloc(9 * (size_t)n, sizeof *corners);
+  *n_found = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    if (leaflet_id[i] != leaflet) continue;
+    for (int k = 0; k < 9; ++k) corners[9 * *n_found + k] = xyz[3 * vertex[3 * i + k / 3] + k % 3];
+    ++*n_found;
+  }
+  return corners;
+}
+
+static void check_frame(const uris_face *face, const double *frame, const riis_surface *surface, int leaflet,
+                        double scale) {
+  int n = 0;
+  double *corners = corners_of(surface, leaflet, &n);
+  assert_int_equal(face->n_triangles, n);
+  for (int i = 0; i < 9 * n; ++i) CHECK_NEAR(frame[3 * face->corner[i / 3] + i % 3], corners[i], 1e-11 * scale);
+  free(corners);
+}
+
+/* The ramp of fifth degree from 0 to 1 (theory.md, section 12). */
+static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
+
+/* ---- Tests of the files ---- */
+
+#define EXPORT(folder, ...)                                                                \
+  do {                                                                                     \
+    RUN_FINE("--export-uris", scratch_path(folder), "--resistance", "12500", __VA_ARGS__); \
+    exported = uris_read(program_out);                                                     \
+  } while (0)
+#define RAMPS "--time-step", "0.004", "--opening-seconds", "0.02", "--closing-seconds", "0.01"
+
+static uris_valve exported;
+
+static void check_positions(const char *kind, const place *where, riis_valve *valve) {
+  enum { n_open = 6, n_close = 4 }; /* 0.01 s are 2.5 steps, and the last frame is that of the end */
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+  riis_surface *surface = surface_at(where, valve);
+  for (int k = 0; k < n_open + n_close; ++k) {
+    const double s = k < n_open ? k / 5.0 : fmin((k - n_open) / 2.5, 1);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", k < n_open ? ramp(s) : 1 - ramp(s)));
+    CHECK_OK(riis_surface_update(surface, valve, NULL));
+    for (int f = 0; f < exported.n_faces; ++f) {
+      const uris_face *face = &exported.face[f];
+      assert_int_equal(face->n_open, n_open);
+      assert_int_equal(face->n_close, n_close);
+      check_frame(face, k < n_open ? uris_frame(face, face->open, k) : uris_frame(face, face->close, k - n_open),
+                  surface, f, where->scale);
+    }
+    if (exported.has_scaffold)
+      check_frame(&exported.face[exported.n_faces], exported.face[exported.n_faces].xyz, surface, exported.n_faces,
+                  where->scale);
+  }
+  riis_surface_destroy(&surface);
+  assert_string_equal(exported.name, kind);
+  CHECK_SAME(exported.thickness, where->half_thickness);
+  CHECK_SAME(exported.closed_thickness, where->half_thickness);
+  CHECK_SAME(exported.resistance, 12500);
+}
+
+/* Rodrigues' formula. */
+static void turned(const double turn[4], const double from[3], double to[3]) {
+  const double length = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
+  const double a = turn[3] * 3.14159265358979323846 / 180, c = cos(a), s = sin(a);
+  const double n[3] = {turn[0] / length, turn[1] / length, turn[2] / length};
+  const double dot = n[0] * from[0] + n[1] * from[1] + n[2] * from[2];
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    to[k] = c * from[k] + s * (n[i] * from[j] - n[j] * from[i]) + (1 - c) * dot * n[k];
+  }
+}
+
+/* Blood flows along z; in the mitral valve against z, within 5 degrees since the closed annulus is a saddle. */
+static void check_normal(const char *kind, const place *where) {
+  const double along[3] = {0, 0, strcmp(kind, "mitral") == 0 ? -1 : 1};
+  double flow[3], dot = 0, length = 0;
+  turned(where->turn, along, flow);
+  for (int k = 0; k < 3; ++k) dot += flow[k] * exported.normal[k], length += exported.normal[k] * exported.normal[k];
+  CHECK_NEAR(length, 1, 1e-12);
+  const int is_symmetric = strcmp(kind, "trileaflet") == 0 || strcmp(kind, "bileaflet") == 0;
+  assert_true(dot > (is_symmetric ? 1 - 1e-12 : cos(5 * 3.14159265358979323846 / 180)));
+}
+
+static const struct {
+  const char *kind, *face[3], *set;
+  int n_faces;
+} kinds[] = {{"aortic", {"right", "left", "non_coronary"}, "root_radius=1.4", 3},
+             {"trileaflet", {"right", "left", "non_coronary"}, "leaflet_height=1.15", 3},
+             {"mitral", {"anterior", "posterior"}, "anterior_length=2.2", 2},
+             {"bileaflet", {"positive", "negative"}, "ring_height=0.6", 2}};
+enum { n_kinds = sizeof kinds / sizeof kinds[0] };
+
+static void test_positions(void **state) {
+  (void)state;
+  for (int i = 0; i < n_kinds; ++i) {
+    riis_valve *valve = NULL;
+    char name[32];
+    CHECK_OK(riis_valve_create(kinds[i].kind, &valve));
+    snprintf(name, sizeof name, "%s", kinds[i].set);
+    char *equals = strchr(name, '=');
+    *equals = 0;
+    CHECK_OK(riis_valve_set_scalar(valve, name, strtod(equals + 1, NULL)));
+    for (int k = 0; k < n_places; ++k) {
+      const char *const *w = places[k].words;
+      char folder[64];
+      snprintf(folder, sizeof folder, "%s_%d", kinds[i].kind, k);
+      EXPORT(folder, RAMPS, "--valve", kinds[i].kind, "--set", kinds[i].set, w[0], w[1], w[2], w[3], w[4], w[5]);
+      assert_int_equal(exported.n_faces, kinds[i].n_faces);
+      for (int f = 0; f < exported.n_faces; ++f) assert_string_equal(exported.face[f].name, kinds[i].face[f]);
+      assert_int_equal(exported.has_scaffold, strcmp(kinds[i].kind, "bileaflet") == 0);
+      check_positions(kinds[i].kind, &places[k], valve);
+      check_normal(kinds[i].kind, &places[k]);
+      uris_free(&exported);
+    }
+    riis_valve_destroy(&valve);
+  }
+}
+
+/* VTK reads the .vtu with the same nodes in the same order, which are those of the first frame. */
+static void test_vtk(void **state) {
+  (void)state;
+  EXPORT("by_vtk", RAMPS, "--valve", "mitral");
+  const uris_face *face = &exported.face[1];
+  riis_vtk_surface *file = NULL;
+  riis_surface_arrays arrays;
+  CHECK_OK(riis_vtk_surface_read(scratch_path("by_vtk/posterior.vtu"), &file));
+  CHECK_OK(riis_surface_arrays_init(&arrays, sizeof arrays));
+  CHECK_OK(riis_vtk_surface_arrays(file, &arrays));
+  assert_int_equal(arrays.n_vertices, face->n_nodes);
+  assert_int_equal(arrays.n_faces, face->n_triangles);
+  for (int i = 0; i < face->n_nodes; ++i) {
+    CHECK_SAME(arrays.x[i * arrays.stride], face->xyz[3 * i]);
+    CHECK_SAME(arrays.y[i * arrays.stride], face->open[3 * i + 1]);
+    CHECK_SAME(arrays.z[i * arrays.stride], face->open[3 * i + 2]);
+  }
+  riis_vtk_surface_destroy(&file);
+  uris_free(&exported);
+}
+
+/* The solver's velocity of a node, by two frames, is that of the library's vertex. Nodes of the mitral valve also slide along
+ * their leaflet, with the joints of the annulus. */
+static void test_velocity(void **state) {
+  (void)state;
+  riis_valve *valve = NULL, *before = NULL;
+  EXPORT("velocity", RAMPS, "--valve", "trileaflet");
+  CHECK_OK(riis_valve_create("trileaflet", &valve));
+  CHECK_OK(riis_valve_copy(valve, &before));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", ramp(0.4)));
+  CHECK_OK(riis_valve_set_scalar(before, "opening", ramp(0.2)));
+  riis_surface *surface = surface_at(&places[0], valve);
+  CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.004, NULL, NULL));
+  int64_t n = 0, n_vertices = 0;
+  const double *velocity = NULL;
+  const int64_t *vertex = NULL;
+  const int32_t *leaflet = NULL;
+  CHECK_OK(riis_surface_vertex_velocities(surface, &n_vertices, &velocity));
+  CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet, NULL));
+  int next[3] = {0, 0, 0};
+  double fastest = 0, largest_difference = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    const uris_face *face = &exported.face[leaflet[i]];
+    const int *corner = face->corner + 3 * next[leaflet[i]]++;
+    for (int k = 0; k < 9; ++k) {
+      const int at = 3 * corner[k / 3] + k % 3;
+      const double by_library = velocity[3 * vertex[3 * i + k / 3] + k % 3];
+      const double by_frames = (uris_frame(face, face->open, 2)[at] - uris_frame(face, face->open, 1)[at]) / 0.004;
+      largest_difference = fmax(largest_difference, fabs(by_frames - by_library));
+      fastest = fmax(fastest, fabs(by_library));
+    }
+  }
+  printf("speeds up to %.3g, by frames up to %.3g off\n", fastest, largest_difference);
+  CHECK_AT_MOST(largest_difference, 0.01 * fastest);
+  assert_true(fastest > 10);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  riis_valve_destroy(&before);
+  uris_free(&exported);
+}
+
+/* ---- Smaller triangles ---- */
+
+static double distance_of(const double *a, const double *b) {
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+static double area_of(const uris_face *face, const double *xyz) {
+  double area = 0;
+  for (int i = 0; i < face->n_triangles; ++i) {
+    const double *p[3];
+    for (int c = 0; c < 3; ++c) p[c] = xyz + 3 * face->corner[3 * i + c];
+    const double a = distance_of(p[0], p[1]), b = distance_of(p[1], p[2]), c = distance_of(p[2], p[0]);
+    const double s = (a + b + c) / 2;
+    area += sqrt(fmax(0, s * (s - a) * (s - b) * (s - c)));
+  }
+  return area;
+}
+
+static double longest_edge_of(const uris_face *face, const double *xyz) {
+  double longest = 0;
+  for (int i = 0; i < 3 * face->n_triangles; ++i)
+    longest = fmax(longest, distance_of(xyz + 3 * face->corner[i], xyz + 3 * face->corner[i / 3 * 3 + (i + 1) % 3]));
+  return longest;
+}
+
+/* Edges of one triangle only, which are the leaflet's outline: halving must leave none inside. */
+static double outline_of(const uris_face *face, const double *xyz) {
+  double outline = 0;
+  for (int i = 0; i < 3 * face->n_triangles; ++i) {
+    const int a = face->corner[i], b = face->corner[i / 3 * 3 + (i + 1) % 3];
+    int n = 0;
+    for (int j = 0; j < 3 * face->n_triangles; ++j) {
+      const int c = face->corner[j], d = face->corner[j / 3 * 3 + (j + 1) % 3];
+      n += (a == c && b == d) || (a == d && b == c);
+    }
+    if (n == 1) outline += distance_of(xyz + 3 * a, xyz + 3 * b);
+  }
+  return outline;
+}
+
+/* No edge is longer in any frame, and the leaflets are where they were: area and outline stay, and all old nodes are there. */
+static void test_largest_edge(void **state) {
+  (void)state;
+  const char *const valves[] = {"mitral", "bileaflet"};
+  for (int v = 0; v < 2; ++v) {
+    char coarse_folder[32], fine_folder[32];
+    snprintf(coarse_folder, sizeof coarse_folder, "coarse_%d", v);
+    snprintf(fine_folder, sizeof fine_folder, "fine_%d", v);
+    EXPORT(coarse_folder, RAMPS, "--valve", valves[v]);
+    uris_valve coarse = exported;
+    int n_more = 0;
+    EXPORT(fine_folder, RAMPS, "--valve", valves[v], "--largest-edge", "0.18");
+    for (int f = 0; f < exported.n_faces; ++f) {
+      const uris_face *fine = &exported.face[f], *was = &coarse.face[f];
+      n_more += fine->n_triangles - was->n_triangles;
+      for (int k = 0; k < fine->n_open; ++k) {
+        const double *xyz = uris_frame(fine, fine->open, k), *before = uris_frame(was, was->open, k);
+        CHECK_AT_MOST(longest_edge_of(fine, xyz), 0.18);
+        CHECK_NEAR(area_of(fine, xyz), area_of(was, before), 1e-8);
+        for (int i = 0; i < 3 * was->n_nodes; ++i) CHECK_SAME(xyz[i], before[i]);
+      }
+      CHECK_NEAR(outline_of(fine, fine->xyz), outline_of(was, was->xyz), 1e-9);
+    }
+    assert_true(n_more > 0);
+    uris_free(&coarse);
+    uris_free(&exported);
+  }
+}
+
+/* ---- The solver's marks ---- */
+
+typedef struct {
+  int n_marked, n_lost, n_more, n_right_side, n_sides;
+  double delta, delta_lost, largest_excess;
+} rule_marks;
+
+static double delta(double d, double eps) {
+  return d < eps ? (1 + cos(3.14159265358979323846 * d / eps)) / (2 * eps) : 0;
+}
+
+/* Marks a grid round the closed valve by the solver's rule and by the library. */
+static rule_marks marks_of_closed(const char *kind) {
+  const double eps = exported.thickness, step = 0.8 * eps;
+  riis_valve *valve = NULL;
+  rule_marks found;
+  memset(&found, 0, sizeof found);
+  CHECK_OK(riis_valve_create(kind, &valve));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+  riis_surface *surface = surface_at(&places[0], valve);
+  riis_surface_info info;
+  CHECK_OK(riis_surface_get_info(surface, &info, sizeof info));
+  double p[3];
+  for (p[0] = info.lower[0] - eps; p[0] < info.upper[0] + eps; p[0] += step)
+    for (p[1] = info.lower[1] - eps; p[1] < info.upper[1] + eps; p[1] += step)
+      for (p[2] = info.lower[2] - eps; p[2] < info.upper[2] + eps; p[2] += step) {
+        riis_closest closest;
+        CHECK_OK(riis_closest_point(surface, p, &closest, sizeof closest));
+        if (closest.distance > 3 * eps) continue;
+        const double by_rule = uris_distance(&exported, 0, 1, p), d = fabs(by_rule);
+        found.n_marked += closest.distance <= eps;
+        found.n_lost += closest.distance <= eps && d > eps;
+        found.n_more += closest.distance > eps && d <= eps;
+        found.delta += delta(closest.distance, eps);
+        found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
+        if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
+        assert_true(d >= closest.distance - 1e-12); /* the middles of triangles lie on the surface */
+        if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
+        ++found.n_sides;
+        found.n_right_side += (by_rule > 0) == (closest.side > 0);
+      }
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return found;
+}
+
+static void test_marking_rule(void **state) {
+  (void)state;
+  const char *const valves[] = {"trileaflet", "mitral"};
+  for (int v = 0; v < 2; ++v) {
+    char folder[32];
+    snprintf(folder, sizeof folder, "marks_%d", v);
+    EXPORT(folder, RAMPS, "--valve", valves[v]);
+    const rule_marks coarse = marks_of_closed(valves[v]);
+    uris_free(&exported);
+    snprintf(folder, sizeof folder, "fine_marks_%d", v);
+    EXPORT(folder, RAMPS, "--valve", valves[v], "--largest-edge", "0.05");
+    const rule_marks fine = marks_of_closed(valves[v]);
+    uris_free(&exported);
+    printf("%s: of %d nodes %d are lost, with edges up to 0.05 %d; delta is too small by %.3g %%, then %.3g %%\n",
+           valves[v], coarse.n_marked, coarse.n_lost, fine.n_lost, 100 * coarse.delta_lost / coarse.delta,
+           100 * fine.delta_lost / fine.delta);
+    assert_true(coarse.n_marked > 500);
+    assert_int_equal(coarse.n_more + fine.n_more, 0);
+    /* Most nodes are marked, and on their own side of the closed valve. Smaller triangles mark nearly all. */
+    assert_true(coarse.n_lost > 0 && coarse.n_lost < 0.3 * coarse.n_marked);
+    assert_true(fine.largest_excess < 0.05 && fine.largest_excess < coarse.largest_excess);
+    assert_true(fine.n_lost < 0.02 * fine.n_marked && fine.n_lost < coarse.n_lost);
+    assert_true(fine.delta_lost < 0.05 * fine.delta && fine.delta_lost < 0.25 * coarse.delta_lost);
+    assert_true(coarse.n_right_side > 0.9 * coarse.n_sides);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_positions), cmocka_unit_test(test_vtk),
+                                     cmocka_unit_test(test_velocity), cmocka_unit_test(test_largest_edge),
+                                     cmocka_unit_test(test_marking_rule)};
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis-mark --export-uris: the frames of cycles and of other valves, and what is refused. A refusal leaves no file. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "program.h"
+#include "scratch.h"
+#include "uris_files.h"
+
+#define FOLDER scratch_path("uris")
+#define EXPORT "--export-uris", FOLDER, "--resistance", "1e4"
+#define RAMPS "--opening-seconds", "0.02", "--closing-seconds", "0.01"
+
+static void expect_nothing_left(void) { assert_false(scratch_exists("uris")); }
+static void remove_folder(void) {
+  char command[256];
+  snprintf(command, sizeof command, "rm -r %s", FOLDER);
+  assert_int_equal(system(command), 0);
+}
+
+#define REFUSED(exit_code, text, ...) (RUN_REFUSED(exit_code, text, __VA_ARGS__), expect_nothing_left())
+
+/* Runs an export that is fine, returns it, and removes its folder. */
+#define EXPORTED(...) (RUN_FINE(EXPORT, __VA_ARGS__), take_export())
+static uris_valve take_export(void) {
+  const uris_valve valve = uris_read(program_out);
+  remove_folder();
+  return valve;
+}
+
+/* ---- Usage ---- */
+
+static void test_missing_options(void **state) {
+  (void)state;
+  REFUSED(2, "--export-uris needs --time-step", EXPORT, RAMPS);
+  REFUSED(2, "--export-uris needs --resistance", "--export-uris", FOLDER, "--time-step", "0.001", RAMPS);
+  REFUSED(2, "--export-uris needs --opening-seconds and --closing-seconds, or --cycle", EXPORT, "--time-step", "0.001");
+  REFUSED(2, "--export-uris needs --opening-seconds", EXPORT, "--time-step", "0.001", "--closing-seconds", "1");
+  REFUSED(2, "--export-uris needs --closing-seconds", EXPORT, "--time-step", "0.001", "--opening-seconds", "1");
+  REFUSED(2, "--time-step needs --export-uris", "--surface-output", scratch_path("s.vtp"), "--time-step", "0.1");
+  REFUSED(2, "--largest-edge needs --export-uris", "--surface-output", scratch_path("s.vtp"), "--largest-edge", "0.1");
+  REFUSED(2, "--opening-span needs --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--opening-span", "0:1");
+  REFUSED(2, "--closing-span needs --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--closing-span", "0:1");
+}
+
+static void test_useless_options(void **state) {
+  (void)state;
+  scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
+  const char *cycle = scratch_path("c.csv");
+  REFUSED(2, "--opening-seconds has no effect with --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle,
+          "--opening-seconds", "1");
+  REFUSED(2, "--closing-seconds has no effect with --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle,
+          "--closing-seconds", "1");
+  REFUSED(2, "MESH has no effect with --export-uris", "mesh.vtu", EXPORT, "--time-step", "0.001", RAMPS);
+  REFUSED(2, "--opening has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS, "--opening", "0.5");
+  REFUSED(2, "--set opening has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS, "--set",
+          "opening=0.5");
+  REFUSED(2, "--triangulation has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS,
+          "--triangulation", "adapted");
+  REFUSED(2, "--flip-normals has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS,
+          "--flip-normals");
+  REFUSED(2, "--surface excludes --export-uris", EXPORT, "--time-step", "0.001", RAMPS, "--surface", "s.vtp");
+  REFUSED(2, "--print-params has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS,
+          "--print-params");
+}
+
+static void test_numbers(void **state) {
+  (void)state;
+  const char *const steps[] = {"0", "-0.001", "nan", "inf", "-inf"};
+  for (size_t i = 0; i < sizeof steps / sizeof steps[0]; ++i) {
+    char text[64];
+    snprintf(text, sizeof text, "--time-step: %s is not above 0 and finite", steps[i]);
+    char option[32];
+    snprintf(option, sizeof option, "--time-step=%s", steps[i]);
+    REFUSED(2, text, EXPORT, option, RAMPS);
+  }
+  REFUSED(2, "--time-step: 'soon' is not a number", EXPORT, "--time-step", "soon", RAMPS);
+  REFUSED(2, "--time-step: 0.02 is longer than the closing, 0.01", EXPORT, "--time-step", "0.02", RAMPS);
+  REFUSED(2, "--time-step: 0.03 is longer than the opening, 0.02", EXPORT, "--time-step", "0.03", "--opening-seconds",
+          "0.02", "--closing-seconds", "1");
+  REFUSED(2, "--time-step: 1e-09 makes 20000001 frames of the opening; at most 100000", EXPORT, "--time-step", "1e-9",
+          RAMPS);
+  REFUSED(2, "--opening-seconds: 0 is not above 0", EXPORT, "--time-step", "0.001", "--opening-seconds", "0",
+          "--closing-seconds", "1");
+  REFUSED(2, "--closing-seconds: nan is not above 0", EXPORT, "--time-step", "0.001", "--opening-seconds", "1",
+          "--closing-seconds", "nan");
+  REFUSED(2, "--largest-edge: 0 is not above 0", EXPORT, "--time-step", "0.001", RAMPS, "--largest-edge", "0");
+  REFUSED(2, "--largest-edge: 1e-05 makes more than 2000000 triangles", EXPORT, "--time-step", "0.01", RAMPS,
+          "--largest-edge", "1e-5");
+  REFUSED(2, "--half-thickness: -1 is not above 0", EXPORT, "--time-step", "0.01", RAMPS, "--half-thickness=-1");
+}
+
+static void test_spans(void **state) {
+  (void)state;
+  scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
+  const char *cycle = scratch_path("c.csv");
+#define CYCLE EXPORT, "--time-step", "0.25", "--cycle", cycle
+  REFUSED(2, "--opening-span: '0-1' is not START:STOP", CYCLE, "--opening-span", "0-1");
+  REFUSED(2, "--opening-span: '0:1:2' is not START:STOP", CYCLE, "--opening-span", "0:1:2");
+  REFUSED(2, "--closing-span: 'a' is not a number", CYCLE, "--closing-span", "a:1");
+  REFUSED(2, "--closing-span: nan:1 is not finite", CYCLE, "--closing-span", "nan:1");
+  REFUSED(2, "--closing-span: the stop of 2:1 is not after its start", CYCLE, "--closing-span", "2:1");
+  REFUSED(2, "--opening-span: 1:2 takes the valve from opening 1 to 0", CYCLE, "--opening-span", "1:2");
+  REFUSED(2, "--closing-span: 0:1 takes the valve from opening 0 to 1", CYCLE, "--closing-span", "0:1");
+  REFUSED(2, "--time-step: 0.25 is longer than the opening, 0.125", CYCLE, "--opening-span", "0.5:0.625");
+  scratch_write_text("flat.csv", "0,0.5\n1,0.5\n");
+  REFUSED(1, "flat.csv: the opening is 0.5 throughout", EXPORT, "--time-step", "0.25", "--cycle",
+          scratch_path("flat.csv"));
+  scratch_write_text("up.csv", "0,0\n1,1\n");
+  REFUSED(1, "up.csv: the valve does not close there: no key of its least opening follows one of the largest", EXPORT,
+          "--time-step", "0.25", "--cycle", scratch_path("up.csv"));
+  scratch_write_text("down.csv", "0,1\n1,0\n");
+  REFUSED(1, "down.csv: the valve does not open there", EXPORT, "--time-step", "0.25", "--cycle",
+          scratch_path("down.csv"));
+  REFUSED(1, "none.csv: cannot be read", EXPORT, "--time-step", "0.25", "--cycle", scratch_path("none.csv"));
+}
+
+/* ---- The folder ---- */
+
+static void test_folders(void **state) {
+  (void)state;
+  char text[128];
+  assert_int_equal(mkdir(scratch_path("full"), 0777), 0);
+  scratch_write_text("full/mine.txt", "mine");
+  REFUSED(1, "full: the folder is not empty", "--export-uris", scratch_path("full"), "--resistance", "1", "--time-step",
+          "0.01", RAMPS);
+  char *mine = scratch_read(scratch_path("full/mine.txt"), NULL);
+  assert_string_equal(mine, "mine");
+  free(mine);
+  scratch_write_text("file", "a file");
+  REFUSED(1, "file: is a file, not a folder", "--export-uris", scratch_path("file"), "--resistance", "1", "--time-step",
+          "0.01", RAMPS);
+  snprintf(text, sizeof text, "--export-uris: %s: the folder %s does not exist", scratch_path("no/uris"),
+           scratch_path("no"));
+  REFUSED(1, text, "--export-uris", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
+  REFUSED(2, "has a blank, and svMultiPhysics reads no path with one", "--export-uris", "my folder", "--resistance",
+          "1", "--time-step", "0.01", RAMPS);
+  /* An empty folder is filled, and so is one that ends in a slash. */
+  const int n_files = scratch_n_files();
+  assert_int_equal(mkdir(FOLDER, 0777), 0);
+  snprintf(text, sizeof text, "%s/", FOLDER);
+  RUN_FINE("--export-uris", text, "--resistance", "1", "--time-step", "0.01", RAMPS, "--valve", "mitral");
+  assert_null(strstr(program_out, "//"));
+  uris_valve valve = take_export();
+  uris_free(&valve);
+  assert_int_equal(scratch_n_files(), n_files);
+}
+
+/* A valve that is refused, a full disk and an interruption leave nothing, not even the folder. */
+static void test_nothing_half_written(void **state) {
+  (void)state;
+  REFUSED(1, "root_radius", EXPORT, "--time-step", "0.01", RAMPS, "--valve", "trileaflet", "--set", "root_radius=-1");
+  REFUSED(1, "opening is 0.", EXPORT, "--time-step", "0.004", RAMPS, "--valve", scratch_path("patch.json"));
+  struct rlimit before, small = {100000, 0};
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  small.rlim_max = before.rlim_max;
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  run_program(EXPORT, "--time-step", "0.001", RAMPS, "--valve", "mitral", NULL);
+  setrlimit(RLIMIT_FSIZE, &before);
+  expect_run_refused(1, "_open.dat: cannot be written: File too large", __FILE__, __LINE__);
+  expect_nothing_left();
+  const pid_t process = start_program(EXPORT, "--time-step", "2e-4", RAMPS, "--valve", "mitral", NULL);
+  for (int i = 0; i < 100000 && !scratch_exists("uris"); ++i) usleep(1000);
+  kill(process, SIGINT);
+  finish_program(process);
+  assert_int_equal(program_exit_code, 128 + SIGINT);
+  expect_nothing_left();
+}
+
+/* ---- Cycles, and valves of patches ---- */
+
+static void expect_openings(const char *text) {
+  if (!strstr(program_out, text)) fail_msg("no '%s' in:\n%s", text, program_out);
+}
+
+static void test_cycles(void **state) {
+  (void)state;
+  /* The way up is 0.22:0.29, and the way down 0.29:0.66: from the largest key to the next of the least. */
+  scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
+  uris_valve valve = EXPORTED("--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"));
+  assert_int_equal(valve.face[0].n_open, 8);
+  assert_int_equal(valve.face[0].n_close, 38);
+  expect_openings("opening: 8 frames, from opening 0 to 1\n");
+  expect_openings("closing: 38 frames, from opening 1 to 0\n");
+  uris_free(&valve);
+  /* The period takes the way over its end. */
+  scratch_write_text("over.csv", "0,0.5\n0.25,1\n0.5,0\n");
+  valve = EXPORTED("--time-step", "0.125", "--cycle", scratch_path("over.csv"), "--period", "1", "--interpolation",
+                   "cubic");
+  assert_int_equal(valve.face[0].n_open, 7);
+  assert_int_equal(valve.face[0].n_close, 3);
+  uris_free(&valve);
+  /* A part of the way down: the leaflets jump, and the program says so. */
+  run_program(EXPORT, "--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"),
+              "--closing-span", "0.57:0.66", "--quiet", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_string_equal(program_out, "");
+  assert_non_null(
+      strstr(program_err, "the leaflets will jump: the opening ends at opening 1, the closing begins at 0.85\n"));
+  remove_folder();
+}
+
+/* One side of the patch shrinks to a point as it opens, and then some triangles have no area. */
+static void test_patches(void **state) {
+  (void)state;
+  scratch_write_text(
+      "shrinks.json",
+      "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
+      "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}],"
+      "\"open\": {\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[0,1,0]], \"c\": [[0,0,0],[0,1,0]],"
+      "\"d\": [[1,0,0],[0,1,0]]}}}");
+  run_program(EXPORT, "--time-step", "0.01", RAMPS, "--valve", scratch_path("shrinks.json"), NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_err, "left out, because the area is 0 in some frames"));
+  uris_valve valve = take_export();
+  assert_string_equal(valve.name, "shrinks");
+  assert_string_equal(valve.face[0].name, "leaflet_0");
+  assert_true(valve.normal[2] == 1 && valve.normal[0] == 0);
+  uris_free(&valve);
+}
+
+static int make_files(void **state) {
+  const int status = scratch_setup(state);
+  scratch_write_text(
+      "patch.json",
+      "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
+      "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
+  return status;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_missing_options), cmocka_unit_test(test_useless_options),
+      cmocka_unit_test(test_numbers),         cmocka_unit_test(test_spans),
+      cmocka_unit_test(test_folders),         cmocka_unit_test(test_nothing_half_written),
+      cmocka_unit_test(test_cycles),          cmocka_unit_test(test_patches)};
+  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
+}
