@@ -29,7 +29,7 @@ bool is_of(const Py_buffer &view, const char *wanted) {
 }
 
 std::string dtype_of(nb::handle object, const char *format) {
-  if (nb::hasattr(object, "dtype")) return nb::cast<std::string>(nb::str(object.attr("dtype")));
+  if (nb::hasattr(object, "dtype")) return nb::cast<std::string>(nb::str(nb::object(object.attr("dtype"))));
   return format ? format : "uint8";
 }
 

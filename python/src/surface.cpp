@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface.hpp"
 
-#include <nanobind/stl/string.h>
 
 namespace riis_python {
 namespace {
