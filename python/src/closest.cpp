@@ -71,15 +71,15 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
 
 void add_closest(nb::class_<Surface> &surface) {
   surface
-      .def("closest_point", &closest_point, nb::arg("point"),
+      .def("closest_point", &closest_point, nb::arg("point").none(),
            nb::sig("def closest_point(self, point: collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64]) -> "
                    "riis._records.ClosestPoint"),
            "Finds the closest point of the surface to one point of three coordinates, mesh units.")
-      .def("closest_points", &closest_points, nb::arg("points"), nb::kw_only(), nb::arg("distance") = true,
-           nb::arg("point") = true, nb::arg("barycentric") = false, nb::arg("normal") = true, nb::arg("triangle_id") = true,
-           nb::arg("leaflet_id") = true, nb::arg("side") = false, nb::arg("distance_limit") = nb::none(),
-           nb::arg("far_distance") = RIIS_FAR_DISTANCE, nb::arg("mask") = nb::none(), nb::arg("ids") = nb::none(),
-           nb::arg("n_threads") = 0,
+      .def("closest_points", &closest_points, nb::arg("points").none(), nb::kw_only(), nb::arg("distance").none() = true,
+           nb::arg("point").none() = true, nb::arg("barycentric").none() = false, nb::arg("normal").none() = true, nb::arg("triangle_id").none() = true,
+           nb::arg("leaflet_id").none() = true, nb::arg("side").none() = false, nb::arg("distance_limit").none() = nb::none(),
+           nb::arg("far_distance").none() = RIIS_FAR_DISTANCE, nb::arg("mask").none() = nb::none(), nb::arg("ids").none() = nb::none(),
+           nb::arg("n_threads").none() = 0,
            nb::sig("def closest_points(self, points: numpy.typing.NDArray[numpy.float64], *, "
                    RIIS_OUTPUT("distance", "float64", "True") RIIS_OUTPUT("point", "float64", "True")
                    RIIS_OUTPUT("barycentric", "float64", "False") RIIS_OUTPUT("normal", "float64", "True")

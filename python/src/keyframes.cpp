@@ -47,9 +47,9 @@ period         > 0: the motion repeats. 0: the first frame counts before its tim
 interpolation  'linear' or 'cubic', of each coordinate
 
 Arrays are copied.)");
-  keyframes.def("__init__", &create, nb::arg("time"), nb::arg("vertices"), nb::arg("faces"), nb::kw_only(),
-                nb::arg("leaflet_id") = nb::none(), nb::arg("period") = 0.0, nb::arg("interpolation") = "linear",
-                nb::arg("index_base") = 0,
+  keyframes.def("__init__", &create, nb::arg("time").none(), nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
+                nb::arg("leaflet_id").none() = nb::none(), nb::arg("period").none() = 0.0, nb::arg("interpolation").none() = "linear",
+                nb::arg("index_base").none() = 0,
                 nb::sig("def __init__(self, time: numpy.typing.NDArray[numpy.float64], vertices: "
                         "numpy.typing.NDArray[numpy.float64], faces: numpy.typing.NDArray[numpy.integer], *, leaflet_id: "
                         "numpy.typing.NDArray[numpy.int32] | None = None, period: float = 0.0, interpolation: "

@@ -109,37 +109,37 @@ void add_property(nb::module_ &module, const char *type, const char *name, nb::o
 
 void add_leaks(nb::module_ &module) {
   add_property(module, "MarkResult", "leaking_edges",
-               nb::cpp_function(&leaking_edges, nb::arg("self"),
+               nb::cpp_function(&leaking_edges, nb::arg("self").none(),
                                 nb::sig("def leaking_edges(self) -> riis._records.LeakingEdges"),
                                 "The edges of the last riis.find_leaks: node_id (n, 2), length and distance (n,). Views."));
   add_property(module, "Surface", "crossing_pairs",
-               nb::cpp_function(&crossing_pairs, nb::arg("self"),
+               nb::cpp_function(&crossing_pairs, nb::arg("self").none(),
                                 nb::sig("def crossing_pairs(self) -> riis._records.CrossingPairs"),
                                 "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length "
                                 "(n,). Views."));
   module.def("find_leaks", &find_leaks, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
-             nb::arg("mask") = nb::none(), nb::arg("n_threads") = 0,
+             nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
              nb::sig("def find_leaks(surface: Surface, mesh: Mesh, marks: MarkResult, *, " RIIS_MASK
                      ", n_threads: int = 0) -> riis._records.Leaks"),
              R"(Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes.
 
 surface, mesh and mask are those of the marking. marks keeps the edges (marks.leaking_edges), all else stays.)");
   module.def("label_open_regions", &label_open_regions, nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
-             nb::arg("mask") = nb::none(), nb::arg("n_threads") = 0, nb::arg("label") = nb::none(),
+             nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0, nb::arg("label").none() = nb::none(),
              nb::sig("def label_open_regions(mesh: Mesh, marks: MarkResult, *, " RIIS_MASK ", n_threads: int = 0, label: "
                      RIIS_NODES " | None = None) -> tuple[" RIIS_NODES ", int]"),
              R"(Labels the connected components of the unmarked nodes, along the mesh's adjacency. Returns (label, n_regions).
 
 label  (n_nodes,) int64: the lowest node of the node's region, -1 for nodes in no region; None: a new array)");
-  module.def("find_passage", &find_passage, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("from_ids"),
-             nb::arg("to_ids"), nb::kw_only(), nb::arg("mask") = nb::none(), nb::arg("n_threads") = 0,
+  module.def("find_passage", &find_passage, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("from_ids").none(),
+             nb::arg("to_ids").none(), nb::kw_only(), nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
              nb::sig("def find_passage(surface: Surface, mesh: Mesh, from_ids: " RIIS_NODES ", to_ids: " RIIS_NODES
                      ", *, " RIIS_MASK ", n_threads: int = 0) -> riis._records.Passage"),
              R"(Finds the widest passage along the mesh's adjacency from one set of nodes to another.
 
 from_ids, to_ids  (n,) int64, at least one node each, farther from the surface than the half thickness)");
-  module.def("find_crossings", &find_crossings, nb::arg("surface").none(), nb::kw_only(), nb::arg("depth") = 1e-6,
-             nb::arg("n_threads") = 0,
+  module.def("find_crossings", &find_crossings, nb::arg("surface").none(), nb::kw_only(), nb::arg("depth").none() = 1e-6,
+             nb::arg("n_threads").none() = 0,
              nb::sig("def find_crossings(surface: Surface, *, depth: float = 1e-6, n_threads: int = 0) -> "
                      "riis._records.Crossings"),
              R"(Finds every pair of the surface's triangles that go through each other.

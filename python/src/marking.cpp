@@ -257,8 +257,8 @@ read-only, without a copy, and kept alive. Marking into a result whose views are
           },
           nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
       .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
-      .def("dense", &dense, nb::kw_only(), nb::arg("mark") = true, nb::arg("distance") = true, nb::arg("triangle_id") = false,
-           nb::arg("leaflet_id") = false, nb::arg("far_distance") = RIIS_FAR_DISTANCE,
+      .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true, nb::arg("triangle_id").none() = false,
+           nb::arg("leaflet_id").none() = false, nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
            nb::sig("def dense(self, *, mark: bool | numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] = True, "
                    "distance: bool | numpy.typing.NDArray[numpy.float64] = True, triangle_id: bool | "
                    "numpy.typing.NDArray[numpy.int64] = False, leaflet_id: bool | numpy.typing.NDArray[numpy.int32] = False, "
@@ -274,9 +274,9 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
   add_resistance(result);
   add_closing(result);
 
-  module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into") = nb::none(),
-             nb::arg("fields") = nb::none(), nb::arg("distance_limit") = nb::none(), nb::arg("mask") = nb::none(),
-             nb::arg("search") = "auto", nb::arg("n_threads") = 0, nb::arg("instructions") = "auto",
+  module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into").none() = nb::none(),
+             nb::arg("fields").none() = nb::none(), nb::arg("distance_limit").none() = nb::none(), nb::arg("mask").none() = nb::none(),
+             nb::arg("search").none() = "auto", nb::arg("n_threads").none() = 0, nb::arg("instructions").none() = "auto",
              nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: MarkResult | None = None, fields: str | "
                      "collections.abc.Sequence[str] | None = None, distance_limit: float | None = None, mask: "
                      "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, search: "

@@ -199,8 +199,8 @@ void add_adjacency(nb::module_ &module) {
 
 from_cells, from_faces and from_grid make one. Columns ascend without repetition, and the rows are symmetric.)");
   adjacency
-      .def_static("from_cells", &from_cells, nb::arg("cells"), nb::arg("n_nodes"), nb::kw_only(), nb::arg("offsets") = nb::none(),
-                  nb::arg("index_base") = 0, nb::arg("n_threads") = 0,
+      .def_static("from_cells", &from_cells, nb::arg("cells").none(), nb::arg("n_nodes").none(), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
+                  nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
                   nb::sig("def from_cells(cells: " RIIS_IDS ", n_nodes: int, *, offsets: " RIIS_IDS
                           " | None = None, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
                   R"(Makes the adjacency of nodes that an edge of a cell joins.
@@ -209,15 +209,15 @@ cells    (n_cells, 4, 5, 6 or 8) int32 or int64: tetrahedra, pyramids, prisms or
          offsets, (n,): the nodes of cell after cell
 n_nodes  of the mesh
 offsets  (n_cells + 1,) of the type of cells: where each cell begins in cells, and the last ends)")
-      .def_static("from_faces", &from_faces, nb::arg("owner"), nb::arg("neighbor"), nb::arg("n_cells"), nb::kw_only(),
-                  nb::arg("index_base") = 0, nb::arg("n_threads") = 0,
+      .def_static("from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(), nb::arg("n_cells").none(), nb::kw_only(),
+                  nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
                   nb::sig("def from_faces(owner: " RIIS_IDS ", neighbor: " RIIS_IDS
                           ", n_cells: int, *, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
                   R"(Makes the adjacency of cells with a common face, for codes that mark cell centres.
 
 owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a face joins; neighbor is index_base - 1 at
                  the boundary)")
-      .def_static("from_grid", &from_grid, nb::arg("ni"), nb::arg("nj"), nb::arg("nk"), nb::kw_only(), nb::arg("n_threads") = 0,
+      .def_static("from_grid", &from_grid, nb::arg("ni").none(), nb::arg("nj").none(), nb::arg("nk").none(), nb::kw_only(), nb::arg("n_threads").none() = 0,
                   nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
                   "Makes the adjacency of a structured grid; node (i, j, k) has the number i + ni (j + nj k).")
       .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
@@ -246,19 +246,19 @@ void add_mesh(nb::module_ &module) {
 
 xyz is (n, 3) float64 of any forward strides, in C or Fortran order, mesh units; or x, y and z are (n,) float64 with
 equal strides. The mesh keeps the arrays alive. Call update() after every change of the coordinates.)");
-  mesh.def("__init__", &create, nb::arg("xyz"), nb::arg("y") = nb::none(), nb::arg("z") = nb::none(),
+  mesh.def("__init__", &create, nb::arg("xyz").none(), nb::arg("y").none() = nb::none(), nb::arg("z").none() = nb::none(),
            nb::sig("def __init__(self, xyz: " RIIS_COORDINATES ", y: " RIIS_COORDINATES " | None = None, z: " RIIS_COORDINATES
                    " | None = None) -> None"))
-      .def("update", &update, nb::arg("xyz") = nb::none(), nb::arg("y") = nb::none(), nb::arg("z") = nb::none(),
+      .def("update", &update, nb::arg("xyz").none() = nb::none(), nb::arg("y").none() = nb::none(), nb::arg("z").none() = nb::none(),
            nb::sig("def update(self, xyz: " RIIS_COORDINATES " | None = None, y: " RIIS_COORDINATES " | None = None, z: "
                    RIIS_COORDINATES " | None = None) -> None"),
            R"(Tells the mesh that its nodes moved, in place (no argument) or to other arrays, and checks them.
 
 The adjacency stays if the number of nodes does.)")
-      .def("prepare", &prepare, nb::arg("n_threads") = 0, nb::sig("def prepare(self, n_threads: int = 0) -> None"),
+      .def("prepare", &prepare, nb::arg("n_threads").none() = 0, nb::sig("def prepare(self, n_threads: int = 0) -> None"),
            "Makes the clusters of search='clusters' now, rather than in the second marking: 41 bytes a node.")
-      .def("set_adjacency", &set_adjacency, nb::arg("adjacency") = nb::none(), nb::kw_only(), nb::arg("offsets") = nb::none(),
-           nb::arg("columns") = nb::none(), nb::arg("n_all") = 0, nb::arg("index_base") = 0,
+      .def("set_adjacency", &set_adjacency, nb::arg("adjacency").none() = nb::none(), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
+           nb::arg("columns").none() = nb::none(), nb::arg("n_all").none() = 0, nb::arg("index_base").none() = 0,
            nb::sig("def set_adjacency(self, adjacency: typing.Any = None, *, offsets: " RIIS_IDS " | None = None, columns: "
                    RIIS_IDS " | None = None, n_all: int = 0, index_base: int = 0) -> None"),
            R"(Gives the mesh the neighbours of its nodes, which are borrowed and kept alive. No argument takes them away.

@@ -78,8 +78,8 @@ nb::object band_sums(MarkResult &result, nb::handle value_, nb::handle weight_, 
 
 void add_resistance(nb::class_<MarkResult> &result) {
   result
-      .def("add_resistance", &add_to, nb::arg("coefficient") = nb::none(), nb::arg("momentum") = nb::none(), nb::kw_only(),
-           nb::arg("resistance"), nb::arg("half_thickness") = nb::none(), nb::arg("rim") = "round",
+      .def("add_resistance", &add_to, nb::arg("coefficient").none() = nb::none(), nb::arg("momentum").none() = nb::none(), nb::kw_only(),
+           nb::arg("resistance").none(), nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
            nb::sig("def add_resistance(self, coefficient: " RIIS_REALS " | None = None, momentum: " RIIS_REALS
                    " | None = None, *, " RIIS_MODEL ") -> None"),
            R"(Adds K and K u_surface to the caller's arrays, so that several valves add up.
@@ -90,8 +90,8 @@ resistance      R, mass / (length time), such as kg/(m s)
 half_thickness  eps, mesh units, at most the distance limit of the marking; None: that of the marking
 rim             'round': every node within eps resists; 'cut': not those whose closest point is on the rim, which needs
                 fields='rim')")
-      .def("add_reaction", &add_reaction, nb::arg("velocity"), nb::arg("weight"), nb::arg("force") = nb::none(), nb::kw_only(),
-           nb::arg("resistance"), nb::arg("half_thickness") = nb::none(), nb::arg("rim") = "round",
+      .def("add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(),
+           nb::arg("resistance").none(), nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
            nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
                    " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
            R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
@@ -99,7 +99,7 @@ rim             'round': every node within eps resists; 'cut': not those whose c
 velocity  (n_nodes, 3) float64: of the flow
 weight    (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
 force     (3,) float64; None: a new array)")
-      .def("band_sums", &band_sums, nb::arg("value"), nb::arg("weight"), nb::arg("inner"), nb::arg("outer"),
+      .def("band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(), nb::arg("outer").none(),
            nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
                    ", inner: float, outer: float) -> riis._records.BandSums"),
            R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side.

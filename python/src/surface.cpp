@@ -23,9 +23,9 @@ riis_surface_options default_options() {
   return options;
 }
 
-// Returns the options for a call of a child of fork(), which has one thread.
+// Returns the options for a call. A child of fork() has one thread, also if the options are those of its parent.
 riis_surface_options for_this_process(riis_surface_options options) {
-  options.n_threads = thread_count(nb::int_(options.n_threads));
+  if (is_forked()) options.n_threads = 1;
   return options;
 }
 
@@ -239,8 +239,8 @@ Updates keep the options that they do not name, and raise BufferError while arra
   surface
       .def("__init__", &create, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def __init__(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"))
-      .def_static("from_arrays", &from_arrays, nb::arg("vertices"), nb::arg("faces").none(), nb::kw_only(),
-                  nb::arg("leaflet_id") = nb::none(), nb::arg("velocities") = nb::none(), nb::arg("index_base") = 0,
+      .def_static("from_arrays", &from_arrays, nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
+                  nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0,
                   nb::arg("options"),
                   nb::sig("def from_arrays(vertices: " RIIS_POINTS ", faces: " RIIS_FACES
                           ", *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
@@ -251,7 +251,7 @@ vertices    (n_vertices, 3) float64 of any forward strides, before placement
 faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the right-hand rule makes the normal
 leaflet_id  (n_faces,) int32, >= 0; default 0
 velocities  (n_vertices, 3) float64, lengths over the caller's time)")
-      .def_static("from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time"), nb::arg("since") = nb::none(),
+      .def_static("from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(), nb::arg("since").none() = nb::none(),
                   nb::arg("options"),
                   nb::sig("def from_keyframes(keyframes: Keyframes, time: float, since: float | None = None, *, "
                           RIIS_SURFACE_OPTIONS ") -> Surface"),
@@ -261,8 +261,8 @@ since is the time that the velocity is the mean from. None: the derivative of th
       .def("update", &update, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def update(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by that of a valve, such as one that moved.")
-      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(), nb::arg("seconds"),
-           nb::kw_only(), nb::arg("placement_before") = nb::none(), nb::arg("options"),
+      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(), nb::arg("seconds").none(),
+           nb::kw_only(), nb::arg("placement_before").none() = nb::none(), nb::arg("options"),
            nb::sig("def update_moving(self, valve: Valve, valve_before: Valve, seconds: float, *, placement_before: dict[str, "
                    "typing.Any] | None = None, " RIIS_SURFACE_OPTIONS ") -> None"),
            R"(Replaces the content as update does, and gives every vertex a velocity.
@@ -273,14 +273,14 @@ placement_before  a dict of scale, rotation_axis, rotation_angle and translation
                   the present ones
 
 The velocity, in mesh units over the unit of seconds, is the mean of the step.)")
-      .def("update_from_arrays", &update_from_arrays, nb::arg("vertices"), nb::arg("faces") = nb::none(), nb::kw_only(),
-           nb::arg("leaflet_id") = nb::none(), nb::arg("velocities") = nb::none(), nb::arg("index_base") = 0, nb::arg("options"),
+      .def("update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(), nb::kw_only(),
+           nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0, nb::arg("options"),
            nb::sig("def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
                    " | None = None, *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
                    " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content from arrays, as from_arrays takes them. Without faces the vertices alone move.")
-      .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time"),
-           nb::arg("since") = nb::none(), nb::arg("options"),
+      .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
+           nb::arg("since").none() = nb::none(), nb::arg("options"),
            nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, since: float | None = None, *, "
                    RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by the frames around a time, as from_keyframes does.")

@@ -54,7 +54,7 @@ const Keyword keywords[] = {
        o.triangulation = choice(value, name, {{"adapted", RIIS_TRIANGULATION_ADAPTED}, {"fixed", RIIS_TRIANGULATION_FIXED}});
      },
      false},
-    {"n_threads", [](riis_surface_options &o, nb::handle value, const char *name) { o.n_threads = integer32(value, name); },
+    {"n_threads", [](riis_surface_options &o, nb::handle value, const char *name) { o.n_threads = thread_count(value, name); },
      false},
 };
 

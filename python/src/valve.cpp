@@ -161,11 +161,11 @@ dict(valve) has all. Lengths are in centimetres by default, angles in degrees. A
 aortic valve stands for all three cusps and can only be set; 'right.leaflet_angle' is one cusp's. Rotation,
 translation, t0_* and t3_* have three values.)");
   valve
-      .def("__init__", &create, nb::arg("kind") = "aortic", nb::arg("parameters"),
+      .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
            nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"))
-      .def_static("from_patches", &from_patches, nb::arg("degree"), nb::arg("control"), nb::arg("curve_id"), nb::kw_only(),
-                  nb::arg("reversed") = nb::none(), nb::arg("leaflet_id") = nb::none(), nb::arg("index_base") = 0,
+      .def_static("from_patches", &from_patches, nb::arg("degree").none(), nb::arg("control").none(), nb::arg("curve_id").none(), nb::kw_only(),
+                  nb::arg("reversed").none() = nb::none(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("index_base").none() = 0,
                   nb::sig("def from_patches(degree: numpy.typing.NDArray[numpy.int32], control: "
                           "numpy.typing.NDArray[numpy.float64], curve_id: numpy.typing.NDArray[numpy.int32], *, reversed: "
                           "numpy.typing.NDArray[numpy.int32] | None = None, leaflet_id: numpy.typing.NDArray[numpy.int32] | None "
@@ -179,14 +179,14 @@ reversed     (n_patches, 4) int32: 1 where the side runs against its curve
 leaflet_id   (n_patches,) int32, >= 0; default 0
 
 The valve's only parameter is 'opening'. Arrays are copied.)")
-      .def("__setitem__", &set, nb::arg("name"), nb::arg("value"),
+      .def("__setitem__", &set, nb::arg("name").none(), nb::arg("value").none(),
            nb::sig("def __setitem__(self, name: str, value: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"),
            "Sets a parameter, to one value or three.")
-      .def("__getitem__", &get, nb::arg("name"),
+      .def("__getitem__", &get, nb::arg("name").none(),
            nb::sig("def __getitem__(self, name: str) -> typing.Any"),
            "Returns a parameter: a float, or an array (3,) for a parameter with three values.")
-      .def("__contains__", &contains, nb::arg("name"), nb::sig("def __contains__(self, name: object) -> bool"))
+      .def("__contains__", &contains, nb::arg("name").none(), nb::sig("def __contains__(self, name: object) -> bool"))
       .def(
           "__iter__", [](Valve &self) { return nb::iter(keys(self)); },
           nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"))
