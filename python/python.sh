@@ -96,7 +96,7 @@ python_package() {
     "$OLDPWD/$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs .) || status=$?
   [[ ! $cost ]] || {
     say "the cost of the Python layer at a million nodes"
-    "$python_folder/fresh/bin/python" -B python/cost.py || status=$?
+    "$python_folder/fresh/bin/python" -B python/tests/cost.py || status=$?
   }
   return "$status"
 }

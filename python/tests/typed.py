@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A program whose types ./run python checks with mypy --strict. It is the example of docs/python.md."""
+"""A program whose types ./run python checks with mypy --strict, so that the stubs say what the calls take and return."""
 
 import numpy
 from numpy.typing import NDArray

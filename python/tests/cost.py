@@ -16,7 +16,7 @@ import riis
 BAR = 1.05
 
 
-def measure(surface, mesh, n_threads, reuse, n_steps=200):
+def measure(surface, mesh, n_threads, reuse, n_steps=50):
     """Returns the medians of the C function and of the Python layer, in seconds."""
     own = riis.MarkResult()
     inside, layer = [], []
