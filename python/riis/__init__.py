@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""riis: heart valves as resistive immersed implicit surfaces.
+
+    import numpy, riis
+
+    valve = riis.Valve("mitral", opening=0.3)
+    surface = riis.Surface(valve, half_thickness=0.1)
+    mesh = riis.Mesh(xyz)                               # (n, 3) float64, borrowed
+    marks = riis.mark(surface, mesh)
+    marks.ids, marks.distance                           # views without a copy
+    marks.add_resistance(K, resistance=1e4)
+
+Lengths have one unit of the caller's choice, angles are in degrees. Ids count from 0. Errors are exceptions of classes
+below riis.Error, or TypeError, and name the argument. Calls release the interpreter's lock. Results are the same to the
+last bit for any number of threads.
+"""
+
+from enum import IntEnum
+
+from riis import laws
+from riis._errors import (
+    Error,
+    InternalError,
+    InvalidArgumentError,
+    InvalidMeshError,
+    InvalidParameterError,
+    InvalidSurfaceError,
+    LimitExceededError,
+    OutOfMemoryError,
+    UnavailableError,
+)
+from riis._records import (
+    BandSums,
+    ClosestPoint,
+    ClosestPoints,
+    CrossingPairs,
+    Crossings,
+    Dense,
+    LeakingEdges,
+    Leaks,
+    MarkStats,
+    Parameter,
+    Passage,
+    SurfaceInfo,
+    Triangles,
+)
+from riis._riis import (
+    FAR_DISTANCE,
+    LOG_INFO,
+    LOG_WARNING,
+    Adjacency,
+    Keyframes,
+    MarkResult,
+    Mesh,
+    Surface,
+    Valve,
+    WithinLimit,
+    find_crossings,
+    find_leaks,
+    find_passage,
+    label_open_regions,
+    mark,
+    set_log,
+    status_name,
+    version,
+    version_string,
+)
+from riis.laws import (
+    OpeningAngle,
+    OpeningAngleState,
+    OpeningSwitch,
+    OpeningSwitchState,
+    OpeningTable,
+    OpeningTimes,
+)
+
+__version__ = version_string()
+
+
+class Leaflet(IntEnum):
+    """The leaflets of the parametric valves, as leaflet_id reports them."""
+
+    RIGHT = 0  #: aortic: the right coronary cusp; trileaflet: the cusp on the x axis
+    LEFT = 1  #: aortic: the left coronary cusp; trileaflet: at 120 degrees
+    NON_CORONARY = 2  #: aortic; trileaflet: at -120 degrees
+    ANTERIOR = 0  #: mitral
+    POSTERIOR = 1  #: mitral, all three scallops
+    POSITIVE = 0  #: bileaflet: the leaflet at x > 0
+    NEGATIVE = 1  #: bileaflet: the leaflet at x < 0
+    HOUSING = 2  #: bileaflet: the housing's wall
+
+
+__all__ = [
+    "FAR_DISTANCE",
+    "LOG_INFO",
+    "LOG_WARNING",
+    "Adjacency",
+    "BandSums",
+    "ClosestPoint",
+    "ClosestPoints",
+    "CrossingPairs",
+    "Crossings",
+    "Dense",
+    "Error",
+    "InternalError",
+    "InvalidArgumentError",
+    "InvalidMeshError",
+    "InvalidParameterError",
+    "InvalidSurfaceError",
+    "Keyframes",
+    "LeakingEdges",
+    "Leaflet",
+    "Leaks",
+    "LimitExceededError",
+    "MarkResult",
+    "MarkStats",
+    "Mesh",
+    "OpeningAngle",
+    "OpeningAngleState",
+    "OpeningSwitch",
+    "OpeningSwitchState",
+    "OpeningTable",
+    "OpeningTimes",
+    "OutOfMemoryError",
+    "Parameter",
+    "Passage",
+    "Surface",
+    "SurfaceInfo",
+    "Triangles",
+    "UnavailableError",
+    "Valve",
+    "WithinLimit",
+    "find_crossings",
+    "find_leaks",
+    "find_passage",
+    "label_open_regions",
+    "laws",
+    "mark",
+    "set_log",
+    "status_name",
+    "version",
+    "version_string",
+]

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the calls of riis return besides arrays: named tuples."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+Reals = NDArray[numpy.float64]
+Ids = NDArray[numpy.int64]
+Integers = NDArray[numpy.int32]
+
+
+class Parameter(NamedTuple):
+    """The description of a valve's parameter."""
+
+    name: str
+    unit: Literal["length", "degree", "1"]
+    description: str
+    n_values: int  #: 1 or 3
+    default: float | Reals  #: (3,) for three values
+    minimum: float  #: of every value, inclusive
+    maximum: float  #: of every value, inclusive
+
+
+class SurfaceInfo(NamedTuple):
+    """The size of a surface, and the seconds that its last create or update took."""
+
+    n_vertices: int
+    n_triangles: int
+    n_zero_area: int  #: triangles that were skipped for want of area
+    half_thickness: float  #: mesh units, as all lengths here
+    area: float
+    lower: Reals  #: (3,), bounds of the triangles
+    upper: Reals  #: (3,)
+    seconds_triangles: float
+    seconds_scene: float
+    error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this
+
+
+class Triangles(NamedTuple):
+    """The triangles of a surface, as views."""
+
+    vertex_id: Ids  #: (n, 3)
+    triangle_id: Ids  #: (n,), ascending: the id that queries report
+    leaflet_id: Integers  #: (n,), see Leaflet
+    patch_id: Integers  #: (n,)
+
+
+class ClosestPoint(NamedTuple):
+    """The closest point of a surface to one point."""
+
+    distance: float  #: mesh units
+    point: Reals  #: (3,), on the triangle
+    barycentric: Reals  #: (3,), its weights of the triangle's vertices
+    normal: Reals  #: (3,), unit normal of the triangle
+    triangle_id: int
+    leaflet_id: int
+    side: int  #: +1 where normals point to (downstream), -1 on the other side, 0 on the surface or level with its rim
+
+
+class ClosestPoints(NamedTuple):
+    """The closest points to many points; None for what was not requested. See ClosestPoint."""
+
+    distance: Reals | None  #: (n,)
+    point: Reals | None  #: (n, 3)
+    barycentric: Reals | None  #: (n, 3)
+    normal: Reals | None  #: (n, 3)
+    triangle_id: Ids | None  #: (n,)
+    leaflet_id: Integers | None  #: (n,)
+    side: Integers | None  #: (n,)
+
+
+class MarkStats(NamedTuple):
+    """How a marking went."""
+
+    n_nodes: int  #: of the mesh
+    n_marked: int
+    n_within_limit: int
+    n_queries: int  #: closest-point queries
+    seconds: float
+    search: str  #: the search that ran
+    n_threads: int  #: the most that ran in any part
+    complete: bool  #: every node within the limit was certainly found
+    instructions: str  #: those that were used
+    n_unreached: int  #: nodes that the neighbour search found by proof, not walk
+
+
+class Dense(NamedTuple):
+    """Arrays with an entry for every node of the mesh; None for what was not requested."""
+
+    mark: NDArray[numpy.bool_] | None
+    distance: Reals | None
+    triangle_id: Ids | None
+    leaflet_id: Integers | None
+
+
+class BandSums(NamedTuple):
+    """Sums on either side of the surface: entry 0 is upstream, entry 1 downstream. The mean is sum / weight."""
+
+    sum: Reals  #: (2,), of weight * value
+    weight: Reals  #: (2,)
+    n_nodes: Ids  #: (2,), nodes in the band
+
+
+class Leaks(NamedTuple):
+    """Mesh edges that cross the surface between two unmarked nodes."""
+
+    n_edges: int
+    longest_node_id: Ids  #: (2,), -1 without an edge
+    longest_length: float  #: mesh units
+    longest_middle: Reals  #: (3,)
+    half_thickness: float  #: the smallest that gives each edge a marked node
+    seconds: float
+
+
+class LeakingEdges(NamedTuple):
+    """The edges of the last find_leaks, as views."""
+
+    node_id: Ids  #: (n, 2), the lower one first
+    length: Reals  #: (n,)
+    distance: Reals  #: (n,): the half thickness that closes the edge
+
+
+class Passage(NamedTuple):
+    """The widest passage from one set of nodes to another."""
+
+    state: Literal["closed", "open", "none"]  #: "none": the mesh itself has no path
+    node_id: int  #: the place, -1 without a path
+    distance: float  #: the smallest half thickness that closes the passage
+    point: Reals  #: (3,), the node's coordinates
+    seconds: float
+
+
+class Crossings(NamedTuple):
+    """Pairs of triangles that go through each other."""
+
+    n_pairs: int
+    length: float  #: of all intersections together, mesh units
+    depth: float  #: of the deepest pair
+    point: Reals  #: (3,), the middle of its segment
+    triangle_id: Ids  #: (2,), -1 without a pair
+    leaflet_id: Integers  #: (2,)
+    seconds: float
+
+
+class CrossingPairs(NamedTuple):
+    """The pairs of the last find_crossings, as views."""
+
+    triangle_id: Ids  #: (n, 2), the lower one first
+    point: Reals  #: (n, 3)
+    depth: Reals  #: (n,)
+    length: Reals  #: (n,)
+
+
+for _record in (
+    Parameter,
+    SurfaceInfo,
+    Triangles,
+    ClosestPoint,
+    ClosestPoints,
+    MarkStats,
+    Dense,
+    BandSums,
+    Leaks,
+    LeakingEdges,
+    Passage,
+    Crossings,
+    CrossingPairs,
+):
+    _record.__module__ = "riis"

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laws of opening: a valve's opening from the time, the pressure difference and the flow.
+
+The same arguments give the same bits, and nothing is kept. Times, pressures and flows have the solver's units. The
+pressure difference is upstream less downstream, and flow is positive downstream, so both open a valve. ``rate`` is the
+derivative of the opening by time. States are plain values: keep them in a restart file, and a step that is taken again
+starts from the state before.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+
+from riis import _riis
+
+
+class _Timed:
+    """A law of the time alone."""
+
+    def opening_and_rate(self, time: Any) -> tuple[Any, Any]:
+        """Returns the opening and its rate at a time, or arrays (n,) of both at times (n,) float64."""
+        raise NotImplementedError
+
+    def __call__(self, time: Any) -> Any:
+        """Returns the opening at a time, or an array (n,) at times (n,) float64."""
+        return self.opening_and_rate(time)[0]
+
+    def rate(self, time: Any) -> Any:
+        """Returns the rate at a time, or an array (n,) at times (n,) float64."""
+        return self.opening_and_rate(time)[1]
+
+
+@dataclass(frozen=True)
+class OpeningTable(_Timed):
+    """An opening by keys.
+
+    ``time`` and ``opening`` are (n_keys,) float64; times ascend strictly, openings are 0 to 1. With a ``period`` the table
+    repeats. Without one, the first opening counts before its key and the last one after it.
+    """
+
+    time: NDArray[Any]
+    opening: NDArray[Any]
+    period: float = 0.0
+    interpolation: Literal["linear", "cubic"] = "linear"
+
+    def opening_and_rate(self, time: Any) -> tuple[Any, Any]:
+        return _riis._opening_from_table(self.time, self.opening, self.period, self.interpolation, time)
+
+
+@dataclass(frozen=True)
+class OpeningTimes(_Timed):
+    """An opening by times: OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0) opens at 0.45 in 0.05, closes at 0.95 in 0.05.
+
+    The ramps are of fifth degree: neither the rate nor its derivative jumps.
+    """
+
+    opening_start: float
+    opening_seconds: float
+    closing_start: float
+    closing_seconds: float
+    closed: float = 0.0
+    open: float = 1.0
+    period: float = 0.0
+
+    def opening_and_rate(self, time: Any) -> tuple[Any, Any]:
+        return _riis._opening_from_times(
+            self.opening_start,
+            self.opening_seconds,
+            self.closing_start,
+            self.closing_seconds,
+            self.closed,
+            self.open,
+            self.period,
+            time,
+        )
+
+
+@dataclass(frozen=True)
+class OpeningSwitchState:
+    """The state of a switch. The default is a closed valve at time 0."""
+
+    time: float = 0.0
+    opening: float = 0.0
+    rate: float = 0.0
+    progress: float = 0.0  #: share of the way from closed to open
+    pressure_difference: float = nan  #: filtered; NaN: none yet
+    flow: float = nan  #: filtered; NaN: none yet
+    since: float = nan  #: the time of the last turn; NaN: none yet
+    phase: Literal["closing", "opening"] = "closing"
+
+
+@dataclass(frozen=True)
+class OpeningSwitch:
+    """A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one."""
+
+    opening_seconds: float  #: from closed to open
+    closing_seconds: float  #: from open to closed
+    open_above: float = 0.0  #: pressure difference
+    close_below: float = 0.0  #: flow
+    filter_seconds: float = 0.0  #: time constant of a filter on both; 0: none
+    dwell_seconds: float = 0.0  #: the least time from one turn to the next
+
+    def advance(
+        self, before: OpeningSwitchState, time: float, pressure_difference: float, flow: float
+    ) -> OpeningSwitchState:
+        """Returns the state at a time, with the pressure difference and the flow at that time."""
+        return _riis._advance_switch(self, before, time, pressure_difference, flow)
+
+
+@dataclass(frozen=True)
+class OpeningAngleState:
+    """The state of the angle law. The default is an angle of 0 at rest, at time 0."""
+
+    time: float = 0.0
+    opening: float = 0.0
+    rate: float = 0.0
+    angle: float = 0.0  #: degrees
+    angle_rate: float = 0.0  #: degrees per time
+    pressure_difference: float = nan  #: at that time; NaN: none yet
+    flow: float = nan  #: at that time; NaN: none yet
+
+
+@dataclass(frozen=True)
+class OpeningAngle:
+    """The angle law of Korakianitis and Shi (2006).
+
+    Its values for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for
+    the mitral valve.
+    """
+
+    pressure_gain: float
+    flow_gain: float
+    friction: float
+    vortex_gain: float
+    angle_min: float = 0.0  #: degrees: closed
+    angle_max: float = 75.0  #: degrees: open
+
+    def advance(
+        self, before: OpeningAngleState, time: float, pressure_difference: float, flow: float
+    ) -> OpeningAngleState:
+        """Returns the state at a time, with the pressure difference and the flow at that time."""
+        return _riis._advance_angle(self, before, time, pressure_difference, flow)

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arguments that are no arrays. Each function names the argument that it refuses.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+#include "errors.hpp"
+
+namespace riis_python {
+
+// Returns a number. bool and text are none.
+double number(nb::handle value, const char *name);
+
+// Returns a number, or the default for None.
+double number_or(nb::handle value, const char *name, double none);
+
+// Returns a whole number.
+std::int64_t integer(nb::handle value, const char *name);
+
+// Returns a whole number of 32 bits.
+std::int32_t integer32(nb::handle value, const char *name);
+
+// Returns a bool.
+bool flag(nb::handle value, const char *name);
+
+// Returns a text.
+std::string text(nb::handle value, const char *name);
+
+// Returns the value of a word, such as "neighbor".
+struct Word {
+  const char *word;
+  std::int32_t value;
+};
+std::int32_t choice(nb::handle value, const char *name, std::initializer_list<Word> words);
+
+// Copies three numbers, from a sequence or an array.
+void three_numbers(nb::handle value, const char *name, double (&numbers)[3]);
+
+// Returns a number of threads, 0 for the default. A child of fork() has one thread: there 0 means 1, and more are refused.
+std::int32_t thread_count(nb::handle value, const char *name = "n_threads");
+
+// Returns the object of a type of this module.
+template <class Type>
+Type &object(nb::handle value, const char *name) {
+  Type *found = nullptr;
+  if (value.is_none() || !nb::try_cast<Type *>(value, found, false) || !found)
+    refuse_type(name, "must be a riis.", Type::python_name, ", not ", name_of_type(value));
+  return *found;
+}
+
+}  // namespace riis_python

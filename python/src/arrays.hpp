@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays of Python by the buffer protocol, which numpy has: the caller's arrays, new ones, and views of the library's memory.
+#pragma once
+
+#include <nanobind/ndarray.h>
+
+#include <initializer_list>
+#include <optional>
+#include <vector>
+
+#include "arguments.hpp"
+#include "handles.hpp"
+
+namespace riis_python {
+
+enum class Access { read, write };
+
+// The caller's array, borrowed while this lives. A wrong type of the entries is a TypeError, all else an InvalidArgumentError.
+class Array {
+ public:
+  // T is double, std::int32_t, std::int64_t or std::uint8_t, which also stands for bool.
+  template <class T>
+  static Array of(nb::handle object, const char *name, Access access = Access::read);
+  // An array of 32 or 64 bit integers.
+  static Array of_integers(nb::handle object, const char *name);
+
+  Array(Array &&other) noexcept : name_(other.name_), view_(other.view_) { other.view_.obj = nullptr; }
+  Array &operator=(Array &&other) noexcept {
+    std::swap(name_, other.name_);
+    std::swap(view_, other.view_);
+    return *this;
+  }
+  ~Array() {
+    if (view_.obj) PyBuffer_Release(&view_);
+  }
+
+  const char *name() const { return name_; }
+  int n_dimensions() const { return view_.ndim; }
+  std::int64_t size(int dimension) const { return view_.shape[dimension]; }
+  std::int64_t stride(int dimension) const { return view_.strides[dimension]; }
+  std::int32_t bits() const { return static_cast<std::int32_t>(8 * view_.itemsize); }
+  template <class T>
+  T *data() const {
+    return static_cast<T *>(view_.buf);
+  }
+  nb::object object() const { return nb::borrow(view_.obj); }
+
+  // Refuses another shape or order; -1 stands for any size. The entries must lie in C order without gaps.
+  const Array &expect(std::initializer_list<std::int64_t> shape) const;
+  // Refuses another shape in any order.
+  const Array &expect_shape(std::initializer_list<std::int64_t> shape) const;
+
+ private:
+  Array(nb::handle object, const char *name, Access access, const char *wanted);
+
+  const char *name_;
+  Py_buffer view_;
+};
+
+// Three coordinates of points in the caller's arrays, as riis.h takes them.
+struct Points {
+  std::vector<Array> arrays;
+  std::int64_t n = 0;
+  const double *x = nullptr, *y = nullptr, *z = nullptr;
+  std::int64_t stride = 1;
+};
+// Points of an array (n, 3) with any strides that go forwards by whole doubles.
+Points points_of(nb::handle xyz, const char *name);
+// Points of one array (n, 3), or of three arrays (n) with equal strides.
+Points points_of(nb::handle xyz, nb::handle y, nb::handle z);
+
+// Returns a new numpy array with entries of no particular value.
+nb::object new_array(const char *type, std::initializer_list<std::int64_t> shape);
+// Returns a new numpy array of equal entries.
+nb::object new_filled_array(const char *type, std::initializer_list<std::int64_t> shape, nb::handle value);
+
+// Returns a read-only numpy array that shows memory of an object, without a copy.
+template <class T>
+nb::object view_of(const T *data, std::initializer_list<std::size_t> shape, nb::handle object, int &n_views) {
+  static const T empty[1] = {};
+  const nb::object owner = new_view(object, n_views);
+  return nb::cast(nb::ndarray<nb::numpy, const T>(data ? data : empty, shape.size(), shape.begin(), owner));
+}
+
+// Returns three numbers as a new numpy array.
+template <class T, std::size_t n>
+nb::object array_of(const T (&numbers)[n], const char *type) {
+  const nb::object array = new_array(type, {n});
+  const Array to = Array::of<T>(array, "array", Access::write);
+  for (std::size_t i = 0; i < n; ++i) to.template data<T>()[i] = numbers[i];
+  return array;
+}
+
+// An array that a call writes: a new one, the caller's, or none.
+struct Output {
+  nb::object array = nb::none();
+  std::optional<Array> memory;
+  template <class T>
+  T *data() const {
+    return memory ? memory->data<T>() : nullptr;
+  }
+};
+// Makes the output that an argument requests: True, False, or an array to write.
+template <class T>
+Output output_of(nb::handle wanted, const char *name, const char *type, std::initializer_list<std::int64_t> shape,
+                 nb::handle fill = nb::none()) {
+  Output output;
+  if (wanted.ptr() == Py_False) return output;
+  if (wanted.ptr() == Py_True)
+    output.array = fill.is_none() ? new_array(type, shape) : new_filled_array(type, shape, fill);
+  else
+    output.array = nb::borrow(wanted);
+  output.memory.emplace(Array::of<T>(output.array, name, Access::write));
+  output.memory->expect(shape);
+  return output;
+}
+
+}  // namespace riis_python

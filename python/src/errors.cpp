@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "errors.hpp"
+
+namespace riis_python {
+
+void raise_status(riis_status status, const std::string &message) {
+  const nb::object error = nb::module_::import_("riis._errors").attr("class_of")(status);
+  PyErr_SetObject(error.ptr(), nb::str(message.c_str(), message.size()).ptr());
+  throw nb::python_error();
+}
+
+void raise_buffer_error(const std::string &message) {
+  PyErr_SetString(PyExc_BufferError, message.c_str());
+  throw nb::python_error();
+}
+
+std::string name_of_type(nb::handle object) { return nb::cast<std::string>(nb::str(object.type().attr("__name__"))); }
+
+}  // namespace riis_python

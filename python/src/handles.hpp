@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all objects share: a handle of riis.h, who uses it, and calls without the interpreter's lock.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "arguments.hpp"
+
+namespace riis_python {
+
+// Tells whether this process is a child of fork(), and whether another thread was inside the library at the fork.
+bool is_forked() noexcept;
+bool was_inside_at_fork() noexcept;
+// Counts the forks that led to this process.
+int fork_number() noexcept;
+
+// Refuses to make a surface in a child whose parent had another thread inside the library: TBB would wait for threads that the
+// child lacks.
+void check_surfaces_allowed(const char *name);
+
+// Tells who uses an object. All of it is read and written under the interpreter's lock.
+struct Usage {
+  int n_readers = 0;
+  bool is_written = false;
+  bool is_closed = false;
+  int n_views = 0;  // arrays that show the object's memory, and objects that borrow it
+  int fork = fork_number();
+
+  // Refuses an object that is closed, or that a thread of the parent was using at the fork.
+  void check(const char *name);
+};
+
+// The object is read while this lives.
+class Reading {
+ public:
+  Reading(Usage &usage, const char *name) : usage_(usage) {
+    usage.check(name);
+    if (usage.is_written) refuse_busy(name);
+    ++usage.n_readers;
+  }
+  ~Reading() { --usage_.n_readers; }
+  Reading(const Reading &) = delete;
+  Reading &operator=(const Reading &) = delete;
+
+  [[noreturn]] static void refuse_busy(const char *name);
+
+ private:
+  Usage &usage_;
+};
+
+// The object is written while this lives. No array may show the memory that is written, which n_views counts.
+class Writing {
+ public:
+  Writing(Usage &usage, const char *name, const int &n_views) : usage_(usage) {
+    usage.check(name);
+    if (usage.is_written || usage.n_readers > 0) Reading::refuse_busy(name);
+    if (n_views > 0) refuse_views(name, n_views);
+    usage.is_written = true;
+  }
+  Writing(Usage &usage, const char *name) : Writing(usage, name, usage.n_views) {}
+  ~Writing() { usage_.is_written = false; }
+  Writing(const Writing &) = delete;
+  Writing &operator=(const Writing &) = delete;
+
+  [[noreturn]] static void refuse_views(const char *name, int n_views);
+
+ private:
+  Usage &usage_;
+};
+
+// Returns an object that counts as a view of another object and keeps it alive. It is the owner of arrays without a copy.
+nb::object new_view(nb::handle object, int &n_views);
+
+// Counts the calls inside the library, for forks.
+class Inside {
+ public:
+  Inside() noexcept;
+  ~Inside();
+  Inside(const Inside &) = delete;
+  Inside &operator=(const Inside &) = delete;
+};
+
+// Refuses calls from the log function.
+void check_not_logging();
+
+// Calls the library without the interpreter's lock, so that other threads of Python run meanwhile. Returns its status, and the
+// message if it failed.
+template <class Call>
+std::pair<riis_status, std::string> status_of(const Call &call) {
+  check_not_logging();
+  std::pair<riis_status, std::string> answer;
+  const nb::gil_scoped_release release;
+  const Inside inside;
+  answer.first = call();
+  if (answer.first) answer.second = riis_last_error();
+  return answer;
+}
+
+// Calls the library without the lock, and throws what it refuses.
+template <class Call>
+void call_library(const Call &call) {
+  const auto answer = status_of(call);
+  if (answer.first) raise_status(answer.first, answer.second);
+}
+
+// Does the same for a call that writes an object. After an internal error the object is closed.
+template <class Call>
+void call_to_write(Usage &usage, const Call &call) {
+  const auto answer = status_of(call);
+  if (answer.first < 0) usage.is_closed = true;
+  if (answer.first) raise_status(answer.first, answer.second);
+}
+
+// Calls the library with the lock: the call takes less time than giving the lock away.
+inline void call_shortly(riis_status status) {
+  if (status) raise_status(status, riis_last_error());
+}
+
+// A handle of riis.h, destroyed with this object.
+template <class C, void (*destroy)(C **)>
+struct Handle {
+  Handle() = default;
+  ~Handle() { destroy(&handle); }
+  Handle(const Handle &) = delete;
+  Handle &operator=(const Handle &) = delete;
+
+  // Frees the memory now.
+  void close(const char *name) {
+    if (usage.is_closed) {
+      destroy(&handle);
+      return;
+    }
+    { const Writing writing(usage, name); }
+    usage.is_closed = true;
+    destroy(&handle);
+  }
+
+  C *handle = nullptr;
+  Usage usage;
+};
+
+// Adds close(), closed and the with statement to a class.
+template <class Type>
+void add_closing(nb::class_<Type> &type) {
+  type.def(
+          "close", [](Type &self) { self.close(Type::python_name); },
+          "Frees the memory now. Any later use raises an error. Raises BufferError while arrays show the memory.")
+      .def_prop_ro(
+          "closed", [](const Type &self) { return self.usage.is_closed; }, "True after close().")
+      .def("__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> typing.Self"))
+      .def(
+          "__exit__", [](Type &self, nb::handle, nb::handle, nb::handle) { self.close(Type::python_name); },
+          nb::arg("type").none(), nb::arg("value").none(), nb::arg("traceback").none(),
+          nb::sig("def __exit__(self, type: object, value: object, traceback: object) -> None"));
+}
+
+}  // namespace riis_python

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leaks, open regions, passages, and crossings.
+#include "module.hpp"
+
+namespace riis_python {
+namespace {
+
+nb::object pair(nb::object first, nb::object second) { return nb::make_tuple(first, second); }
+
+nb::object find_leaks(nb::handle surface_, nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads) {
+  Surface &surface = object<Surface>(surface_, "surface");
+  Mesh &mesh = object<Mesh>(mesh_, "mesh");
+  MarkResult &marks = object<MarkResult>(marks_, "marks");
+  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
+  const Writing writing(marks.usage, "marks", marks.n_edge_views);
+  if (marks.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
+  const MarkOptions options(mesh, mask, n_threads);
+  riis_leaks leaks;
+  call_to_write(marks.usage, [&] {
+    return riis_find_leaks(surface.handle, mesh.handle, &options.options, marks.handle, &leaks, sizeof leaks);
+  });
+  return record("Leaks")(leaks.n_edges, array_of(leaks.longest_node_id, "int64"), leaks.longest_length,
+                         array_of(leaks.longest_middle, "float64"), leaks.half_thickness, leaks.seconds);
+}
+
+nb::object leaking_edges(nb::handle self) {
+  MarkResult &marks = object<MarkResult>(self, "marks");
+  const Reading reading(marks.usage, "marks");
+  std::int64_t n_edges = 0;
+  const std::int64_t *node_id = nullptr;
+  const double *length = nullptr, *distance = nullptr;
+  if (marks.handle) call_shortly(riis_mark_result_leaking_edges(marks.handle, &n_edges, &node_id, &length, &distance));
+  const auto n = static_cast<std::size_t>(n_edges);
+  return record("LeakingEdges")(view_of(node_id, {n, 2}, self, marks.n_edge_views), view_of(length, {n}, self, marks.n_edge_views),
+                                view_of(distance, {n}, self, marks.n_edge_views));
+}
+
+nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads, nb::handle label_) {
+  Mesh &mesh = object<Mesh>(mesh_, "mesh");
+  MarkResult &marks = object<MarkResult>(marks_, "marks");
+  const Reading reading_mesh(mesh.usage, "mesh"), reading_marks(marks.usage, "marks");
+  if (marks.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
+  const MarkOptions options(mesh, mask, n_threads);
+  const std::int64_t n = mesh.points.n;
+  const nb::object wanted = label_.is_none() ? nb::object(nb::bool_(true)) : nb::borrow(label_);
+  const Output label = output_of<std::int64_t>(wanted, "label", "int64", {n});
+  std::int64_t n_regions = 0;
+  call_library([&] {
+    return riis_label_open_regions(mesh.handle, &options.options, marks.handle, n, label.data<std::int64_t>(), &n_regions);
+  });
+  return pair(label.array, nb::int_(n_regions));
+}
+
+nb::object find_passage(nb::handle surface_, nb::handle mesh_, nb::handle from_, nb::handle to_, nb::handle mask,
+                        nb::handle n_threads) {
+  Surface &surface = object<Surface>(surface_, "surface");
+  Mesh &mesh = object<Mesh>(mesh_, "mesh");
+  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
+  const MarkOptions options(mesh, mask, n_threads);
+  const Array from = Array::of<std::int64_t>(from_, "from_ids"), to = Array::of<std::int64_t>(to_, "to_ids");
+  from.expect({-1});
+  to.expect({-1});
+  riis_passage passage;
+  call_library([&] {
+    return riis_find_passage(surface.handle, mesh.handle, &options.options, from.size(0), from.data<std::int64_t>(), to.size(0),
+                             to.data<std::int64_t>(), &passage, sizeof passage);
+  });
+  static const char *const states[] = {"closed", "open", "none"};
+  return record("Passage")(states[passage.state], passage.node_id, passage.distance, array_of(passage.point, "float64"),
+                           passage.seconds);
+}
+
+nb::object find_crossings(nb::handle surface_, nb::handle depth, nb::handle n_threads) {
+  Surface &surface = object<Surface>(surface_, "surface");
+  const Writing writing(surface.usage, "surface", surface.n_pair_views);
+  riis_crossing_options options;
+  call_shortly(riis_crossing_options_init(&options, sizeof options));
+  options.depth = number(depth, "depth");
+  options.n_threads = thread_count(n_threads);
+  riis_crossings found;
+  call_to_write(surface.usage, [&] { return riis_find_crossings(surface.handle, &options, &found, sizeof found); });
+  return record("Crossings")(found.n_pairs, found.length, found.depth, array_of(found.point, "float64"),
+                             array_of(found.triangle_id, "int64"), array_of(found.leaflet_id, "int32"), found.seconds);
+}
+
+nb::object crossing_pairs(nb::handle self) {
+  Surface &surface = object<Surface>(self, "surface");
+  const Reading reading(surface.usage, "surface");
+  std::int64_t n_pairs = 0;
+  const std::int64_t *triangle_id = nullptr;
+  const double *point = nullptr, *depth = nullptr, *length = nullptr;
+  call_shortly(riis_surface_crossing_pairs(surface.handle, &n_pairs, &triangle_id, &point, &depth, &length));
+  const auto n = static_cast<std::size_t>(n_pairs);
+  int &n_views = surface.n_pair_views;
+  return record("CrossingPairs")(view_of(triangle_id, {n, 2}, self, n_views), view_of(point, {n, 3}, self, n_views),
+                                 view_of(depth, {n}, self, n_views), view_of(length, {n}, self, n_views));
+}
+
+// Adds a read-only property to a class that an earlier part of the module made.
+void add_property(nb::module_ &module, const char *type, const char *name, nb::object getter) {
+  const nb::object property = nb::module_::import_("builtins").attr("property");
+  module.attr(type).attr(name) = property(getter);
+}
+
+#define RIIS_MASK "mask: numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None"
+#define RIIS_NODES "numpy.typing.NDArray[numpy.int64]"
+
+}  // namespace
+
+void add_leaks(nb::module_ &module) {
+  add_property(module, "MarkResult", "leaking_edges",
+               nb::cpp_function(&leaking_edges, nb::arg("self").none(),
+                                nb::sig("def leaking_edges(self) -> riis._records.LeakingEdges"),
+                                "The edges of the last riis.find_leaks: node_id (n, 2), length and distance (n,). Views."));
+  add_property(module, "Surface", "crossing_pairs",
+               nb::cpp_function(&crossing_pairs, nb::arg("self").none(),
+                                nb::sig("def crossing_pairs(self) -> riis._records.CrossingPairs"),
+                                "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length "
+                                "(n,). Views."));
+  module.def("find_leaks", &find_leaks, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
+             nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
+             nb::sig("def find_leaks(surface: Surface, mesh: Mesh, marks: MarkResult, *, " RIIS_MASK
+                     ", n_threads: int = 0) -> riis._records.Leaks"),
+             R"(Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes.
+
+surface, mesh and mask are those of the marking. marks keeps the edges (marks.leaking_edges), all else stays.)");
+  module.def("label_open_regions", &label_open_regions, nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
+             nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0, nb::arg("label").none() = nb::none(),
+             nb::sig("def label_open_regions(mesh: Mesh, marks: MarkResult, *, " RIIS_MASK ", n_threads: int = 0, label: "
+                     RIIS_NODES " | None = None) -> tuple[" RIIS_NODES ", int]"),
+             R"(Labels the connected components of the unmarked nodes, along the mesh's adjacency. Returns (label, n_regions).
+
+label  (n_nodes,) int64: the lowest node of the node's region, -1 for nodes in no region; None: a new array)");
+  module.def("find_passage", &find_passage, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("from_ids").none(),
+             nb::arg("to_ids").none(), nb::kw_only(), nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
+             nb::sig("def find_passage(surface: Surface, mesh: Mesh, from_ids: " RIIS_NODES ", to_ids: " RIIS_NODES
+                     ", *, " RIIS_MASK ", n_threads: int = 0) -> riis._records.Passage"),
+             R"(Finds the widest passage along the mesh's adjacency from one set of nodes to another.
+
+from_ids, to_ids  (n,) int64, at least one node each, farther from the surface than the half thickness)");
+  module.def("find_crossings", &find_crossings, nb::arg("surface").none(), nb::kw_only(), nb::arg("depth").none() = 1e-6,
+             nb::arg("n_threads").none() = 0,
+             nb::sig("def find_crossings(surface: Surface, *, depth: float = 1e-6, n_threads: int = 0) -> "
+                     "riis._records.Crossings"),
+             R"(Finds every pair of the surface's triangles that go through each other.
+
+depth  half thicknesses, 0 to 1: a pair at most so deep touches. surface.crossing_pairs has the pairs.)");
+}
+
+}  // namespace riis_python

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "module.hpp"
+
+namespace riis_python {
+namespace {
+
+// The fields by their names: the attribute, the bit, and where the library points to them.
+struct Field {
+  const char *name;
+  std::int32_t bit;
+  const double *riis_mark_fields::*reals;
+  const std::int32_t *riis_mark_fields::*integers;
+  std::size_t n_components;
+  const char *signature;
+  const char *text;
+};
+
+#define RIIS_REALS(name) "def " name "(self) -> numpy.typing.NDArray[numpy.float64]"
+#define RIIS_INTEGERS(name) "def " name "(self) -> numpy.typing.NDArray[numpy.int32]"
+
+const Field fields[] = {
+    {"point", RIIS_FIELD_POINT, &riis_mark_fields::point, nullptr, 3, RIIS_REALS("point"),
+     "(n, 3): the closest points of the surface, mesh units. Needs fields='point'. A view."},
+    {"normal", RIIS_FIELD_NORMAL, &riis_mark_fields::normal, nullptr, 3, RIIS_REALS("normal"),
+     "(n, 3): the unit normals there. Needs fields='normal'. A view."},
+    {"barycentric", RIIS_FIELD_BARYCENTRIC, &riis_mark_fields::barycentric, nullptr, 3, RIIS_REALS("barycentric"),
+     "(n, 3): the points' weights of their triangles' vertices. Needs fields='barycentric'. A view."},
+    {"side", RIIS_FIELD_SIDE, nullptr, &riis_mark_fields::side, 1, RIIS_INTEGERS("side"),
+     "(n,): +1 downstream of the surface, -1 upstream, 0 on neither side. Needs fields='side'. A view."},
+    {"rim", RIIS_FIELD_RIM, nullptr, &riis_mark_fields::rim, 1, RIIS_INTEGERS("rim"),
+     "(n,): 1 if the closest point lies on the rim of the surface, else 0. Needs fields='rim'. A view."},
+    {"uv", RIIS_FIELD_UV, &riis_mark_fields::uv, nullptr, 2, RIIS_REALS("uv"),
+     "(n, 2): the points' places on their patches, 0 to 1. Needs fields='uv'. A view."},
+    {"velocity", RIIS_FIELD_VELOCITY, &riis_mark_fields::velocity, nullptr, 3, RIIS_REALS("velocity"),
+     "(n, 3): the surface's velocities there, by its last update. Needs fields='velocity'. A view."},
+    {"patch_id", RIIS_FIELD_PATCH, nullptr, &riis_mark_fields::patch_id, 1, RIIS_INTEGERS("patch_id"),
+     "(n,): the patches of the closest points. Needs fields='patch_id'. A view."},
+};
+
+std::int32_t field_of(const std::string &name) {
+  std::string all;
+  for (const Field &field : fields) {
+    if (name == field.name) return field.bit;
+    all += text_of(all.empty() ? "" : ", ", "'", field.name, "'");
+  }
+  refuse_value("fields", "'", name, "' is none; they are ", all);
+}
+
+// Returns the sum of the fields of a text, separated by commas or blanks, or of a sequence of names.
+std::int32_t fields_of(nb::handle wanted) {
+  if (wanted.is_none()) return 0;
+  std::int32_t sum = 0;
+  if (PyUnicode_Check(wanted.ptr())) {
+    std::string names = text(wanted, "fields");
+    for (char &letter : names)
+      if (letter == ',') letter = ' ';
+    std::istringstream words(names);
+    for (std::string name; words >> name;) sum |= field_of(name);
+    return sum;
+  }
+  if (!PySequence_Check(wanted.ptr())) refuse_type("fields", "must be a str or a sequence of str, not ", name_of_type(wanted));
+  for (const nb::handle name : nb::borrow(wanted)) sum |= field_of(text(name, "fields"));
+  return sum;
+}
+
+nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::handle wanted_fields, nb::handle distance_limit,
+                nb::handle mask, nb::handle search, nb::handle n_threads, nb::handle instructions) {
+  Surface &surface = object<Surface>(surface_, "surface");
+  Mesh &mesh = object<Mesh>(mesh_, "mesh");
+  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
+  MarkOptions given(mesh, mask, n_threads);
+  riis_mark_options &options = given.options;
+  options.distance_limit = number_or(distance_limit, "distance_limit", RIIS_AUTO);
+  options.search = choice(search, "search",
+                          {{"auto", RIIS_SEARCH_AUTO},
+                           {"exhaustive", RIIS_SEARCH_EXHAUSTIVE},
+                           {"neighbor", RIIS_SEARCH_NEIGHBOR},
+                           {"paper", RIIS_SEARCH_PAPER},
+                           {"clusters", RIIS_SEARCH_CLUSTERS}});
+  options.instructions = choice(instructions, "instructions",
+                                {{"auto", RIIS_INSTRUCTIONS_AUTO},
+                                 {"baseline", RIIS_INSTRUCTIONS_BASELINE},
+                                 {"avx2", RIIS_INSTRUCTIONS_AVX2},
+                                 {"avx512", RIIS_INSTRUCTIONS_AVX512}});
+  options.fields = fields_of(wanted_fields);
+  const nb::object result_object =
+      into.is_none() ? nb::cast(new MarkResult(), nb::rv_policy::take_ownership) : nb::borrow(into);
+  MarkResult &result = object<MarkResult>(result_object, "into");
+  if (!result.handle) call_shortly(riis_mark_result_create(&result.handle));
+  const Writing writing(result.usage, "into", result.usage.n_views + result.n_edge_views);
+  call_to_write(result.usage,
+                [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, result.handle); });
+  result.n_nodes = mesh.points.n;
+  result.n_threads = options.n_threads;
+  result.marking_fork = fork_number();
+  return result_object;
+}
+
+// The nodes of a result within the distance limit.
+struct WithinLimit {
+  static constexpr const char *python_name = "WithinLimit";
+  nb::object result;
+};
+
+// The lists of a result: of the marked nodes, or of those within the limit.
+struct Lists {
+  std::int64_t n = 0;
+  const std::int64_t *node_id = nullptr;
+  const double *distance = nullptr;
+  const std::int64_t *triangle_id = nullptr;
+  const std::int32_t *leaflet_id = nullptr;
+};
+
+// Reads the lists of a MarkResult or of a WithinLimit.
+struct ListReader {
+  explicit ListReader(nb::handle self) {
+    is_limit = nb::isinstance<WithinLimit>(self);
+    owner = is_limit ? object<WithinLimit>(self, "self").result : nb::borrow(self);
+    result = &object<MarkResult>(owner, "marks");
+    reading.emplace(result->usage, "marks");
+  }
+  Lists lists() const {
+    Lists found;
+    const auto get = is_limit ? riis_mark_result_within_limit : riis_mark_result_marked;
+    call_shortly(get(result->handle, &found.n, &found.node_id, &found.distance, &found.triangle_id, &found.leaflet_id));
+    return found;
+  }
+  riis_mark_fields list_fields() const {
+    riis_mark_fields found;
+    const auto get = is_limit ? riis_mark_result_within_limit_fields : riis_mark_result_marked_fields;
+    call_shortly(get(result->handle, &found, sizeof found));
+    return found;
+  }
+  template <class T>
+  nb::object view(const T *data, std::int64_t n, std::size_t n_components = 1) const {
+    const auto size = static_cast<std::size_t>(n);
+    int &n_views = result->usage.n_views;
+    return n_components == 1 ? view_of(data, {size}, owner, n_views) : view_of(data, {size, n_components}, owner, n_views);
+  }
+
+  bool is_limit = false;
+  nb::object owner;
+  MarkResult *result = nullptr;
+  std::optional<Reading> reading;
+};
+
+template <auto Lists::*member>
+nb::object list_view(nb::handle self) {
+  const ListReader reader(self);
+  const Lists lists = reader.lists();
+  return reader.view(lists.*member, lists.n);
+}
+
+template <int number>
+nb::object field_view(nb::handle self) {
+  const Field &field = fields[number];
+  const ListReader reader(self);
+  const riis_mark_fields found = reader.list_fields();
+  const void *data = field.reals ? static_cast<const void *>(found.*field.reals) : found.*field.integers;
+  if (!data && found.n_nodes > 0)
+    refuse_value(field.name, "the marking did not request it; mark with fields='", field.name, "'");
+  return field.reals ? reader.view(found.*field.reals, found.n_nodes, field.n_components)
+                     : reader.view(found.*field.integers, found.n_nodes);
+}
+
+template <class Type, int... numbers>
+void add_fields(nb::class_<Type> &type, std::integer_sequence<int, numbers...>) {
+  (type.def_prop_ro(fields[numbers].name, &field_view<numbers>, nb::sig(fields[numbers].signature), fields[numbers].text), ...);
+}
+
+template <class Type>
+void add_lists(nb::class_<Type> &type) {
+  type.def_prop_ro("ids", &list_view<&Lists::node_id>, nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"),
+                   "(n,): the nodes, ascending. A view.")
+      .def_prop_ro("distance", &list_view<&Lists::distance>, nb::sig(RIIS_REALS("distance")),
+                   "(n,): their distances to the surface, mesh units. A view.")
+      .def_prop_ro("triangle_id", &list_view<&Lists::triangle_id>,
+                   nb::sig("def triangle_id(self) -> numpy.typing.NDArray[numpy.int64]"), "(n,): their closest triangles. A view.")
+      .def_prop_ro("leaflet_id", &list_view<&Lists::leaflet_id>, nb::sig(RIIS_INTEGERS("leaflet_id")),
+                   "(n,): the leaflets of these triangles. A view.")
+      .def("__len__", [](nb::handle self) { return ListReader(self).lists().n; }, nb::sig("def __len__(self) -> int"));
+  add_fields(type, std::make_integer_sequence<int, static_cast<int>(std::size(fields))>());
+}
+
+nb::object stats(MarkResult &result) {
+  const Reading reading(result.usage, "marks");
+  riis_mark_stats found;
+  call_shortly(riis_mark_result_stats(result.handle, &found, sizeof found));
+  static const char *const searches[] = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
+  static const char *const instructions[] = {"auto", "baseline", "avx2", "avx512"};
+  return record("MarkStats")(found.n_nodes, found.n_marked, found.n_within_limit, found.n_queries, found.seconds,
+                             searches[found.search], found.n_threads, found.complete != 0, instructions[found.instructions],
+                             found.n_unreached);
+}
+
+nb::object dense(MarkResult &result, nb::handle mark_, nb::handle distance, nb::handle triangle_id, nb::handle leaflet_id,
+                 nb::handle far_distance) {
+  const Reading reading(result.usage, "marks");
+  result.check_threads("marks");
+  const std::int64_t n = result.n_nodes < 0 ? 0 : result.n_nodes;
+  const double far = number(far_distance, "far_distance");
+  const Output marks = output_of<std::uint8_t>(mark_, "mark", "bool", {n}),
+               distances = output_of<double>(distance, "distance", "float64", {n}),
+               triangles = output_of<std::int64_t>(triangle_id, "triangle_id", "int64", {n}),
+               leaflets = output_of<std::int32_t>(leaflet_id, "leaflet_id", "int32", {n});
+  call_library([&] {
+    return riis_mark_result_dense(result.handle, n, far, marks.data<std::uint8_t>(), distances.data<double>(),
+                                  triangles.data<std::int64_t>(), leaflets.data<std::int32_t>());
+  });
+  return record("Dense")(marks.array, distances.array, triangles.array, leaflets.array);
+}
+
+std::string description(nb::handle self) {
+  MarkResult &result = object<MarkResult>(self, "self");
+  if (result.usage.is_closed) return "<riis.MarkResult, closed>";
+  if (result.n_nodes < 0) return "<riis.MarkResult, empty>";
+  return text_of("<riis.MarkResult, ", ListReader(self).lists().n, " of ", result.n_nodes, " nodes marked>");
+}
+
+}  // namespace
+
+MarkOptions::MarkOptions(const Mesh &mesh, nb::handle mask_, nb::handle n_threads) {
+  call_shortly(riis_mark_options_init(&options, sizeof options));
+  options.n_threads = thread_count(n_threads);
+  if (mask_.is_none()) return;
+  mask.emplace(Array::of<std::uint8_t>(mask_, "mask")).expect({mesh.points.n});
+  options.node_mask = mask->data<std::uint8_t>();
+}
+
+void MarkResult::close(const char *name) {
+  if (n_edge_views > 0) Writing::refuse_views(name, n_edge_views);
+  Handle::close(name);
+}
+
+void MarkResult::check_threads(const char *name) const {
+  if (marking_fork != fork_number() && n_threads != 1)
+    raise_status(RIIS_UNAVAILABLE, text_of(name, ": the marking was made before the fork, for threads that the child lacks; mark "
+                                                 "again, or with n_threads=1 before the fork"));
+}
+
+void add_marking(nb::module_ &module) {
+  nb::class_<MarkResult> result(module, "MarkResult", R"(The nodes that riis.mark found, ascending by their ids.
+
+MarkResult() is empty; riis.mark(..., into=result) fills it and reuses its memory. Arrays are views of that memory:
+read-only, without a copy, and kept alive. Marking into a result whose views are alive raises BufferError.)");
+  result.def(nb::init<>());
+  add_lists(result);
+  nb::class_<WithinLimit> within(module, "WithinLimit",
+                                 "The nodes of a MarkResult within the distance limit of the marking, marked or not.");
+  add_lists(within);
+  result
+      .def_prop_ro(
+          "within_limit",
+          [](nb::handle self) {
+            return WithinLimit{nb::borrow(self)};
+          },
+          nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
+      .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
+      .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true, nb::arg("triangle_id").none() = false,
+           nb::arg("leaflet_id").none() = false, nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
+           nb::sig("def dense(self, *, mark: bool | numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] = True, "
+                   "distance: bool | numpy.typing.NDArray[numpy.float64] = True, triangle_id: bool | "
+                   "numpy.typing.NDArray[numpy.int64] = False, leaflet_id: bool | numpy.typing.NDArray[numpy.int32] = False, "
+                   "far_distance: float = 1e30) -> riis._records.Dense"),
+           R"(Returns arrays with an entry for every node of the mesh.
+
+mark         (n_nodes,) bool: the marked nodes     each of these is True for a new array, False for none, or
+distance     (n_nodes,) float64                    an array that is written, every entry
+triangle_id  (n_nodes,) int64, -1 for far nodes
+leaflet_id   (n_nodes,) int32, -1 for far nodes
+far_distance  distance of nodes beyond the limit: any value outside [0, distance limit], NaN also)")
+      .def("__repr__", &description);
+  add_resistance(result);
+  add_closing(result);
+
+  module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into").none() = nb::none(),
+             nb::arg("fields").none() = nb::none(), nb::arg("distance_limit").none() = nb::none(), nb::arg("mask").none() = nb::none(),
+             nb::arg("search").none() = "auto", nb::arg("n_threads").none() = 0, nb::arg("instructions").none() = "auto",
+             nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: MarkResult | None = None, fields: str | "
+                     "collections.abc.Sequence[str] | None = None, distance_limit: float | None = None, mask: "
+                     "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, search: "
+                     "typing.Literal['auto', 'exhaustive', 'neighbor', 'paper', 'clusters'] = 'auto', n_threads: int = 0, "
+                     "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto') -> MarkResult"),
+             R"(Finds every node whose distance to the surface is at most the half thickness.
+
+into            a MarkResult to fill, whose memory is reused; None: a new one
+fields          'normal, velocity' or ['normal', 'velocity']: fields that the result keeps, of 'point', 'normal',
+                'barycentric', 'side', 'rim', 'uv', 'velocity' and 'patch_id'
+distance_limit  nodes get their distance up to here, mesh units; None: the half thickness
+mask            (n_nodes,) bool or uint8: other nodes are left out
+search          all but 'paper' find the same nodes; 'neighbor' and 'paper' need an adjacency
+n_threads       1 to 1024; 0: the processors of the calling thread's affinity mask
+instructions    for tests and measurements; all give the same bits)");
+}
+
+}  // namespace riis_python

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "module.hpp"
+
+namespace riis_python {
+namespace {
+
+void create(Mesh *self, nb::handle xyz, nb::handle y, nb::handle z) {
+  Points points = points_of(xyz, y, z);
+  new (self) Mesh();
+  try {
+    call_library([&] { return riis_mesh_create(points.n, points.x, points.y, points.z, points.stride, &self->handle); });
+    self->points = std::move(points);
+  } catch (...) {
+    self->~Mesh();
+    throw;
+  }
+}
+
+void drop_adjacency(Mesh &mesh) {
+  mesh.rows.clear();
+  mesh.adjacency = nb::object();
+}
+
+// Without arguments the coordinates moved in place.
+void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
+  const Writing writing(self.usage, "mesh");
+  const bool in_place = xyz.is_none() && y.is_none() && z.is_none();
+  Points given = in_place ? Points{} : points_of(xyz, y, z);
+  const Points &points = in_place ? self.points : given;
+  const bool is_other_size = points.n != self.points.n;
+  call_to_write(self.usage,
+                [&] { return riis_mesh_update(self.handle, points.n, points.x, points.y, points.z, points.stride); });
+  if (!in_place) self.points = std::move(given);
+  if (is_other_size) drop_adjacency(self);
+}
+
+void prepare(Mesh &self, nb::handle n_threads) {
+  const Writing writing(self.usage, "mesh");
+  const std::int32_t n = thread_count(n_threads);
+  call_to_write(self.usage, [&] { return riis_mesh_prepare(self.handle, n); });
+}
+
+riis_csr empty_rows() {
+  riis_csr csr;
+  call_shortly(riis_csr_init(&csr, sizeof csr));
+  return csr;
+}
+
+void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::handle columns_, nb::handle n_all,
+                   nb::handle index_base) {
+  const Writing writing(self.usage, "mesh");
+  nb::object offsets = nb::borrow(offsets_), columns = nb::borrow(columns_);
+  if (!adjacency.is_none() && (!offsets.is_none() || !columns.is_none()))
+    refuse_value("adjacency", "does not go together with offsets and columns");
+  riis_csr csr = empty_rows();
+  std::vector<Array> rows;
+  nb::object kept;
+  if (nb::isinstance<Adjacency>(adjacency)) {
+    Adjacency &made = object<Adjacency>(adjacency, "adjacency");
+    const Reading reading(made.usage, "adjacency");
+    call_shortly(riis_adjacency_csr(made.handle, &csr, sizeof csr));
+    kept = new_view(adjacency, made.usage.n_views);
+  } else {
+    if (!adjacency.is_none()) {
+      if (!nb::hasattr(adjacency, "indptr") || !nb::hasattr(adjacency, "indices"))
+        refuse_type("adjacency", "must be a riis.Adjacency, or sparse rows with indptr and indices, not ", name_of_type(adjacency));
+      offsets = adjacency.attr("indptr");
+      columns = adjacency.attr("indices");
+    }
+    if (offsets.is_none() != columns.is_none()) refuse_value("offsets", "and columns go together; one of them is None");
+    if (!offsets.is_none()) {
+      rows.push_back(Array::of_integers(offsets, "offsets"));
+      rows.push_back(Array::of_integers(columns, "columns"));
+      rows[0].expect({self.points.n + 1});
+      rows[1].expect({-1});
+      csr.n_rows = self.points.n;
+      csr.n_all = integer(n_all, "n_all");
+      csr.offsets = rows[0].data<void>();
+      csr.columns = rows[1].data<void>();
+      csr.offset_bits = rows[0].bits();
+      csr.column_bits = rows[1].bits();
+      csr.index_base = integer32(index_base, "index_base");
+      const auto last = self.points.n;
+      const std::int64_t end = csr.offset_bits == 64 ? rows[0].data<std::int64_t>()[last] : rows[0].data<std::int32_t>()[last];
+      if (end - csr.index_base > rows[1].size(0))
+        refuse_value("offsets", "end at ", end, "; columns has ", rows[1].size(0), " entries");
+    }
+  }
+  const bool is_taken_away = !kept.is_valid() && rows.empty();
+  call_to_write(self.usage, [&] { return riis_mesh_set_adjacency(self.handle, is_taken_away ? nullptr : &csr); });
+  self.rows = std::move(rows);
+  self.adjacency = std::move(kept);
+}
+
+// The keys that say which arrays an adjacency is made of.
+template <class Make>
+Adjacency *new_adjacency(const Make &make) {
+  auto made = std::make_unique<Adjacency>();
+  call_library([&] { return make(&made->handle); });
+  return made.release();
+}
+
+Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_, nb::handle index_base, nb::handle n_threads) {
+  riis_cells cells;
+  call_shortly(riis_cells_init(&cells, sizeof cells));
+  const Array ids = Array::of_integers(nodes, "cells");
+  cells.n_nodes = integer(n_nodes, "n_nodes");
+  cells.node_ids = ids.data<void>();
+  cells.id_bits = ids.bits();
+  cells.index_base = integer32(index_base, "index_base");
+  cells.n_threads = thread_count(n_threads);
+  std::optional<Array> offsets;
+  if (offsets_.is_none()) {
+    ids.expect({-1, -1});
+    cells.n_cells = ids.size(0);
+    cells.nodes_per_cell = static_cast<std::int32_t>(ids.size(1));
+    if (ids.size(1) < 4 || ids.size(1) == 7 || ids.size(1) > 8)
+      refuse_value("cells", "has ", ids.size(1), " nodes a cell; it must be 4, 5, 6 or 8");
+  } else {
+    ids.expect({-1});
+    offsets.emplace(cells.id_bits == 64 ? Array::of<std::int64_t>(offsets_, "offsets")
+                                        : Array::of<std::int32_t>(offsets_, "offsets"));
+    offsets->expect({-1});
+    if (offsets->size(0) < 1) refuse_value("offsets", "is empty; it must have an entry more than there are cells");
+    cells.n_cells = offsets->size(0) - 1;
+    cells.offsets = offsets->data<void>();
+    const auto entry = [&](std::int64_t i) {
+      return cells.id_bits == 64 ? offsets->data<std::int64_t>()[i] : std::int64_t{offsets->data<std::int32_t>()[i]};
+    };
+    const std::int64_t n_ids = entry(cells.n_cells) - entry(0);
+    if (n_ids > ids.size(0)) refuse_value("offsets", "span ", n_ids, " nodes; cells has ", ids.size(0));
+  }
+  return new_adjacency([&](riis_adjacency **made) { return riis_adjacency_create_from_cells(&cells, made); });
+}
+
+Adjacency *from_faces(nb::handle owner_, nb::handle neighbor_, nb::handle n_cells, nb::handle index_base, nb::handle n_threads) {
+  riis_faces faces;
+  call_shortly(riis_faces_init(&faces, sizeof faces));
+  const Array owner = Array::of_integers(owner_, "owner");
+  owner.expect({-1});
+  const Array neighbor = owner.bits() == 64 ? Array::of<std::int64_t>(neighbor_, "neighbor")
+                                            : Array::of<std::int32_t>(neighbor_, "neighbor");
+  neighbor.expect({owner.size(0)});
+  faces.n_cells = integer(n_cells, "n_cells");
+  faces.n_faces = owner.size(0);
+  faces.owner = owner.data<void>();
+  faces.neighbor = neighbor.data<void>();
+  faces.id_bits = owner.bits();
+  faces.index_base = integer32(index_base, "index_base");
+  faces.n_threads = thread_count(n_threads);
+  return new_adjacency([&](riis_adjacency **made) { return riis_adjacency_create_from_faces(&faces, made); });
+}
+
+Adjacency *from_grid(nb::handle ni_, nb::handle nj_, nb::handle nk_, nb::handle n_threads) {
+  const std::int64_t ni = integer(ni_, "ni"), nj = integer(nj_, "nj"), nk = integer(nk_, "nk");
+  const std::int32_t n = thread_count(n_threads);
+  return new_adjacency([&](riis_adjacency **made) { return riis_adjacency_create_from_grid(ni, nj, nk, n, made); });
+}
+
+riis_csr rows_of(Adjacency &adjacency) {
+  const Reading reading(adjacency.usage, "adjacency");
+  riis_csr csr = empty_rows();
+  call_shortly(riis_adjacency_csr(adjacency.handle, &csr, sizeof csr));
+  return csr;
+}
+
+template <class T>
+std::size_t last_offset(const void *offsets, std::int64_t n_rows) {
+  return offsets ? static_cast<std::size_t>(static_cast<const T *>(offsets)[n_rows]) : 0;
+}
+
+nb::object offsets(nb::handle self) {
+  Adjacency &adjacency = object<Adjacency>(self, "adjacency");
+  const riis_csr csr = rows_of(adjacency);
+  return view_of(static_cast<const std::int64_t *>(csr.offsets), {static_cast<std::size_t>(csr.n_rows) + 1}, self,
+                 adjacency.usage.n_views);
+}
+
+nb::object columns(nb::handle self) {
+  Adjacency &adjacency = object<Adjacency>(self, "adjacency");
+  const riis_csr csr = rows_of(adjacency);
+  const std::size_t n = last_offset<std::int64_t>(csr.offsets, csr.n_rows);
+  if (csr.column_bits == 32)
+    return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
+  return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
+}
+
+std::string description(const Mesh &mesh) {
+  if (mesh.usage.is_closed) return "<riis.Mesh, closed>";
+  return text_of("<riis.Mesh, ", mesh.points.n, " nodes>");
+}
+
+#define RIIS_COORDINATES "numpy.typing.NDArray[numpy.float64]"
+#define RIIS_IDS "numpy.typing.NDArray[numpy.integer]"
+
+void add_adjacency(nb::module_ &module) {
+  nb::class_<Adjacency> adjacency(module, "Adjacency", R"(Neighbours of nodes, as compressed sparse rows that the library owns.
+
+from_cells, from_faces and from_grid make one. Columns ascend without repetition, and the rows are symmetric.)");
+  adjacency
+      .def_static("from_cells", &from_cells, nb::arg("cells").none(), nb::arg("n_nodes").none(), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
+                  nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
+                  nb::sig("def from_cells(cells: " RIIS_IDS ", n_nodes: int, *, offsets: " RIIS_IDS
+                          " | None = None, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
+                  R"(Makes the adjacency of nodes that an edge of a cell joins.
+
+cells    (n_cells, 4, 5, 6 or 8) int32 or int64: tetrahedra, pyramids, prisms or hexahedra in the order of VTK; or, with
+         offsets, (n,): the nodes of cell after cell
+n_nodes  of the mesh
+offsets  (n_cells + 1,) of the type of cells: where each cell begins in cells, and the last ends)")
+      .def_static("from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(), nb::arg("n_cells").none(), nb::kw_only(),
+                  nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
+                  nb::sig("def from_faces(owner: " RIIS_IDS ", neighbor: " RIIS_IDS
+                          ", n_cells: int, *, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
+                  R"(Makes the adjacency of cells with a common face, for codes that mark cell centres.
+
+owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a face joins; neighbor is index_base - 1 at
+                 the boundary)")
+      .def_static("from_grid", &from_grid, nb::arg("ni").none(), nb::arg("nj").none(), nb::arg("nk").none(), nb::kw_only(), nb::arg("n_threads").none() = 0,
+                  nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
+                  "Makes the adjacency of a structured grid; node (i, j, k) has the number i + ni (j + nj k).")
+      .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
+                   "(n_rows + 1,): where each row begins in columns, and the last ends. A view.")
+      .def_prop_ro("columns", &columns, nb::sig("def columns(self) -> " RIIS_IDS),
+                   "The neighbours, row after row: int32 for fewer than 2**31 nodes, else int64. A view.")
+      .def("__len__", [](Adjacency &self) { return static_cast<std::size_t>(rows_of(self).n_rows); })
+      .def("__repr__", [](Adjacency &self) {
+        return self.usage.is_closed ? std::string("<riis.Adjacency, closed>")
+                                    : text_of("<riis.Adjacency, ", rows_of(self).n_rows, " rows>");
+      });
+  add_closing(adjacency);
+}
+
+}  // namespace
+
+void Mesh::close(const char *name) {
+  Handle::close(name);
+  points = Points{};
+  drop_adjacency(*this);
+}
+
+void add_mesh(nb::module_ &module) {
+  add_adjacency(module);
+  nb::class_<Mesh> mesh(module, "Mesh", R"(The nodes that are marked. Their coordinates are borrowed, not copied.
+
+xyz is (n, 3) float64 of any forward strides, in C or Fortran order, mesh units; or x, y and z are (n,) float64 with
+equal strides. The mesh keeps the arrays alive. Call update() after every change of the coordinates.)");
+  mesh.def("__init__", &create, nb::arg("xyz").none(), nb::arg("y").none() = nb::none(), nb::arg("z").none() = nb::none(),
+           nb::sig("def __init__(self, xyz: " RIIS_COORDINATES ", y: " RIIS_COORDINATES " | None = None, z: " RIIS_COORDINATES
+                   " | None = None) -> None"))
+      .def("update", &update, nb::arg("xyz").none() = nb::none(), nb::arg("y").none() = nb::none(), nb::arg("z").none() = nb::none(),
+           nb::sig("def update(self, xyz: " RIIS_COORDINATES " | None = None, y: " RIIS_COORDINATES " | None = None, z: "
+                   RIIS_COORDINATES " | None = None) -> None"),
+           R"(Tells the mesh that its nodes moved, in place (no argument) or to other arrays, and checks them.
+
+The adjacency stays if the number of nodes does.)")
+      .def("prepare", &prepare, nb::arg("n_threads").none() = 0, nb::sig("def prepare(self, n_threads: int = 0) -> None"),
+           "Makes the clusters of search='clusters' now, rather than in the second marking: 41 bytes a node.")
+      .def("set_adjacency", &set_adjacency, nb::arg("adjacency").none() = nb::none(), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
+           nb::arg("columns").none() = nb::none(), nb::arg("n_all").none() = 0, nb::arg("index_base").none() = 0,
+           nb::sig("def set_adjacency(self, adjacency: typing.Any = None, *, offsets: " RIIS_IDS " | None = None, columns: "
+                   RIIS_IDS " | None = None, n_all: int = 0, index_base: int = 0) -> None"),
+           R"(Gives the mesh the neighbours of its nodes, which are borrowed and kept alive. No argument takes them away.
+
+adjacency         an Adjacency, or scipy's sparse rows (indptr, indices)
+offsets, columns  (n_nodes + 1,) and (n,), int32 or int64: the same as arrays. They must not change meanwhile
+n_all             columns are below this; from n_nodes on they are ghosts. 0: n_nodes
+index_base        of offsets and columns)")
+      .def_prop_ro(
+          "n_nodes",
+          [](Mesh &self) {
+            self.usage.check("mesh");
+            return self.points.n;
+          },
+          nb::sig("def n_nodes(self) -> int"), "The number of nodes.")
+      .def("__len__",
+           [](Mesh &self) {
+             self.usage.check("mesh");
+             return static_cast<std::size_t>(self.points.n);
+           })
+      .def("__repr__", &description);
+  add_closing(mesh);
+}
+
+}  // namespace riis_python

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "module.hpp"
+
+#include "arguments.hpp"
+#include "log.hpp"
+
+NB_MODULE(_riis, module) {
+  using namespace riis_python;
+  module.doc() = "The compiled half of riis; import riis instead.";
+  module.attr("FAR_DISTANCE") = RIIS_FAR_DISTANCE;
+  module.def("version_string", &riis_version_string, nb::sig("def version_string() -> str"),
+             "Returns the version of the C library, such as '0.2.0'.");
+  module.def(
+      "version",
+      [] {
+        std::int32_t major = 0, minor = 0, patch = 0;
+        riis_version(&major, &minor, &patch);
+        return nb::make_tuple(major, minor, patch);
+      },
+      nb::sig("def version() -> tuple[int, int, int]"), "Returns the version of the C library as three numbers.");
+  module.def(
+      "status_name", [](nb::handle status) { return riis_status_name(integer32(status, "status")); }, nb::arg("status").none(),
+      nb::sig("def status_name(status: int) -> str"), "Returns the name of a status of the C library.");
+  add_log(module);
+  add_valve(module);
+  add_keyframes(module);
+  add_surface(module);
+  add_mesh(module);
+  add_marking(module);
+  add_leaks(module);
+  add_laws(module);
+}

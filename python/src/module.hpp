@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of the module, and the objects that parts share.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include "arrays.hpp"
+#include "handles.hpp"
+
+namespace riis_python {
+
+struct Valve : Handle<riis_valve, riis_valve_destroy> {
+  static constexpr const char *python_name = "Valve";
+  std::string kind;
+};
+
+struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
+  static constexpr const char *python_name = "Keyframes";
+};
+
+struct Surface : Handle<riis_surface, riis_surface_destroy> {
+  static constexpr const char *python_name = "Surface";
+  riis_surface_options options{};  // those in use
+  int n_pair_views = 0;            // arrays of the last find_crossings
+
+  void close(const char *name);
+};
+
+struct Adjacency : Handle<riis_adjacency, riis_adjacency_destroy> {
+  static constexpr const char *python_name = "Adjacency";
+};
+
+struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
+  static constexpr const char *python_name = "Mesh";
+  Points points;                 // the caller's arrays, kept alive
+  std::vector<Array> rows;       // those of an adjacency
+  nb::object adjacency;          // an object whose rows are borrowed
+
+  ~Mesh() { riis_mesh_destroy(&handle); }  // before what it borrows
+  void close(const char *name);
+};
+
+struct MarkResult : Handle<riis_mark_result, riis_mark_result_destroy> {
+  static constexpr const char *python_name = "MarkResult";
+  std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
+  std::int32_t n_threads = 0;  // that it requested
+  int marking_fork = 0;        // fork_number() at the marking
+  int n_edge_views = 0;        // arrays of the last find_leaks
+
+  void close(const char *name);
+  // Refuses calls on several threads that a child of fork() lacks.
+  void check_threads(const char *name) const;
+};
+
+// Calls of a class of riis._records make its objects.
+nb::object record(const char *name);
+
+// The options of a marking that several calls share.
+struct MarkOptions {
+  // Refuses a mask that does not fit the mesh.
+  MarkOptions(const Mesh &mesh, nb::handle mask, nb::handle n_threads);
+  riis_mark_options options;
+  std::optional<Array> mask;
+};
+
+// Changes the options that the keywords name; keywords that are None stay as they are.
+void set_surface_options(riis_surface_options &options, nb::handle keywords, const char *name);
+// Changes scale, rotation and translation only.
+void set_placement(riis_surface_options &options, nb::handle placement, const char *name);
+
+void add_valve(nb::module_ &module);
+void add_keyframes(nb::module_ &module);
+void add_surface(nb::module_ &module);
+void add_closest(nb::class_<Surface> &surface);
+void add_mesh(nb::module_ &module);
+void add_marking(nb::module_ &module);
+void add_resistance(nb::class_<MarkResult> &result);
+void add_leaks(nb::module_ &module);
+void add_laws(nb::module_ &module);
+
+}  // namespace riis_python

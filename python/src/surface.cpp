@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface.hpp"
+
+
+namespace riis_python {
+namespace {
+
+// The options in the annotations of signatures.
+#define RIIS_VECTOR "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64] | None = None"
+#define RIIS_SURFACE_OPTIONS                                                                                    \
+  "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float " \
+  "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, translation: "           \
+  RIIS_VECTOR ", flip_normals: bool | None = None, distance: typing.Literal['triangles', 'sampling', "          \
+  "'minimization'] | None = None, distance_tolerance: float | typing.Literal['auto'] | None = None, "           \
+  "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "      \
+  "'skip'] | None = None, n_threads: int | None = None"
+#define RIIS_POINTS "numpy.typing.NDArray[numpy.float64]"
+#define RIIS_FACES "numpy.typing.NDArray[numpy.integer]"
+
+riis_surface_options default_options() {
+  riis_surface_options options;
+  call_shortly(riis_surface_options_init(&options, sizeof options));
+  return options;
+}
+
+// Returns the options for a call. A child of fork() has one thread, also if the options are those of its parent.
+riis_surface_options for_this_process(riis_surface_options options) {
+  if (is_forked()) options.n_threads = 1;
+  return options;
+}
+
+// Makes the content of a surface. make(handle or null, options) calls the library.
+template <class Make>
+void make_content(Surface &surface, riis_surface_options options, const Make &make) {
+  check_surfaces_allowed("surface");
+  const riis_surface_options now = for_this_process(options);
+  call_to_write(surface.usage, [&] { return make(now); });
+  surface.options = options;
+}
+
+template <class Make>
+void update_content(Surface &surface, nb::handle keywords, const Make &make) {
+  const Writing writing(surface.usage, "surface", surface.usage.n_views + surface.n_pair_views);
+  riis_surface_options options = surface.options;
+  set_surface_options(options, keywords, "options");
+  make_content(surface, options, make);
+}
+
+template <class Make>
+Surface *new_surface(nb::handle keywords, const Make &make) {
+  auto made = std::make_unique<Surface>();
+  riis_surface_options options = default_options();
+  set_surface_options(options, keywords, "options");
+  make_content(*made, options, [&](const riis_surface_options &now) { return make(now, &made->handle); });
+  return made.release();
+}
+
+void create(Surface *self, nb::handle valve_, const nb::kwargs &keywords) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  const Reading reading(valve.usage, "valve");
+  riis_surface_options options = default_options();
+  set_surface_options(options, keywords, "options");
+  new (self) Surface();
+  try {
+    make_content(*self, options,
+                 [&](const riis_surface_options &now) { return riis_surface_create(valve.handle, &now, &self->handle); });
+  } catch (...) {
+    self->~Surface();
+    throw;
+  }
+}
+
+void update(Surface &self, nb::handle valve_, const nb::kwargs &keywords) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  const Reading reading(valve.usage, "valve");
+  update_content(self, keywords,
+                 [&](const riis_surface_options &now) { return riis_surface_update(self.handle, valve.handle, &now); });
+}
+
+void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, nb::handle seconds_, nb::handle placement_before,
+                   const nb::kwargs &keywords) {
+  Valve &valve = object<Valve>(valve_, "valve"), &before = object<Valve>(valve_before_, "valve_before");
+  const Reading reading(valve.usage, "valve"), reading_before(before.usage, "valve_before");
+  const double seconds = number(seconds_, "seconds");
+  riis_surface_options placement = self.options;
+  set_surface_options(placement, keywords, "options");
+  set_placement(placement, placement_before, "placement_before");
+  update_content(self, keywords, [&](const riis_surface_options &now) {
+    return riis_surface_update_moving(self.handle, valve.handle, before.handle, seconds, &now, &placement);
+  });
+}
+
+Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities, nb::handle index_base,
+                     const nb::kwargs &keywords) {
+  if (faces.is_none()) refuse_type("faces", "must be a numpy array of int32 or int64, not NoneType");
+  FaceArrays of_faces(faces, leaflet_id, index_base);
+  of_faces.set_vertices(vertices, velocities);
+  return new_surface(keywords, [&](const riis_surface_options &now, riis_surface **made) {
+    return riis_surface_create_from_arrays(&of_faces.arrays, &now, made);
+  });
+}
+
+void update_from_arrays(Surface &self, nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
+                        nb::handle index_base, const nb::kwargs &keywords) {
+  FaceArrays of_faces(faces, leaflet_id, index_base);
+  of_faces.set_vertices(vertices, velocities);
+  update_content(self, keywords, [&](const riis_surface_options &now) {
+    return riis_surface_update_from_arrays(self.handle, &of_faces.arrays, &now);
+  });
+}
+
+Surface *from_keyframes(nb::handle keyframes_, nb::handle time_, nb::handle since_, const nb::kwargs &keywords) {
+  Keyframes &keyframes = object<Keyframes>(keyframes_, "keyframes");
+  const Reading reading(keyframes.usage, "keyframes");
+  const double time = number(time_, "time"), since = number_or(since_, "since", time);
+  return new_surface(keywords, [&](const riis_surface_options &now, riis_surface **made) {
+    return riis_surface_create_from_keyframes(keyframes.handle, time, since, &now, made);
+  });
+}
+
+void update_from_keyframes(Surface &self, nb::handle keyframes_, nb::handle time_, nb::handle since_,
+                           const nb::kwargs &keywords) {
+  Keyframes &keyframes = object<Keyframes>(keyframes_, "keyframes");
+  const Reading reading(keyframes.usage, "keyframes");
+  const double time = number(time_, "time"), since = number_or(since_, "since", time);
+  update_content(self, keywords, [&](const riis_surface_options &now) {
+    return riis_surface_update_from_keyframes(self.handle, keyframes.handle, time, since, &now);
+  });
+}
+
+riis_surface_info info_of(Surface &surface) {
+  const Reading reading(surface.usage, "surface");
+  riis_surface_info info;
+  call_shortly(riis_surface_get_info(surface.handle, &info, sizeof info));
+  return info;
+}
+
+nb::object info(Surface &surface) {
+  const riis_surface_info found = info_of(surface);
+  return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
+                               array_of(found.lower, "float64"), array_of(found.upper, "float64"), found.seconds_triangles,
+                               found.seconds_scene, found.error_bound);
+}
+
+using GetPoints = riis_status (*)(const riis_surface *, std::int64_t *, const double **);
+
+// Returns an array of the vertices, None if there is none.
+nb::object vertex_array(nb::handle self, GetPoints get, std::size_t n_components) {
+  Surface &surface = object<Surface>(self, "surface");
+  const Reading reading(surface.usage, "surface");
+  std::int64_t n = 0;
+  const double *data = nullptr;
+  call_shortly(get(surface.handle, &n, &data));
+  if (!data) return nb::none();
+  return view_of(data, {static_cast<std::size_t>(n), n_components}, self, surface.usage.n_views);
+}
+
+nb::object triangles(nb::handle self) {
+  Surface &surface = object<Surface>(self, "surface");
+  const Reading reading(surface.usage, "surface");
+  std::int64_t n_triangles = 0;
+  const std::int64_t *vertex_id = nullptr, *triangle_id = nullptr;
+  const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;
+  call_shortly(riis_surface_triangles(surface.handle, &n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
+  const auto n = static_cast<std::size_t>(n_triangles);
+  int &n_views = surface.usage.n_views;
+  return record("Triangles")(view_of(vertex_id, {n, 3}, self, n_views), view_of(triangle_id, {n}, self, n_views),
+                             view_of(leaflet_id, {n}, self, n_views), view_of(patch_id, {n}, self, n_views));
+}
+
+std::string description(Surface &surface) {
+  if (surface.usage.is_closed) return "<riis.Surface, closed>";
+  const riis_surface_info found = info_of(surface);
+  return text_of("<riis.Surface, ", found.n_triangles, " triangles, half thickness ", found.half_thickness, ">");
+}
+
+}  // namespace
+
+FaceArrays::FaceArrays(nb::handle given_faces, nb::handle leaflet_id, nb::handle index_base) {
+  call_shortly(riis_surface_arrays_init(&arrays, sizeof arrays));
+  arrays.index_base = integer32(index_base, "index_base");
+  if (!given_faces.is_none()) {
+    faces.emplace(Array::of_integers(given_faces, "faces"));
+    faces->expect({-1, faces->n_dimensions() == 2 && faces->size(1) == 4 ? 4 : 3});
+    arrays.n_faces = faces->size(0);
+    if (arrays.n_faces == 0) raise_status(RIIS_INVALID_SURFACE, "faces: there are none");
+    arrays.corners_per_face = static_cast<std::int32_t>(faces->size(1));
+    arrays.vertex_ids = faces->data<void>();
+    arrays.vertex_id_bits = faces->bits();
+  }
+  if (!leaflet_id.is_none()) {
+    if (!faces) refuse_value("leaflet_id", "needs faces");
+    leaflets.emplace(Array::of<std::int32_t>(leaflet_id, "leaflet_id")).expect({arrays.n_faces});
+    arrays.leaflet_id = leaflets->data<std::int32_t>();
+  }
+}
+
+void FaceArrays::set_vertices(nb::handle given_vertices, nb::handle given_velocities) {
+  vertices = points_of(given_vertices, "vertices");
+  arrays.n_vertices = vertices.n;
+  arrays.x = vertices.x;
+  arrays.y = vertices.y;
+  arrays.z = vertices.z;
+  arrays.stride = vertices.stride;
+  if (given_velocities.is_none()) return;
+  velocities = points_of(given_velocities, "velocities");
+  velocities.arrays.front().expect_shape({vertices.n, 3});
+  arrays.vx = velocities.x;
+  arrays.vy = velocities.y;
+  arrays.vz = velocities.z;
+  arrays.velocity_stride = velocities.stride;
+}
+
+void Surface::close(const char *name) {
+  if (n_pair_views > 0) Writing::refuse_views(name, n_pair_views);
+  Handle::close(name);
+}
+
+void add_surface(nb::module_ &module) {
+  nb::class_<Surface> surface(module, "Surface", R"(Triangles that answer closest-point queries, with a half thickness.
+
+Surface(valve, **options) makes the surface of a valve. from_arrays and from_keyframes make others. Normals point
+downstream. Options:
+
+half_thickness      the half width of the band that is marked, mesh units; 'auto', the default, is 0.1 * scale
+tolerance           0.05: distances to the triangles and to the smooth valve differ by at most tolerance * half_thickness
+scale               1. The placement is x -> scale * rotation * x + translation
+rotation_axis       (0, 0, 1)
+rotation_angle      0, degrees
+translation         (0, 0, 0), mesh units
+flip_normals        False
+distance            'triangles'; the paper's 'sampling' and 'minimization' serve for comparison
+distance_tolerance  'auto': tolerance; for these two, in half thicknesses
+triangulation       'adapted', or 'fixed': the same triangles at every opening
+zero_area           'refuse' or 'skip' triangles without area, in from_arrays
+n_threads           0: 1 for 4096 triangles, at most 1 a processor
+
+Updates keep the options that they do not name, and raise BufferError while arrays show the surface's memory.)");
+  surface
+      .def("__init__", &create, nb::arg("valve").none(), nb::arg("options"),
+           nb::sig("def __init__(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"))
+      .def_static("from_arrays", &from_arrays, nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
+                  nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0,
+                  nb::arg("options"),
+                  nb::sig("def from_arrays(vertices: " RIIS_POINTS ", faces: " RIIS_FACES
+                          ", *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
+                          " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> Surface"),
+                  R"(Makes a surface from triangles or quads, which are copied.
+
+vertices    (n_vertices, 3) float64 of any forward strides, before placement
+faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the right-hand rule makes the normal
+leaflet_id  (n_faces,) int32, >= 0; default 0
+velocities  (n_vertices, 3) float64, lengths over the caller's time)")
+      .def_static("from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(), nb::arg("since").none() = nb::none(),
+                  nb::arg("options"),
+                  nb::sig("def from_keyframes(keyframes: Keyframes, time: float, since: float | None = None, *, "
+                          RIIS_SURFACE_OPTIONS ") -> Surface"),
+                  R"(Makes a surface from the frames around a time, with velocities.
+
+since is the time that the velocity is the mean from. None: the derivative of the interpolation.)")
+      .def("update", &update, nb::arg("valve").none(), nb::arg("options"),
+           nb::sig("def update(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"),
+           "Replaces the content by that of a valve, such as one that moved.")
+      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(), nb::arg("seconds").none(),
+           nb::kw_only(), nb::arg("placement_before").none() = nb::none(), nb::arg("options"),
+           nb::sig("def update_moving(self, valve: Valve, valve_before: Valve, seconds: float, *, placement_before: dict[str, "
+                   "typing.Any] | None = None, " RIIS_SURFACE_OPTIONS ") -> None"),
+           R"(Replaces the content as update does, and gives every vertex a velocity.
+
+valve_before      the state before, of the same kind
+seconds           from valve_before to valve; negative as time goes back
+placement_before  a dict of scale, rotation_axis, rotation_angle and translation before; entries that it lacks are
+                  the present ones
+
+The velocity, in mesh units over the unit of seconds, is the mean of the step.)")
+      .def("update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(), nb::kw_only(),
+           nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0, nb::arg("options"),
+           nb::sig("def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
+                   " | None = None, *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
+                   " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
+           "Replaces the content from arrays, as from_arrays takes them. Without faces the vertices alone move.")
+      .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
+           nb::arg("since").none() = nb::none(), nb::arg("options"),
+           nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, since: float | None = None, *, "
+                   RIIS_SURFACE_OPTIONS ") -> None"),
+           "Replaces the content by the frames around a time, as from_keyframes does.")
+      .def_prop_ro("info", &info, nb::sig("def info(self) -> riis._records.SurfaceInfo"),
+                   "Counts, bounds, area, and the seconds of the last create or update.")
+      .def_prop_ro(
+          "half_thickness", [](Surface &self) { return info_of(self).half_thickness; }, "The half thickness, mesh units.")
+      .def_prop_ro(
+          "vertices", [](nb::handle self) { return vertex_array(self, riis_surface_vertices, 3); },
+          nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
+          "(n_vertices, 3): the vertices after placement. A view.")
+      .def_prop_ro(
+          "uv", [](nb::handle self) { return vertex_array(self, riis_surface_vertex_parameters, 2); },
+          nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
+          "(n_vertices, 2): each vertex's place on its patch, 0 to 1. None for a surface from arrays. A view.")
+      .def_prop_ro(
+          "velocities", [](nb::handle self) { return vertex_array(self, riis_surface_vertex_velocities, 3); },
+          nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
+          "(n_vertices, 3): each vertex's velocity. None if the last update gave none. A view.")
+      .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
+                   "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,). Views.")
+      .def("__repr__", &description);
+  add_closest(surface);
+  add_closing(surface);
+}
+
+}  // namespace riis_python

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "module.hpp"
+
+namespace riis_python {
+namespace {
+
+std::int64_t n_parameters(const Valve &valve) {
+  std::int64_t n = 0;
+  call_shortly(riis_valve_n_parameters(valve.handle, &n));
+  return n;
+}
+
+riis_parameter parameter(const Valve &valve, std::int64_t id) {
+  riis_parameter found;
+  call_shortly(riis_valve_parameter(valve.handle, id, &found, sizeof found));
+  return found;
+}
+
+// Returns the number of values of a parameter; 1 for a name that the library is to refuse.
+std::int64_t n_values(const Valve &valve, const std::string &name) {
+  for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
+    const riis_parameter found = parameter(valve, id);
+    if (name == found.name) return found.n_values;
+  }
+  return 1;
+}
+
+void set(Valve &valve, nb::handle key, nb::handle value) {
+  const Writing writing(valve.usage, "valve");
+  const std::string name = text(key, "name");
+  if (PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr())) {
+    double values[3];
+    three_numbers(value, name.c_str(), values);
+    call_shortly(riis_valve_set(valve.handle, name.c_str(), 3, values));
+  } else {
+    call_shortly(riis_valve_set_scalar(valve.handle, name.c_str(), number(value, name.c_str())));
+  }
+}
+
+nb::object get(Valve &valve, nb::handle key) {
+  const Reading reading(valve.usage, "valve");
+  const std::string name = text(key, "name");
+  double values[3] = {};
+  const std::int64_t n = n_values(valve, name);
+  call_shortly(riis_valve_get(valve.handle, name.c_str(), n, values));
+  return n == 1 ? nb::object(nb::float_(values[0])) : array_of(values, "float64");
+}
+
+void set_all(Valve &valve, const nb::kwargs &parameters) {
+  for (const auto [name, value] : parameters) set(valve, name, value);
+}
+
+void create(Valve *self, nb::handle kind, const nb::kwargs &parameters) {
+  new (self) Valve();
+  try {
+    self->kind = text(kind, "kind");
+    call_shortly(riis_valve_create(self->kind.c_str(), &self->handle));
+    set_all(*self, parameters);
+  } catch (...) {
+    self->~Valve();
+    throw;
+  }
+}
+
+Valve *copy(Valve &valve) {
+  const Reading reading(valve.usage, "valve");
+  auto made = std::make_unique<Valve>();
+  made->kind = valve.kind;
+  call_shortly(riis_valve_copy(valve.handle, &made->handle));
+  return made.release();
+}
+
+Valve *from_patches(nb::handle degree, nb::handle control, nb::handle curve_id, nb::handle reversed, nb::handle leaflet_id,
+                    nb::handle index_base) {
+  riis_patches patches;
+  call_shortly(riis_patches_init(&patches, sizeof patches));
+  const Array degrees = Array::of<std::int32_t>(degree, "degree");
+  degrees.expect({-1});
+  std::int64_t n_points = 0;
+  for (std::int64_t i = 0; i < degrees.size(0); ++i) {
+    const std::int32_t d = degrees.data<std::int32_t>()[i];
+    if (d < 1 || d > 3) refuse_value("degree", "entry ", i, " is ", d, "; it must be 1, 2 or 3");
+    n_points += d + 1;
+  }
+  const Array points = Array::of<double>(control, "control");
+  points.expect({n_points, 3});
+  const Array curves = Array::of<std::int32_t>(curve_id, "curve_id");
+  curves.expect({-1, 4});
+  patches.n_curves = degrees.size(0);
+  patches.degree = degrees.data<std::int32_t>();
+  patches.control = points.data<double>();
+  patches.n_patches = curves.size(0);
+  patches.curve_id = curves.data<std::int32_t>();
+  patches.index_base = integer32(index_base, "index_base");
+  std::optional<Array> reversals, leaflets;
+  if (!reversed.is_none()) {
+    reversals.emplace(Array::of<std::int32_t>(reversed, "reversed")).expect({patches.n_patches, 4});
+    patches.reversed = reversals->data<std::int32_t>();
+  }
+  if (!leaflet_id.is_none()) {
+    leaflets.emplace(Array::of<std::int32_t>(leaflet_id, "leaflet_id")).expect({patches.n_patches});
+    patches.leaflet_id = leaflets->data<std::int32_t>();
+  }
+  auto made = std::make_unique<Valve>();
+  made->kind = "patches";
+  call_library([&] { return riis_valve_create_from_patches(&patches, &made->handle); });
+  return made.release();
+}
+
+void set_open_state(Valve &valve, nb::handle open_) {
+  Valve &open = object<Valve>(open_, "open");
+  open.usage.check("open");
+  const Writing writing(valve.usage, "valve");
+  if (&open != &valve && open.usage.is_written) Reading::refuse_busy("open");
+  call_shortly(riis_valve_set_open_state(valve.handle, open.handle));
+}
+
+nb::list keys(Valve &valve) {
+  const Reading reading(valve.usage, "valve");
+  nb::list names;
+  for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) names.append(parameter(valve, id).name);
+  return names;
+}
+
+nb::dict parameters(Valve &valve) {
+  const Reading reading(valve.usage, "valve");
+  const nb::object make = record("Parameter");
+  nb::dict all;
+  for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
+    const riis_parameter found = parameter(valve, id);
+    const nb::object value =
+        found.n_values == 1 ? nb::object(nb::float_(found.default_values[0])) : array_of(found.default_values, "float64");
+    all[found.name] = make(found.name, found.unit, found.description, found.n_values, value, found.minimum, found.maximum);
+  }
+  return all;
+}
+
+bool contains(Valve &valve, nb::handle name) {
+  if (!PyUnicode_Check(name.ptr())) return false;
+  return nb::cast<bool>(nb::object(keys(valve).attr("__contains__")(name)));
+}
+
+std::string description(Valve &valve) {
+  if (valve.usage.is_closed) return "<riis.Valve, closed>";
+  return text_of("<riis.Valve '", valve.kind, "', opening ", nb::cast<double>(get(valve, nb::str("opening"))), ">");
+}
+
+}  // namespace
+
+nb::object record(const char *name) { return nb::module_::import_("riis._records").attr(name); }
+
+void add_valve(nb::module_ &module) {
+  nb::class_<Valve> valve(module, "Valve", R"(A parametric valve: its kind and the values of its parameters.
+
+kind is 'aortic', the paper's three cusps, 'mitral', 'trileaflet', three equal cusps that close, or 'bileaflet',
+a mechanical prosthesis. Keywords set parameters: Valve('mitral', opening=0.3).
+
+A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
+dict(valve) has all. Lengths are in centimetres by default, angles in degrees. A name such as 'leaflet_angle' of an
+aortic valve stands for all three cusps and can only be set; 'right.leaflet_angle' is one cusp's. Rotation,
+translation, t0_* and t3_* have three values.)");
+  valve
+      .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
+           nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "
+                   "numpy.typing.NDArray[numpy.float64]) -> None"))
+      .def_static("from_patches", &from_patches, nb::arg("degree").none(), nb::arg("control").none(), nb::arg("curve_id").none(), nb::kw_only(),
+                  nb::arg("reversed").none() = nb::none(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("index_base").none() = 0,
+                  nb::sig("def from_patches(degree: numpy.typing.NDArray[numpy.int32], control: "
+                          "numpy.typing.NDArray[numpy.float64], curve_id: numpy.typing.NDArray[numpy.int32], *, reversed: "
+                          "numpy.typing.NDArray[numpy.int32] | None = None, leaflet_id: numpy.typing.NDArray[numpy.int32] | None "
+                          "= None, index_base: int = 0) -> Valve"),
+                  R"(Makes a valve from Coons patches between Bézier curves.
+
+degree       (n_curves,) int32: 1, 2 or 3
+control      (sum of degree + 1, 3) float64: the control points, curve after curve
+curve_id     (n_patches, 4) int32: the curves at v = 0, v = 1, u = 0, u = 1, counted from index_base
+reversed     (n_patches, 4) int32: 1 where the side runs against its curve
+leaflet_id   (n_patches,) int32, >= 0; default 0
+
+The valve's only parameter is 'opening'. Arrays are copied.)")
+      .def("__setitem__", &set, nb::arg("name").none(), nb::arg("value").none(),
+           nb::sig("def __setitem__(self, name: str, value: float | collections.abc.Sequence[float] | "
+                   "numpy.typing.NDArray[numpy.float64]) -> None"),
+           "Sets a parameter, to one value or three.")
+      .def("__getitem__", &get, nb::arg("name").none(),
+           nb::sig("def __getitem__(self, name: str) -> typing.Any"),
+           "Returns a parameter: a float, or an array (3,) for a parameter with three values.")
+      .def("__contains__", &contains, nb::arg("name").none(), nb::sig("def __contains__(self, name: object) -> bool"))
+      .def(
+          "__iter__", [](Valve &self) { return nb::iter(keys(self)); },
+          nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"))
+      .def("__len__", [](Valve &self) { return nb::len(keys(self)); })
+      .def("keys", &keys, nb::sig("def keys(self) -> list[str]"), "Returns the names of the parameters.")
+      .def("update", &set_all, nb::arg("parameters"),
+           nb::sig("def update(self, **parameters: float | collections.abc.Sequence[float] | "
+                   "numpy.typing.NDArray[numpy.float64]) -> None"),
+           "Sets several parameters: valve.update(opening=0.3, root_radius=1.2).")
+      .def("copy", &copy, nb::sig("def copy(self) -> Valve"), "Returns a second valve with the same parameters and states.")
+      .def("__copy__", &copy, nb::sig("def __copy__(self) -> Valve"))
+      .def(
+          "__deepcopy__", [](Valve &self, nb::handle) { return copy(self); }, nb::arg("memo").none(),
+          nb::sig("def __deepcopy__(self, memo: object) -> Valve"))
+      .def("set_open_state", &set_open_state, nb::arg("open").none(), nb::sig("def set_open_state(self, open: Valve) -> None"),
+           R"(Gives the valve a second state to open to: its own is at opening 0, that of open at opening 1.
+
+open is copied. It is of the same kind; from patches, it has the same curves, degrees and sides.)")
+      .def_prop_ro("parameters", &parameters, nb::sig("def parameters(self) -> dict[str, riis._records.Parameter]"),
+                   "Descriptions of the parameters by name: unit, text, default, minimum, maximum.")
+      .def_prop_ro(
+          "kind", [](const Valve &self) { return self.kind; }, "The kind, such as 'mitral'; 'patches' for from_patches.")
+      .def("__repr__", &description);
+  add_closing(valve);
+}
+
+}  // namespace riis_python

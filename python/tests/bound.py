@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""bound.py ROOT: every function of riis.h is bound by the Python package, or left out for a reason that stands here.
+
+The check reads sources only, so it needs neither the package nor numpy.
+"""
+
+import pathlib
+import re
+import sys
+
+# Functions of riis.h, and the names in the package through which they are called.
+BOUND = {
+    "riis_status_name": "status_name",
+    "riis_version": "version",
+    "riis_version_string": "version_string",
+    "riis_set_log": "set_log",
+    "riis_last_error": "Error",
+    "riis_valve_create": "Valve.__init__",
+    "riis_valve_copy": "Valve.copy",
+    "riis_valve_destroy": "Valve.close",
+    "riis_valve_set": "Valve.__setitem__",
+    "riis_valve_set_scalar": "Valve.__setitem__",
+    "riis_valve_get": "Valve.__getitem__",
+    "riis_valve_set_open_state": "Valve.set_open_state",
+    "riis_valve_create_from_patches": "Valve.from_patches",
+    "riis_valve_n_parameters": "Valve.parameters",
+    "riis_valve_parameter": "Valve.parameters",
+    "riis_surface_create": "Surface.__init__",
+    "riis_surface_create_from_arrays": "Surface.from_arrays",
+    "riis_surface_create_from_keyframes": "Surface.from_keyframes",
+    "riis_surface_update": "Surface.update",
+    "riis_surface_update_moving": "Surface.update_moving",
+    "riis_surface_update_from_arrays": "Surface.update_from_arrays",
+    "riis_surface_update_from_keyframes": "Surface.update_from_keyframes",
+    "riis_surface_destroy": "Surface.close",
+    "riis_surface_get_info": "Surface.info",
+    "riis_surface_vertices": "Surface.vertices",
+    "riis_surface_vertex_parameters": "Surface.uv",
+    "riis_surface_vertex_velocities": "Surface.velocities",
+    "riis_surface_triangles": "Surface.triangles",
+    "riis_keyframes_create": "Keyframes.__init__",
+    "riis_keyframes_destroy": "Keyframes.close",
+    "riis_find_crossings": "find_crossings",
+    "riis_surface_crossing_pairs": "Surface.crossing_pairs",
+    "riis_closest_point": "Surface.closest_point",
+    "riis_closest_points": "Surface.closest_points",
+    "riis_mesh_create": "Mesh.__init__",
+    "riis_mesh_update": "Mesh.update",
+    "riis_mesh_destroy": "Mesh.close",
+    "riis_mesh_prepare": "Mesh.prepare",
+    "riis_mesh_set_adjacency": "Mesh.set_adjacency",
+    "riis_adjacency_create_from_cells": "Adjacency.from_cells",
+    "riis_adjacency_create_from_faces": "Adjacency.from_faces",
+    "riis_adjacency_create_from_grid": "Adjacency.from_grid",
+    "riis_adjacency_csr": "Adjacency.offsets",
+    "riis_adjacency_destroy": "Adjacency.close",
+    "riis_mark_result_create": "MarkResult.__init__",
+    "riis_mark_result_destroy": "MarkResult.close",
+    "riis_mark_nodes": "mark",
+    "riis_mark_result_marked": "MarkResult.ids",
+    "riis_mark_result_within_limit": "MarkResult.within_limit",
+    "riis_mark_result_marked_fields": "MarkResult.normal",
+    "riis_mark_result_within_limit_fields": "WithinLimit.normal",
+    "riis_mark_result_dense": "MarkResult.dense",
+    "riis_mark_result_stats": "MarkResult.stats",
+    "riis_mark_result_add_resistance": "MarkResult.add_resistance",
+    "riis_mark_result_add_reaction": "MarkResult.add_reaction",
+    "riis_mark_result_band_sums": "MarkResult.band_sums",
+    "riis_find_leaks": "find_leaks",
+    "riis_mark_result_leaking_edges": "MarkResult.leaking_edges",
+    "riis_label_open_regions": "label_open_regions",
+    "riis_find_passage": "find_passage",
+    "riis_opening_from_table": "OpeningTable.opening_and_rate",
+    "riis_opening_from_times": "OpeningTimes.opening_and_rate",
+    "riis_opening_switch_advance": "OpeningSwitch.advance",
+    "riis_opening_angle_advance": "OpeningAngle.advance",
+}
+# A struct of options is a call's keyword arguments, or a class with defaults.
+LEFT_OUT = {
+    name: "keyword arguments have defaults, so nobody initialises a struct"
+    for name in (
+        "riis_patches_init",
+        "riis_surface_options_init",
+        "riis_surface_arrays_init",
+        "riis_keyframe_arrays_init",
+        "riis_crossing_options_init",
+        "riis_closest_options_init",
+        "riis_closest_arrays_init",
+        "riis_csr_init",
+        "riis_cells_init",
+        "riis_faces_init",
+        "riis_mark_options_init",
+        "riis_resistance_init",
+        "riis_opening_table_init",
+        "riis_opening_times_init",
+        "riis_opening_switch_init",
+        "riis_opening_switch_state_init",
+        "riis_opening_angle_init",
+        "riis_opening_angle_state_init",
+    )
+}
+
+
+def check(root: pathlib.Path) -> list[str]:
+    """Returns what is wrong, a line each."""
+    header = (root / "include/riis/riis.h").read_text(encoding="utf-8")
+    sources = "".join(path.read_text(encoding="utf-8") for path in sorted((root / "python/src").glob("*.[ch]pp")))
+    functions = set(re.findall(r"^RIIS_API [^(]*?\b(riis_\w+)\(", header, re.MULTILINE))
+    wrong = [] if len(functions) > 70 else ["riis.h was not read"]
+    wrong += [f"{name} is not in python/tests/bound.py" for name in sorted(functions - set(BOUND) - set(LEFT_OUT))]
+    wrong += [f"{name} of python/tests/bound.py is not in riis.h" for name in sorted((set(BOUND) | set(LEFT_OUT)) - functions)]
+    wrong += [f"{name} is bound and left out" for name in sorted(set(BOUND) & set(LEFT_OUT))]
+    wrong += [f"{name} is not called in python/src" for name in sorted(BOUND) if not re.search(rf"\b{name}\b", sources)]
+    wrong += [f"{name} has no reason" for name, reason in LEFT_OUT.items() if not reason]
+    return wrong
+
+
+if __name__ == "__main__":
+    problems = check(pathlib.Path(sys.argv[1]))
+    print("\n".join(problems) or f"{len(BOUND)} functions are bound, {len(LEFT_OUT)} are left out for a reason")
+    sys.exit(bool(problems))

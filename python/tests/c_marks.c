@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * c_marks COORDINATES OUTPUT: what a C program finds, for the tests of the Python package.
+ * Reads xyz as doubles. Marks the mitral valve that moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as raw arrays: the
+ * number of marked nodes, ids, distances, triangles, leaflets, normals, velocities, K and K u of all nodes. */
+#include <riis/riis.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void check(riis_status status) {
+  if (!status) return;
+  fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
+  exit(1);
+}
+
+static void require(int holds, const char *what) {
+  if (holds) return;
+  fprintf(stderr, "c_marks: %s\n", what);
+  exit(1);
+}
+
+static double *read_coordinates(const char *path, int64_t *n_nodes) {
+  FILE *file = fopen(path, "rb");
+  require(file && fseek(file, 0, SEEK_END) == 0, "the coordinates cannot be read");
+  const long size = ftell(file);
+  require(size > 0 && size % 24 == 0, "the coordinates are no points");
+  rewind(file);
+  double *xyz = malloc((size_t)size);
+  require(xyz && fread(xyz, 1, (size_t)size, file) == (size_t)size, "the coordinates cannot be read");
+  fclose(file);
+  *n_nodes = size / 24;
+  return xyz;
+}
+
+static void put(FILE *file, const void *data, size_t size, int64_t n) {
+  require(fwrite(data, size, (size_t)n, file) == (size_t)n, "the output cannot be written");
+}
+
+int main(int n_arguments, char **arguments) {
+  riis_valve *valve = NULL, *before = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  riis_surface_options surface_options;
+  riis_mark_options options;
+  riis_resistance model;
+  riis_mark_fields fields;
+  int64_t n_nodes = 0, n = 0;
+  const int64_t *node_id = NULL, *triangle_id = NULL;
+  const int32_t *leaflet_id = NULL;
+  const double *distance = NULL;
+  require(n_arguments == 3, "usage: c_marks COORDINATES OUTPUT");
+  double *xyz = read_coordinates(arguments[1], &n_nodes);
+  double *coefficient = calloc((size_t)n_nodes, 8), *momentum = calloc(3 * (size_t)n_nodes, 8);
+  FILE *file = fopen(arguments[2], "wb");
+  require(file && coefficient && momentum, "no memory, or the output cannot be opened");
+
+  check(riis_valve_create("mitral", &valve));
+  check(riis_valve_copy(valve, &before));
+  check(riis_valve_set_scalar(before, "opening", 0.3));
+  check(riis_valve_set_scalar(valve, "opening", 0.4));
+  check(riis_surface_options_init(&surface_options, sizeof surface_options));
+  surface_options.half_thickness = 0.15;
+  check(riis_surface_create(valve, &surface_options, &surface));
+  check(riis_surface_update_moving(surface, valve, before, 0.05, NULL, NULL));
+  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
+  check(riis_mark_result_create(&result));
+  check(riis_mark_options_init(&options, sizeof options));
+  options.fields = RIIS_FIELD_NORMAL | RIIS_FIELD_VELOCITY;
+  check(riis_mark_nodes(surface, mesh, &options, result));
+  check(riis_mark_result_marked(result, &n, &node_id, &distance, &triangle_id, &leaflet_id));
+  check(riis_mark_result_marked_fields(result, &fields, sizeof fields));
+  check(riis_resistance_init(&model, sizeof model));
+  model.resistance = 1e4;
+  check(riis_mark_result_add_resistance(result, &model, n_nodes, coefficient, momentum));
+
+  put(file, &n, 8, 1);
+  put(file, node_id, 8, n);
+  put(file, distance, 8, n);
+  put(file, triangle_id, 8, n);
+  put(file, leaflet_id, 4, n);
+  put(file, fields.normal, 8, 3 * n);
+  put(file, fields.velocity, 8, 3 * n);
+  put(file, coefficient, 8, n_nodes);
+  put(file, momentum, 8, 3 * n_nodes);
+  require(fclose(file) == 0, "the output cannot be written");
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&before);
+  riis_valve_destroy(&valve);
+  free(xyz);
+  free(coefficient);
+  free(momentum);
+  return 0;
+}

@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Marks equal those of a C program to the last bit, however the arrays lie and whatever search runs."""
+
+import subprocess
+
+import numpy
+import pytest
+
+import riis
+
+
+def same(a, b):
+    """Tells whether two arrays have the same shape and bits."""
+    return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+
+
+def lists_of(marks):
+    return [numpy.array(a) for a in (marks.ids, marks.distance, marks.triangle_id, marks.leaflet_id)]
+
+
+def test_marks_equal_those_of_c(c_marks, xyz, tmp_path):
+    xyz.tofile(tmp_path / "xyz")
+    subprocess.run([c_marks, tmp_path / "xyz", tmp_path / "marks"], check=True)
+    data = (tmp_path / "marks").read_bytes()
+    n = int(numpy.frombuffer(data, numpy.int64, 1)[0])
+    assert n > 1000
+    offset = 8
+
+    def take(dtype, *shape):
+        nonlocal offset
+        count = int(numpy.prod(shape))
+        found = numpy.frombuffer(data, dtype, count, offset).reshape(shape)
+        offset += found.nbytes
+        return found
+
+    valve = riis.Valve("mitral", opening=0.4)
+    before = valve.copy()
+    before["opening"] = 0.3
+    surface = riis.Surface(valve, half_thickness=0.15)
+    surface.update_moving(valve, before, 0.05)
+    marks = riis.mark(surface, riis.Mesh(xyz), fields="normal, velocity")
+    coefficient, momentum = numpy.zeros(len(xyz)), numpy.zeros((len(xyz), 3))
+    marks.add_resistance(coefficient, momentum, resistance=1e4)
+    assert len(marks) == n
+    assert same(marks.ids, take(numpy.int64, n))
+    assert same(marks.distance, take(numpy.float64, n))
+    assert same(marks.triangle_id, take(numpy.int64, n))
+    assert same(marks.leaflet_id, take(numpy.int32, n))
+    assert same(marks.normal, take(numpy.float64, n, 3))
+    assert same(marks.velocity, take(numpy.float64, n, 3))
+    assert same(coefficient, take(numpy.float64, len(xyz)))
+    assert same(momentum, take(numpy.float64, len(xyz), 3))
+    assert offset == len(data)
+    assert numpy.count_nonzero(momentum) > 0
+
+
+def layouts(xyz):
+    wide = numpy.full((2 * len(xyz), 5), numpy.nan)
+    wide[::2, 1:4] = xyz
+    backwards = numpy.ascontiguousarray(xyz[:, ::-1])
+    yield "Fortran order", (numpy.asfortranarray(xyz),)
+    yield "rows of a wider array", (wide[::2, 1:4],)
+    yield "coordinates in reverse", (backwards[:, ::-1],)
+    yield "transposed", (numpy.ascontiguousarray(xyz.T).T,)
+    yield "three arrays", tuple(numpy.ascontiguousarray(xyz[:, i]) for i in range(3))
+    yield "three strided arrays", (xyz[:, 0], xyz[:, 1], xyz[:, 2])
+
+
+def test_layouts_of_coordinates_give_the_same_marks(surface, xyz, marks):
+    for name, arrays in layouts(xyz):
+        found = riis.mark(surface, riis.Mesh(*arrays))
+        assert all(map(same, lists_of(found), lists_of(marks))), name
+
+
+def test_searches_instructions_and_threads_give_the_same_marks(surface, grid):
+    expected = lists_of(riis.mark(surface, grid, search="exhaustive", n_threads=1))
+    assert len(expected[0]) > 500
+    for search in "auto", "neighbor", "clusters":
+        for n_threads in 1, 3:
+            marks = riis.mark(surface, grid, search=search, n_threads=n_threads)
+            assert all(map(same, lists_of(marks), expected)), search
+            assert marks.stats.complete
+    baseline = riis.mark(surface, grid, search="clusters", instructions="baseline")
+    assert all(map(same, lists_of(baseline), expected))
+    assert baseline.stats.instructions == "baseline" and baseline.stats.search == "clusters"
+    assert not riis.mark(surface, grid, search="paper").stats.complete
+
+
+def test_a_result_is_reused(surface, mesh, valve):
+    marks = riis.MarkResult()
+    assert repr(marks) == "<riis.MarkResult, empty>"
+    for opening in 0.1, 0.9:
+        valve["opening"] = opening
+        surface.update(valve)
+        assert riis.mark(surface, mesh, into=marks) is marks
+        assert all(map(same, lists_of(marks), lists_of(riis.mark(surface, mesh))))
+    assert riis.mark(surface, mesh) is not riis.mark(surface, mesh)
+
+
+def test_fields_equal_those_of_closest_points(grid):
+    valve = riis.Valve("trileaflet", opening=0.5)
+    before = riis.Valve("trileaflet", opening=0.4)
+    surface = riis.Surface(valve)
+    surface.update_moving(valve, before, 0.01)
+    names = ["point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id"]
+    marks = riis.mark(surface, grid, fields=names)
+    n = len(marks)
+    xyz = numpy.stack(numpy.meshgrid(*3 * [numpy.linspace(-2.0, 2.0, 41)], indexing="ij"), axis=-1)
+    nodes = numpy.ascontiguousarray(xyz.reshape(-1, 3)[:, ::-1])[marks.ids]
+    closest = surface.closest_points(nodes, barycentric=True, side=True)
+    assert same(marks.distance, closest.distance)
+    assert same(marks.point, closest.point)
+    assert same(marks.normal, closest.normal)
+    assert same(marks.barycentric, closest.barycentric)
+    assert same(marks.side, closest.side)
+    assert same(marks.triangle_id, closest.triangle_id)
+    assert same(marks.leaflet_id, closest.leaflet_id)
+    assert marks.uv.shape == (n, 2) and marks.uv.min() >= 0.0 and marks.uv.max() <= 1.0
+    assert same(marks.patch_id, surface.triangles.patch_id[marks.triangle_id])
+    assert set(numpy.unique(marks.rim)) == {0, 1}
+    # The velocity is that of the triangle's vertices, by the barycentric weights.
+    corners = surface.velocities[surface.triangles.vertex_id[marks.triangle_id]]
+    assert numpy.allclose(marks.velocity, numpy.einsum("ij,ijk->ik", marks.barycentric, corners), rtol=1e-12, atol=1e-12)
+    assert numpy.abs(marks.velocity).max() > 1.0
+
+
+def test_nodes_within_the_limit(surface, mesh):
+    marks = riis.mark(surface, mesh, distance_limit=0.3, fields="point")
+    within = marks.within_limit
+    assert len(within) == marks.stats.n_within_limit > len(marks) == marks.stats.n_marked
+    assert within.distance.max() <= 0.3 and marks.distance.max() <= 0.15
+    assert same(within.ids[within.distance <= 0.15], marks.ids)
+    assert within.point.shape == (len(within), 3)
+
+
+def test_a_mask_leaves_nodes_out(surface, mesh, marks, xyz):
+    mask = xyz[:, 0] > 0.0
+    for given in mask, mask.astype(numpy.uint8):
+        masked = riis.mark(surface, mesh, mask=given)
+        assert same(masked.ids, marks.ids[mask[marks.ids]])
+
+
+def test_dense_arrays_equal_the_lists(surface, mesh):
+    marks = riis.mark(surface, mesh, distance_limit=0.3)
+    dense = marks.dense(triangle_id=True, leaflet_id=True)
+    assert dense.mark.dtype == bool and same(numpy.flatnonzero(dense.mark), marks.ids)
+    within = marks.within_limit
+    assert same(dense.distance[within.ids], within.distance)
+    assert same(dense.triangle_id[within.ids], within.triangle_id)
+    assert same(dense.leaflet_id[within.ids], within.leaflet_id)
+    far = numpy.delete(numpy.arange(len(mesh)), within.ids)
+    assert numpy.all(dense.distance[far] == riis.FAR_DISTANCE) and numpy.all(dense.triangle_id[far] == -1)
+    given = numpy.empty(len(mesh))
+    nan = marks.dense(mark=False, distance=given, far_distance=numpy.nan)
+    assert nan.distance is given and nan.mark is None and nan.leaflet_id is None
+    assert numpy.isnan(given[far]).all() and same(given[within.ids], within.distance)
+
+
+def test_resistance_adds_the_formula(surface, mesh, marks):
+    coefficient = numpy.ones(len(mesh))
+    marks.add_resistance(coefficient, resistance=2.0, half_thickness=0.1)
+    eps, d = 0.1, marks.distance
+    delta = numpy.where(d < eps, (1.0 + numpy.cos(numpy.pi * numpy.minimum(d, eps) / eps)) / (2.0 * eps), 0.0)
+    expected = numpy.ones(len(mesh))
+    expected[marks.ids] += 2.0 / eps * delta
+    assert numpy.allclose(coefficient, expected, rtol=1e-12)
+    weight, velocity = numpy.full(len(mesh), 0.5), numpy.tile([1.0, 2.0, 3.0], (len(mesh), 1))
+    force = marks.add_reaction(velocity, weight, resistance=2.0, half_thickness=0.1)
+    assert numpy.allclose(force, 0.5 * (coefficient - 1.0).sum() * numpy.array([1.0, 2.0, 3.0]), rtol=1e-9)
+    assert marks.add_reaction(velocity, weight, force, resistance=2.0, half_thickness=0.1) is force
+    assert numpy.allclose(force, (coefficient - 1.0).sum() * numpy.array([1.0, 2.0, 3.0]), rtol=1e-9)
+
+
+def test_the_rim_is_cut(surface, mesh):
+    marks = riis.mark(surface, mesh, fields=["rim"])
+    whole, cut = numpy.zeros(len(mesh)), numpy.zeros(len(mesh))
+    marks.add_resistance(whole, resistance=1.0)
+    marks.add_resistance(cut, resistance=1.0, rim="cut")
+    rim = marks.rim == 1
+    assert rim.any() and not cut[marks.ids[rim]].any()
+    assert same(cut[marks.ids[~rim]], whole[marks.ids[~rim]])
+
+
+def test_band_sums_are_sums_by_side(mesh, xyz):
+    surface = riis.Surface(riis.Valve("mitral", opening=0.0), half_thickness=0.15)
+    marks = riis.mark(surface, mesh, fields="side rim")
+    value, weight = xyz[:, 0].copy(), numpy.full(len(mesh), 2.0)
+    sums = marks.band_sums(value, weight, 0.05, 0.15)
+    for entry, side in enumerate((-1, 1)):
+        ids = marks.ids[(marks.side == side) & (marks.rim == 0) & (marks.distance >= 0.05) & (marks.distance <= 0.15)]
+        assert sums.n_nodes[entry] == len(ids) > 100
+        assert numpy.isclose(sums.sum[entry], 2.0 * value[ids].sum()) and sums.weight[entry] == 2.0 * len(ids)
+
+
+def test_moved_coordinates_count_after_an_update(surface, xyz):
+    nodes = xyz.copy()
+    mesh = riis.Mesh(nodes)
+    before = lists_of(riis.mark(surface, mesh))
+    nodes += 0.2
+    mesh.update()
+    moved = lists_of(riis.mark(surface, mesh))
+    assert not same(moved[0], before[0])
+    assert all(map(same, moved, lists_of(riis.mark(surface, riis.Mesh(xyz + 0.2)))))
+    mesh.update(xyz)
+    assert all(map(same, lists_of(riis.mark(surface, mesh)), before))
+
+
+def test_a_mesh_without_nodes(surface):
+    marks = riis.mark(surface, riis.Mesh(numpy.empty((0, 3))), fields="normal")
+    assert len(marks) == 0 and marks.ids.shape == (0,) and marks.normal.shape == (0, 3)
+    marks.add_resistance(numpy.empty(0), resistance=1.0)
+    assert marks.dense().mark.shape == (0,)
+
+
+def test_a_prepared_mesh_uses_clusters(surface, xyz):
+    mesh = riis.Mesh(xyz)
+    mesh.prepare(1)
+    assert riis.mark(surface, mesh).stats.search == "clusters"
+
+
+@pytest.mark.parametrize("kind", ["aortic", "mitral", "trileaflet", "bileaflet"])
+def test_kinds_of_valves_are_marked(kind, mesh):
+    assert len(riis.mark(riis.Surface(riis.Valve(kind)), mesh)) > 100

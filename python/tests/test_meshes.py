@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Adjacency, leaks, open regions and passages."""
+
+import numpy
+import pytest
+
+import riis
+
+
+def rows(adjacency):
+    return [adjacency.columns[a:b].tolist() for a, b in zip(adjacency.offsets[:-1], adjacency.offsets[1:])]
+
+
+@pytest.mark.parametrize("dtype", ["i4", "i8"])
+def test_adjacencies_of_cells_faces_and_grids(dtype):
+    tetrahedra = numpy.array([[0, 1, 2, 3], [1, 2, 3, 4]], dtype)
+    adjacency = riis.Adjacency.from_cells(tetrahedra, 5)
+    assert rows(adjacency) == [[1, 2, 3], [0, 2, 3, 4], [0, 1, 3, 4], [0, 1, 2, 4], [1, 2, 3]]
+    assert adjacency.offsets.dtype == numpy.int64 and adjacency.columns.dtype == numpy.int32 and len(adjacency) == 5
+    mixed = riis.Adjacency.from_cells(tetrahedra.ravel() + 1, 5, offsets=numpy.array([0, 4, 8], dtype), index_base=1)
+    assert rows(mixed) == rows(adjacency)
+    faces = riis.Adjacency.from_faces(numpy.array([0, 1, 2], dtype), numpy.array([1, 2, -1], dtype), 3)
+    assert rows(faces) == [[1], [0, 2], [1]]
+    assert rows(riis.Adjacency.from_grid(2, 2, 1)) == [[1, 2], [0, 3], [0, 3], [1, 2]]
+    assert repr(faces) == "<riis.Adjacency, 3 rows>"
+
+
+class Rows:
+    """Sparse rows with the attributes of scipy's."""
+
+    def __init__(self, adjacency, dtype):
+        self.indptr, self.indices = adjacency.offsets.astype(dtype), adjacency.columns.astype(dtype)
+
+
+def test_rows_of_the_caller_give_the_same_marks(surface, grid):
+    adjacency = riis.Adjacency.from_grid(41, 41, 41)
+    expected = riis.mark(surface, grid, search="neighbor").ids.copy()
+    for dtype in numpy.int32, numpy.int64:
+        sparse = Rows(adjacency, dtype)
+        grid.set_adjacency(sparse)
+        assert numpy.array_equal(riis.mark(surface, grid, search="neighbor").ids, expected)
+        grid.set_adjacency(offsets=sparse.indptr + 1, columns=sparse.indices + 1, index_base=1)
+        del sparse
+        assert numpy.array_equal(riis.mark(surface, grid, search="neighbor").ids, expected)
+    grid.set_adjacency()
+    with pytest.raises(riis.InvalidArgumentError):
+        riis.mark(surface, grid, search="neighbor")
+
+
+def test_an_adjacency_goes_with_the_number_of_nodes(surface, grid):
+    grid.update(numpy.zeros((5, 3)))
+    assert len(grid) == 5 and repr(grid) == "<riis.Mesh, 5 nodes>"
+    with pytest.raises(riis.InvalidArgumentError):
+        riis.mark(surface, grid, search="neighbor")
+
+
+def plate(half_thickness):
+    """A square plate at z = 0.03 that parts a grid of spacing 0.1."""
+    corners = numpy.array([[-3, -3, 0.03], [3, -3, 0.03], [3, 3, 0.03], [-3, 3, 0.03]])
+    return riis.Surface.from_arrays(corners, numpy.array([[0, 1, 2, 3]]), half_thickness=half_thickness)
+
+
+def test_leaks_regions_and_passages_tell_the_same(grid):
+    n = 41
+    below, above = numpy.array([0]), numpy.array([n**3 - 1])
+    tight, loose = plate(0.06), plate(0.02)
+    marks = riis.mark(tight, grid)
+    assert len(marks) == n * n
+    assert riis.find_leaks(tight, grid, marks).n_edges == 0 and marks.leaking_edges.node_id.shape == (0, 2)
+    label, n_regions = riis.label_open_regions(grid, marks)
+    assert n_regions == 2 and set(label) == {-1, 0, 21 * n * n} and (label[marks.ids] == -1).all()
+    passage = riis.find_passage(tight, grid, below, above)
+    assert passage.state == "closed" and numpy.isclose(passage.distance, 0.03)
+    riis.mark(loose, grid, into=marks)
+    assert len(marks) == 0
+    leaks = riis.find_leaks(loose, grid, marks)
+    assert leaks.n_edges == n * n and numpy.isclose(leaks.longest_length, 0.1) and numpy.isclose(leaks.half_thickness, 0.03)
+    edges = marks.leaking_edges
+    assert edges.node_id.shape == (n * n, 2) and numpy.allclose(edges.length, 0.1) and numpy.allclose(edges.distance, 0.03)
+    given = numpy.empty(n**3, numpy.int64)
+    same, n_regions = riis.label_open_regions(grid, marks, label=given)
+    assert same is given and n_regions == 1 and not given.any()
+    assert riis.find_passage(loose, grid, below, above).state == "open"
+    mask = numpy.ones(n**3, bool)
+    mask[20 * n * n : 21 * n * n] = False
+    assert riis.find_passage(loose, grid, below, above, mask=mask).state == "none"

@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bad input is refused with an exception of a class per kind, whose text names the argument."""
+
+import math
+
+import numpy
+import pytest
+
+import riis
+
+Argument = riis.InvalidArgumentError
+
+
+class Objects:
+    """Good arguments."""
+
+    def __init__(self):
+        self.valve = riis.Valve("mitral", opening=0.3)
+        self.surface = riis.Surface(self.valve, half_thickness=0.15)
+        self.xyz = numpy.random.default_rng(1).uniform(-1.0, 1.0, (60, 3))
+        self.mesh = riis.Mesh(self.xyz)
+        self.marks = riis.mark(self.surface, self.mesh)
+        self.n = len(self.xyz)
+        self.reals = numpy.zeros(self.n)
+        self.vectors = numpy.zeros((self.n, 3))
+        self.triangle = numpy.eye(3)
+        self.faces = numpy.array([[0, 1, 2]])
+        self.tetrahedron = numpy.array([[0, 1, 2, 3]])
+
+
+@pytest.fixture(scope="module")
+def o():
+    return Objects()
+
+
+def read_only(array):
+    array = array.copy()
+    array.flags.writeable = False
+    return array
+
+
+def unaligned(n):
+    return numpy.frombuffer(bytearray(8 * n + 1), numpy.uint8)[1:].view(numpy.float64)
+
+
+def with_nan(array):
+    array = array.copy()
+    array[7, 1] = math.nan
+    return array
+
+
+# Each line: what is refused, the class, the text, the call.
+REFUSED = {
+    # Arrays of points
+    "list": (TypeError, "xyz: must be a numpy array of float64, not list", lambda o: riis.Mesh([[0.0, 0.0, 0.0]])),
+    "None": (TypeError, "xyz: must be a numpy array of float64, not NoneType", lambda o: riis.Mesh(None)),
+    "float32": (TypeError, "xyz: its dtype is float32; it must be float64", lambda o: riis.Mesh(o.xyz.astype("f4"))),
+    "float16": (TypeError, "xyz: .*float16", lambda o: riis.Mesh(o.xyz.astype("f2"))),
+    "integers": (TypeError, "xyz: its dtype is int64; it must be float64", lambda o: riis.Mesh(o.xyz.astype(int))),
+    "complex": (TypeError, "xyz: its dtype is complex128", lambda o: riis.Mesh(o.xyz.astype(complex))),
+    "big-endian": (TypeError, "xyz: its dtype is >f8", lambda o: riis.Mesh(o.xyz.astype(">f8"))),
+    "objects": (TypeError, "xyz: its dtype is object", lambda o: riis.Mesh(o.xyz.astype(object))),
+    "dates": (TypeError, r"xyz: .*datetime64", lambda o: riis.Mesh(numpy.zeros((3, 3), "M8[s]"))),
+    "records": (TypeError, "xyz: its dtype is", lambda o: riis.Mesh(numpy.zeros(3, [("x", "f8"), ("y", "f8")]))),
+    "one dimension": (Argument, r"xyz: its shape is \(9,\); it must be \(n, 3\)", lambda o: riis.Mesh(numpy.zeros(9))),
+    "no dimension": (Argument, r"xyz: its shape is \(\)", lambda o: riis.Mesh(numpy.zeros(()))),
+    "(3, n)": (Argument, r"xyz: its shape is \(3, 60\); it must be \(n, 3\)", lambda o: riis.Mesh(o.xyz.T.copy())),
+    "backwards": (Argument, "xyz: its points are -24 bytes apart", lambda o: riis.Mesh(o.xyz[::-1])),
+    "repeated": (Argument, "xyz: its points are 0 bytes apart", lambda o: riis.Mesh(numpy.broadcast_to(o.xyz[0], (9, 3)))),
+    "unaligned": (Argument, "xyz: its entries are not aligned", lambda o: riis.Mesh(unaligned(9).reshape(3, 3))),
+    "NaN": (riis.InvalidMeshError, "7.*nan", lambda o: riis.Mesh(with_nan(o.xyz))),
+    "infinite": (riis.InvalidMeshError, "0.*inf", lambda o: riis.Mesh(numpy.full((2, 3), numpy.inf))),
+    "strides differ": (Argument, "z: its stride is 1 doubles, that of x is 3",
+                       lambda o: riis.Mesh(o.xyz[:, 0], o.xyz[:, 1], o.reals)),
+    "lengths differ": (Argument, r"y: its shape is \(5,\); it must be \(60,\)",
+                       lambda o: riis.Mesh(o.reals, o.reals[:5], o.reals)),
+    "z missing": (TypeError, "z: must be a numpy array", lambda o: riis.Mesh(o.reals, o.reals)),
+    "update NaN": (riis.InvalidMeshError, "7.*nan", lambda o: riis.Mesh(o.xyz).update(with_nan(o.xyz))),
+    # Valves
+    "kind": (riis.InvalidParameterError, "'tricuspid' is not a kind of valve", lambda o: riis.Valve("tricuspid")),
+    "type of kind": (TypeError, "kind: must be a str, not int", lambda o: riis.Valve(3)),
+    "null in kind": (Argument, "kind: contains a null", lambda o: riis.Valve("mit\0ral")),
+    "name": (riis.InvalidParameterError, "'height'", lambda o: riis.Valve("mitral", height=1.0)),
+    "type of name": (TypeError, "name: must be a str, not int", lambda o: o.valve[3]),
+    "unknown name": (riis.InvalidParameterError, "'height'", lambda o: o.valve["height"]),
+    "value": (riis.InvalidParameterError, "opening.*2", lambda o: riis.Valve("mitral", opening=2.0)),
+    "NaN value": (riis.InvalidParameterError, "opening.*nan", lambda o: riis.Valve("mitral", opening=math.nan)),
+    "type of value": (TypeError, "opening: must be a number, not str", lambda o: riis.Valve("mitral", opening="0.3")),
+    "bool value": (TypeError, "opening: must be a number, not bool", lambda o: riis.Valve("mitral", opening=True)),
+    "one of three": (riis.InvalidParameterError, "translation", lambda o: riis.Valve("mitral", translation=1.0)),
+    "three of one": (riis.InvalidParameterError, "opening", lambda o: riis.Valve("mitral", opening=(0, 0, 0))),
+    "two values": (Argument, "translation: has 2 entries", lambda o: riis.Valve("mitral", translation=(1, 2))),
+    "all cusps": (riis.InvalidParameterError, "leaflet_angle", lambda o: riis.Valve("aortic")["leaflet_angle"]),
+    "clash": (riis.InvalidParameterError, "bending_height is 0.71", lambda o: riis.Surface(riis.Valve("aortic", leaflet_height=0.1))),
+    "open state of a list": (TypeError, "open: must be a riis.Valve, not list", lambda o: o.valve.set_open_state([])),
+    "open state of None": (TypeError, "open: must be a riis.Valve, not NoneType", lambda o: o.valve.set_open_state(None)),
+    "open state": (riis.InvalidParameterError, "the open state is of the kind aortic", lambda o: o.valve.copy().set_open_state(riis.Valve("aortic"))),
+    "degree": (Argument, "degree: entry 0 is 4",
+               lambda o: riis.Valve.from_patches(numpy.array([4], "i4"), o.vectors, numpy.zeros((1, 4), "i4"))),
+    "control": (Argument, r"control: its shape is \(60, 3\); it must be \(2, 3\)",
+                lambda o: riis.Valve.from_patches(numpy.array([1], "i4"), o.vectors, numpy.zeros((1, 4), "i4"))),
+    "curve_id": (TypeError, "curve_id: its dtype is int64; it must be int32",
+                 lambda o: riis.Valve.from_patches(numpy.array([1], "i4"), o.vectors[:2], numpy.zeros((1, 4), "i8"))),
+    # Surfaces
+    "valve": (TypeError, "valve: must be a riis.Valve, not str", lambda o: riis.Surface("mitral")),
+    "no valve": (TypeError, "valve: must be a riis.Valve, not NoneType", lambda o: riis.Surface(None)),
+    "no argument": (TypeError, "valve", lambda o: riis.Surface()),
+    "option": (TypeError, "'thickness' is no option; the options are half_thickness",
+               lambda o: riis.Surface(o.valve, thickness=1.0)),
+    "half_thickness": (Argument, "half_thickness", lambda o: riis.Surface(o.valve, half_thickness=-2.0)),
+    "type of half_thickness": (TypeError, "half_thickness: must be a number", lambda o: riis.Surface(o.valve, half_thickness=[1])),
+    "word of half_thickness": (Argument, "half_thickness: is 'thin'", lambda o: riis.Surface(o.valve, half_thickness="thin")),
+    "tolerance": (Argument, "tolerance", lambda o: riis.Surface(o.valve, tolerance=2.0)),
+    "NaN scale": (Argument, "scale", lambda o: riis.Surface(o.valve, scale=math.nan)),
+    "rotation_axis": (Argument, "rotation_axis: has 2 entries", lambda o: riis.Surface(o.valve, rotation_axis=(0, 1))),
+    "text in translation": (TypeError, "translation: must be a number, not str",
+                            lambda o: riis.Surface(o.valve, translation=("0", "0", "0"))),
+    "translation": (TypeError, "translation: must be three numbers, not float", lambda o: riis.Surface(o.valve, translation=1.0)),
+    "flip_normals": (TypeError, "flip_normals: must be True or False, not int", lambda o: riis.Surface(o.valve, flip_normals=1)),
+    "distance": (Argument, "distance: is 'exact'; it must be one of 'triangles'", lambda o: riis.Surface(o.valve, distance="exact")),
+    "triangulation": (Argument, "triangulation: is ''", lambda o: riis.Surface(o.valve, triangulation="")),
+    "n_threads": (Argument, "n_threads", lambda o: riis.Surface(o.valve, n_threads=-1)),
+    "float n_threads": (TypeError, "n_threads: must be an integer, not float", lambda o: riis.Surface(o.valve, n_threads=1.0)),
+    "too many threads": (Argument, "n_threads: is 4294967296", lambda o: riis.Surface(o.valve, n_threads=2**32)),
+    "many bits": (Argument, "n_threads: is .* no integer of 64 bits", lambda o: riis.Surface(o.valve, n_threads=2**70)),
+    "placement_before": (TypeError, "placement_before: 'tolerance' is no option; the options are scale",
+                         lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 1.0, placement_before={"tolerance": 1})),
+    "type of placement_before": (TypeError, "placement_before: must be a dict, not float",
+                                 lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 1.0, placement_before=1.0)),
+    "valve_before": (TypeError, "valve_before: must be a riis.Valve", lambda o: riis.Surface(o.valve).update_moving(o.valve, o.mesh, 1.0)),
+    "seconds": (Argument, "seconds", lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 0.0)),
+    "faces": (TypeError, "faces: its dtype is float64; it must be int32 or int64",
+              lambda o: riis.Surface.from_arrays(o.triangle, o.triangle)),
+    "no faces": (TypeError, "faces: must be a numpy array", lambda o: riis.Surface.from_arrays(o.triangle, None)),
+    "empty faces": (riis.InvalidSurfaceError, "faces: there are none", lambda o: riis.Surface.from_arrays(o.triangle, o.faces[:0])),
+    "pentagons": (Argument, r"faces: its shape is \(1, 5\); it must be \(n, 3\)",
+                  lambda o: riis.Surface.from_arrays(o.triangle, numpy.zeros((1, 5), int))),
+    "order of faces": (Argument, "faces: its entries must lie in C order",
+                       lambda o: riis.Surface.from_arrays(o.triangle, numpy.zeros((3, 2), int).T)),
+    "index": (riis.InvalidSurfaceError, "3", lambda o: riis.Surface.from_arrays(o.triangle, o.faces + 1)),
+    "zero area": (riis.InvalidSurfaceError, "face 0 .* has zero area", lambda o: riis.Surface.from_arrays(o.triangle, 0 * o.faces)),
+    "leaflet_id": (TypeError, "leaflet_id: its dtype is int64; it must be int32",
+                   lambda o: riis.Surface.from_arrays(o.triangle, o.faces, leaflet_id=numpy.zeros(1, int))),
+    "velocities": (Argument, r"velocities: its shape is \(2, 3\); it must be \(3, 3\)",
+                   lambda o: riis.Surface.from_arrays(o.triangle, o.faces, velocities=o.triangle[:2])),
+    "NaN vertex": (riis.InvalidSurfaceError, "nan", lambda o: riis.Surface.from_arrays(o.triangle * math.nan, o.faces)),
+    "moved vertices of a valve": (Argument, "it has no faces to keep", lambda o: riis.Surface(o.valve).update_from_arrays(o.triangle)),
+    "leaflets without faces": (Argument, "leaflet_id: needs faces",
+                               lambda o: riis.Surface(o.valve).update_from_arrays(o.triangle, leaflet_id=numpy.zeros(1, "i4"))),
+    "keyframes": (TypeError, "keyframes: must be a riis.Keyframes", lambda o: riis.Surface.from_keyframes(o.valve, 0.0)),
+    "frames": (Argument, r"vertices: its shape is \(1, 3, 3\); it must be \(2, n, 3\)",
+               lambda o: riis.Keyframes(numpy.array([0.0, 1.0]), o.triangle[None], o.faces)),
+    "interpolation": (Argument, "interpolation: is 'quintic'",
+                      lambda o: riis.Keyframes(numpy.zeros(1), o.triangle[None], o.faces, interpolation="quintic")),
+    # Closest points
+    "point": (Argument, "point: has 2 entries", lambda o: o.surface.closest_point((0.0, 0.0))),
+    "NaN point": (Argument, "nan", lambda o: o.surface.closest_point((0.0, math.nan, 0.0))),
+    "points": (Argument, r"points: its shape", lambda o: o.surface.closest_points(o.reals)),
+    "output": (Argument, r"distance: its shape is \(3,\); it must be \(60,\)",
+               lambda o: o.surface.closest_points(o.xyz, distance=numpy.zeros(3))),
+    "read-only output": (Argument, "distance: is read-only", lambda o: o.surface.closest_points(o.xyz, distance=read_only(o.reals))),
+    "type of output": (TypeError, "side: its dtype is float64; it must be int32",
+                       lambda o: o.surface.closest_points(o.xyz, side=o.reals)),
+    "mask of points": (Argument, r"mask: its shape is \(3,\)", lambda o: o.surface.closest_points(o.xyz, mask=numpy.zeros(3, bool))),
+    "ids": (Argument, "point_ids: entry 1 is 5", lambda o: o.surface.closest_points(o.xyz, ids=numpy.array([5, 5]))),
+    "distance_limit of points": (Argument, "distance_limit", lambda o: o.surface.closest_points(o.xyz, distance_limit=math.nan)),
+    # Adjacency
+    "adjacency": (TypeError, "adjacency: must be a riis.Adjacency", lambda o: o.mesh.set_adjacency(3)),
+    "columns": (Argument, "offsets: and columns go together", lambda o: o.mesh.set_adjacency(offsets=numpy.zeros(61, int))),
+    "both": (Argument, "adjacency: does not go together",
+             lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(3, 4, 5), offsets=numpy.zeros(61, int))),
+    "offsets": (Argument, r"offsets: its shape is \(3,\); it must be \(61,\)",
+                lambda o: o.mesh.set_adjacency(offsets=numpy.zeros(3, int), columns=numpy.zeros(1, int))),
+    "end of offsets": (Argument, "offsets: end at 2; columns has 1",
+                       lambda o: o.mesh.set_adjacency(offsets=numpy.append(numpy.zeros(60, int), 2), columns=numpy.zeros(1, int))),
+    "column": (riis.InvalidMeshError, "60",
+               lambda o: o.mesh.set_adjacency(offsets=numpy.append(numpy.zeros(60, int), 1), columns=numpy.array([60]))),
+    "other size": (riis.Error, "n_rows is 8; the mesh has 60 nodes", lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(2, 2, 2))),
+    "cells": (Argument, "cells: has 3 nodes a cell", lambda o: riis.Adjacency.from_cells(o.faces, 3)),
+    "node of a cell": (riis.InvalidMeshError, "3", lambda o: riis.Adjacency.from_cells(o.tetrahedron, 3)),
+    "type of cells": (TypeError, "cells: its dtype is float64", lambda o: riis.Adjacency.from_cells(o.vectors, 3)),
+    "offsets of cells": (Argument, "offsets: span 5 nodes; cells has 4",
+                         lambda o: riis.Adjacency.from_cells(o.tetrahedron[0], 4, offsets=numpy.array([0, 5]))),
+    "type of offsets": (TypeError, "offsets: its dtype is int32; it must be int64",
+                        lambda o: riis.Adjacency.from_cells(o.tetrahedron[0], 4, offsets=numpy.array([0, 4], "i4"))),
+    "neighbor": (TypeError, "neighbor: its dtype is int32; it must be int64",
+                 lambda o: riis.Adjacency.from_faces(numpy.array([0]), numpy.array([1], "i4"), 2)),
+    "cell of a face": (riis.InvalidMeshError, "neighbor of face 0 is 2", lambda o: riis.Adjacency.from_faces(numpy.array([0]), numpy.array([2]), 2)),
+    "grid": (riis.Error, "ni", lambda o: riis.Adjacency.from_grid(0, 1, 1)),
+    # Marking
+    "surface": (TypeError, "surface: must be a riis.Surface, not Valve", lambda o: riis.mark(o.valve, o.mesh)),
+    "mesh": (TypeError, "mesh: must be a riis.Mesh, not ndarray", lambda o: riis.mark(o.surface, o.xyz)),
+    "into": (TypeError, "into: must be a riis.MarkResult, not dict", lambda o: riis.mark(o.surface, o.mesh, into={})),
+    "search": (Argument, "search: is 'fast'; it must be one of 'auto'", lambda o: riis.mark(o.surface, o.mesh, search="fast")),
+    "instructions": (Argument, "instructions: is 'avx'", lambda o: riis.mark(o.surface, o.mesh, instructions="avx")),
+    "field": (Argument, "fields: 'speed' is none; they are 'point'", lambda o: riis.mark(o.surface, o.mesh, fields="speed")),
+    "type of fields": (TypeError, "fields: must be a str or a sequence", lambda o: riis.mark(o.surface, o.mesh, fields=3)),
+    "type of a field": (TypeError, "fields: must be a str, not int", lambda o: riis.mark(o.surface, o.mesh, fields=[3])),
+    "velocity": (Argument, "(?i)velocit", lambda o: riis.mark(o.surface, o.mesh, fields="velocity")),
+    "distance_limit": (Argument, "distance_limit", lambda o: riis.mark(o.surface, o.mesh, distance_limit=0.01)),
+    "mask": (Argument, r"mask: its shape is \(3,\); it must be \(60,\)",
+             lambda o: riis.mark(o.surface, o.mesh, mask=numpy.ones(3, bool))),
+    "type of mask": (TypeError, "mask: its dtype is int64; it must be bool or uint8",
+                     lambda o: riis.mark(o.surface, o.mesh, mask=numpy.ones(o.n, int))),
+    "order of mask": (Argument, "mask: its entries must lie in C order",
+                      lambda o: riis.mark(o.surface, o.mesh, mask=numpy.ones(2 * o.n, bool)[::2])),
+    "no adjacency": (Argument, "(?i)adjacency", lambda o: riis.mark(o.surface, o.mesh, search="neighbor")),
+    "n_threads of a marking": (Argument, "n_threads.*2000", lambda o: riis.mark(o.surface, o.mesh, n_threads=2000)),
+    "positional": (TypeError, "mark", lambda o: riis.mark(o.surface, o.mesh, o.marks)),
+    "no such field": (Argument, "normal: the marking did not request it; mark with fields='normal'", lambda o: riis.mark(
+        o.surface, riis.Mesh(o.surface.vertices)).normal),
+    # Resistance
+    "coefficient": (Argument, r"coefficient: its shape is \(3,\); it must be \(60,\)",
+                    lambda o: o.marks.add_resistance(numpy.zeros(3), resistance=1.0)),
+    "type of coefficient": (TypeError, "coefficient: its dtype is float32",
+                            lambda o: o.marks.add_resistance(o.reals.astype("f4"), resistance=1.0)),
+    "read-only": (Argument, "coefficient: is read-only", lambda o: o.marks.add_resistance(read_only(o.reals), resistance=1.0)),
+    "order of momentum": (Argument, "momentum: its entries must lie in C order",
+                          lambda o: o.marks.add_resistance(None, numpy.asfortranarray(o.vectors), resistance=1.0)),
+    "momentum": (Argument, "(?i)velocity", lambda o: o.marks.add_resistance(None, o.vectors, resistance=1.0)),
+    "no resistance": (TypeError, "resistance", lambda o: o.marks.add_resistance(o.reals)),
+    "NaN resistance": (Argument, "resistance.*nan", lambda o: o.marks.add_resistance(o.reals, resistance=math.nan)),
+    "rim": (Argument, "rim: is 'square'", lambda o: o.marks.add_resistance(o.reals, resistance=1.0, rim="square")),
+    "half_thickness of a resistance": (Argument, "half_thickness",
+                                       lambda o: o.marks.add_resistance(o.reals, resistance=1.0, half_thickness=9.0)),
+    "empty result": (Argument, "marks: is empty", lambda o: riis.MarkResult().add_resistance(o.reals, resistance=1.0)),
+    "velocity of a reaction": (Argument, "velocity: its shape", lambda o: o.marks.add_reaction(o.reals, o.reals, resistance=1.0)),
+    "weight": (Argument, "weight: its shape", lambda o: o.marks.add_reaction(o.vectors, o.vectors, resistance=1.0)),
+    "force": (Argument, r"force: its shape is \(2,\)",
+              lambda o: o.marks.add_reaction(o.vectors, o.reals, numpy.zeros(2), resistance=1.0)),
+    "band": (Argument, "(?i)side|rim", lambda o: o.marks.band_sums(o.reals, o.reals, 0.0, 0.1)),
+    "far_distance": (Argument, "far_distance", lambda o: o.marks.dense(far_distance=0.01)),
+    "dense": (Argument, r"distance: its shape", lambda o: o.marks.dense(distance=numpy.zeros(2))),
+    # Leaks and the like
+    "leaks of an empty result": (Argument, "marks: is empty", lambda o: riis.find_leaks(o.surface, o.mesh, riis.MarkResult())),
+    "leaks without adjacency": (Argument, "(?i)adjacency", lambda o: riis.find_leaks(o.surface, o.mesh, o.marks)),
+    "regions of a mesh": (TypeError, "mesh: must be a riis.Mesh", lambda o: riis.label_open_regions(o.surface, o.marks)),
+    "regions of an empty result": (Argument, "marks: is empty", lambda o: riis.label_open_regions(o.mesh, riis.MarkResult())),
+    "from_ids": (TypeError, "from_ids: its dtype is int32; it must be int64",
+                 lambda o: riis.find_passage(o.surface, o.mesh, numpy.zeros(1, "i4"), numpy.zeros(1, "i8"))),
+    "depth": (Argument, "depth", lambda o: riis.find_crossings(o.surface, depth=2.0)),
+    "set_log": (TypeError, "function: must be callable or None, not str", lambda o: riis.set_log("print")),
+    "status": (TypeError, "status: must be an integer", lambda o: riis.status_name("RIIS_OK")),
+    # Laws
+    "keys": (Argument, "(?i)time", lambda o: riis.OpeningTable(numpy.array([1.0, 0.0]), numpy.zeros(2))(0.0)),
+    "lengths of keys": (Argument, r"opening: its shape", lambda o: riis.OpeningTable(numpy.array([0.0]), numpy.zeros(2))(0.0)),
+    "type of keys": (TypeError, "time: must be a numpy array", lambda o: riis.OpeningTable([0.0], [0.0])(0.0)),
+    "times": (Argument, "opening_seconds", lambda o: riis.OpeningTimes(0.0, 0.0, 1.0, 1.0)(0.0)),
+    "time": (TypeError, "time: must be a number, not str", lambda o: riis.OpeningTimes(0.0, 1.0, 2.0, 1.0)("now")),
+    "NaN time": (Argument, "time", lambda o: riis.OpeningTimes(0.0, 1.0, 2.0, 1.0)(math.nan)),
+    "time goes back": (Argument, "time", lambda o: riis.OpeningSwitch(1.0, 1.0).advance(riis.OpeningSwitchState(), -1.0, 0.0, 0.0)),
+    "phase": (Argument, "phase: is 'shut'",
+              lambda o: riis.OpeningSwitch(1.0, 1.0).advance(riis.OpeningSwitchState(phase="shut"), 1.0, 0.0, 0.0)),
+    "gain": (Argument, "pressure_gain",
+             lambda o: riis.OpeningAngle(math.nan, 1.0, 1.0, 1.0).advance(riis.OpeningAngleState(), 1.0, 0.0, 0.0)),
+    "long step": (riis.LimitExceededError, "take shorter steps",
+                  lambda o: riis.OpeningAngle(5500.0, 2.0, 50.0, 7.0).advance(riis.OpeningAngleState(), 1e9, 1.0, 1.0)),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused(o, name):
+    kind, text, call = REFUSED[name]
+    with pytest.raises(kind, match=text) as refusal:
+        call(o)
+    assert str(refusal.value)
+    if kind is not TypeError and kind is not riis.Error:
+        assert type(refusal.value) is kind
+
+
+def test_a_refusal_changes_nothing(o):
+    valve = riis.Valve("mitral")
+    with pytest.raises(riis.InvalidParameterError):
+        valve["opening"] = 2.0
+    assert valve["opening"] == 1.0
+    surface = riis.Surface(valve, half_thickness=0.2)
+    with pytest.raises(riis.InvalidArgumentError):
+        surface.update(valve, half_thickness=-2.0)
+    surface.update(valve)
+    assert surface.half_thickness == 0.2
+    coefficient = numpy.zeros(o.n)
+    with pytest.raises(riis.InvalidArgumentError):
+        o.marks.add_resistance(coefficient, o.vectors, resistance=1.0)
+    assert not coefficient.any()
+    mesh = riis.Mesh(o.xyz)
+    with pytest.raises(riis.InvalidMeshError):
+        mesh.update(with_nan(o.xyz))
+    assert len(riis.mark(o.surface, mesh)) == len(o.marks)
+
+
+def test_a_coordinate_that_becomes_nan_is_refused(o):
+    nodes = o.xyz.copy()
+    mesh = riis.Mesh(nodes)
+    nodes[7, 1] = math.nan
+    with pytest.raises(riis.InvalidMeshError, match="7"):
+        riis.mark(o.surface, mesh)
+
+
+def test_classes_of_errors_are_those_of_statuses():
+    statuses = {}
+    for error in vars(riis).values():
+        if isinstance(error, type) and issubclass(error, riis.Error) and error is not riis.Error:
+            assert error.status_name == riis.status_name(error.status)
+            assert error.__doc__ and error.__module__ == "riis"
+            statuses[error.status] = error
+    # A wrong size of a struct cannot come from here. riis_vtk.h alone has errors of files.
+    assert set(statuses) == {1, 3, 4, 5, 6, 7, 9, -1}
+    for status, base in {1: ValueError, 3: ValueError, 4: ValueError, 5: ValueError, 7: MemoryError, 9: RuntimeError}.items():
+        assert issubclass(statuses[status], base)
+
+
+def test_missing_instructions_are_unavailable(o):
+    with open("/proc/cpuinfo", encoding="utf-8") as info:
+        if "avx512vl" in info.read():
+            pytest.skip("this processor has all instructions")
+    with pytest.raises(riis.UnavailableError, match="instructions"):
+        riis.mark(o.surface, o.mesh, instructions="avx512")

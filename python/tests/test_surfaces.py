@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Surfaces of valves, arrays and frames, their options, and closest points."""
+
+import numpy
+import pytest
+
+import riis
+
+# A tetrahedron's faces, outwards.
+CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+FACES = numpy.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def test_info_and_arrays_agree(surface):
+    info, triangles = surface.info, surface.triangles
+    assert surface.vertices.shape == (info.n_vertices, 3) and surface.uv.shape == (info.n_vertices, 2)
+    assert triangles.vertex_id.shape == (info.n_triangles, 3) and surface.velocities is None
+    a, b, c = (surface.vertices[triangles.vertex_id[:, i]] for i in range(3))
+    assert numpy.isclose(numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1).sum() / 2, info.area)
+    used = surface.vertices[triangles.vertex_id.ravel()]
+    assert numpy.array_equal(used.min(axis=0), info.lower) and numpy.array_equal(used.max(axis=0), info.upper)
+    assert info.half_thickness == surface.half_thickness == 0.15 and 0.0 < info.error_bound <= 0.05 * 0.15
+
+
+def test_options_stay_until_they_are_named(valve):
+    surface = riis.Surface(valve, scale=10.0, translation=(0, 0, 5))
+    assert surface.half_thickness == 1.0  # 0.1 * scale
+    low = surface.info.lower
+    surface.update(valve, half_thickness=0.4)
+    surface.update(valve)
+    assert surface.half_thickness == 0.4 and numpy.allclose(surface.info.lower, low, atol=0.05)
+    surface.update(valve, half_thickness="auto", scale=1.0, translation=numpy.zeros(3))
+    assert surface.half_thickness == 0.1 and surface.info.upper[2] < 3.0
+    surface.update(valve, tolerance=None)
+    assert surface.half_thickness == 0.1
+
+
+def test_placement_turns_and_moves(valve):
+    plain = riis.Surface(valve).vertices
+    placed = riis.Surface(valve, scale=2.0, half_thickness=0.2, rotation_axis=[1, 0, 0], rotation_angle=90, translation=(1, 2, 3))
+    expected = 2.0 * plain @ numpy.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]) + [1, 2, 3]
+    assert numpy.allclose(placed.vertices, expected, atol=1e-12)
+
+
+def test_normals_flip(valve):
+    point = (0.1, 0.2, 0.3)
+    plain, flipped = (riis.Surface(valve, flip_normals=flip).closest_point(point) for flip in (False, True))
+    assert numpy.array_equal(plain.normal, -flipped.normal) and plain.side == -flipped.side != 0
+
+
+def test_a_fixed_triangulation_keeps_its_triangles(valve):
+    surface = riis.Surface(valve, triangulation="fixed")
+    before = surface.triangles.vertex_id.copy()
+    valve["opening"] = 0.6
+    surface.update(valve)
+    assert numpy.array_equal(surface.triangles.vertex_id, before)
+    with pytest.raises(riis.InvalidParameterError, match="AP_diameter"):
+        valve["AP_diameter"] = valve["AP_diameter"] * 1.01
+        surface.update(valve)
+
+
+def test_velocities_are_differences_over_the_step():
+    valve, before = riis.Valve("mitral", opening=0.5), riis.Valve("mitral", opening=0.4)
+    surface = riis.Surface(before, triangulation="fixed")
+    earlier = surface.vertices.copy()
+    surface.update_moving(valve, before, 0.1)
+    # The fixed triangles keep arc lengths, the velocity keeps u and v: close, but not the same.
+    assert numpy.allclose(surface.velocities, (surface.vertices - earlier) / 0.1, atol=0.05)
+    assert numpy.abs(surface.velocities).max() > 1.0
+    surface.update_moving(valve, valve, 0.1, placement_before={"translation": (0, 0, -1)})
+    assert numpy.allclose(surface.velocities, [0, 0, 10], atol=1e-9)
+    surface.update(valve)
+    assert surface.velocities is None
+
+
+@pytest.mark.parametrize("dtype", ["i4", "i8"])
+def test_a_surface_comes_from_arrays(dtype):
+    leaflets, velocities = numpy.array([3, 4, 5, 6], "i4"), numpy.ones((4, 3))
+    surface = riis.Surface.from_arrays(
+        numpy.asfortranarray(CORNERS), FACES.astype(dtype), leaflet_id=leaflets, velocities=velocities, half_thickness=0.1
+    )
+    assert surface.triangles.leaflet_id.tolist() == [3, 4, 5, 6] and numpy.array_equal(surface.triangles.vertex_id, FACES)
+    assert numpy.array_equal(surface.velocities, velocities) and surface.uv is None
+    found = surface.closest_point([1.0, 1.0, 1.0])
+    assert numpy.isclose(found.distance, 2.0 / numpy.sqrt(3.0)) and found.leaflet_id == 6 and found.side == 1
+    assert numpy.allclose(found.point, 1.0 / 3.0) and numpy.allclose(found.barycentric, 1.0 / 3.0)
+    one = riis.Surface.from_arrays(CORNERS, FACES.astype(dtype) + 1, index_base=1)
+    assert numpy.array_equal(one.triangles.vertex_id, FACES)
+    surface.update_from_arrays(CORNERS + 1.0)  # the vertices alone
+    assert numpy.array_equal(surface.info.lower, [1, 1, 1]) and surface.half_thickness == 0.1
+    assert surface.triangles.leaflet_id.tolist() == [3, 4, 5, 6]
+    surface.update_from_arrays(CORNERS, FACES[:1].astype(dtype))
+    assert surface.info.n_triangles == 1
+
+
+def test_quads_become_two_triangles_and_flat_ones_are_skipped():
+    quad = riis.Surface.from_arrays(numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float), numpy.array([[0, 1, 2, 3]]))
+    assert quad.triangles.vertex_id.tolist() == [[0, 1, 2], [0, 2, 3]]
+    faces = numpy.array([[0, 0, 1], [0, 1, 2]])
+    surface = riis.Surface.from_arrays(CORNERS, faces, zero_area="skip")
+    assert surface.info.n_zero_area == 1 and surface.triangles.triangle_id.tolist() == [1]
+
+
+def test_a_surface_comes_from_keyframes():
+    frames = numpy.stack([CORNERS, CORNERS + [0, 0, 1]])
+    keyframes = riis.Keyframes(numpy.array([0.0, 0.5]), frames, FACES, leaflet_id=numpy.full(4, 2, "i4"))
+    surface = riis.Surface.from_keyframes(keyframes, 0.25)
+    assert numpy.array_equal(surface.vertices, CORNERS + [0, 0, 0.5]) and set(surface.triangles.leaflet_id) == {2}
+    assert numpy.allclose(surface.velocities, [0, 0, 2])
+    surface.update_from_keyframes(keyframes, 1.0, since=0.0)
+    assert numpy.array_equal(surface.vertices, CORNERS + [0, 0, 1]) and numpy.allclose(surface.velocities, [0, 0, 1])
+    keyframes.close()
+    assert surface.info.n_triangles == 4
+    cycle = riis.Keyframes(numpy.array([0.0, 0.5]), frames, FACES, period=1.0, interpolation="cubic")
+    assert numpy.array_equal(riis.Surface.from_keyframes(cycle, 3.5).vertices, frames[1])
+
+
+def test_points_are_chosen_by_mask_or_ids(surface, xyz):
+    points = xyz[:1000]
+    everything = surface.closest_points(points)
+    mask = points[:, 0] > 0.0
+    ids = numpy.flatnonzero(mask)
+    for chosen in surface.closest_points(points, mask=mask), surface.closest_points(points, ids=ids):
+        assert numpy.array_equal(chosen.distance[mask], everything.distance[mask])
+        assert (chosen.distance[~mask] == riis.FAR_DISTANCE).all() and (chosen.triangle_id[~mask] == -1).all()
+        assert not chosen.point[~mask].any()
+    near = surface.closest_points(points, distance_limit=0.5, far_distance=9.0, n_threads=1)
+    far = everything.distance > 0.5
+    assert far.any() and (near.distance[far] == 9.0).all() and (near.leaflet_id[far] == -1).all()
+    given = numpy.empty((1000, 3))
+    found = surface.closest_points(points, distance=False, point=given, triangle_id=False, leaflet_id=False, normal=False)
+    assert found.point is given and found.distance is None and found.normal is None
+    assert numpy.array_equal(given, everything.point)
+    assert surface.closest_points(xyz[:0]).distance.shape == (0,)
+
+
+def test_other_distances_are_the_paper_s(valve):
+    exact = riis.Surface(valve).closest_point((0.0, 0.0, 0.5))
+    for distance in "sampling", "minimization":
+        surface = riis.Surface(valve, distance=distance, distance_tolerance=0.1)
+        assert abs(surface.closest_point((0.0, 0.0, 0.5)).distance - exact.distance) < 0.02
+        with pytest.raises(riis.InvalidArgumentError, match="side"):
+            surface.closest_points(numpy.zeros((1, 3)), side=True)
+
+
+def test_crossings_are_found():
+    crossed = numpy.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1], [0, 3, 0]], float)
+    surface = riis.Surface.from_arrays(crossed, numpy.array([[0, 1, 2], [3, 4, 5]]))
+    found = riis.find_crossings(surface)
+    pairs = surface.crossing_pairs
+    assert found.n_pairs == 1 and found.triangle_id.tolist() == [0, 1] and pairs.triangle_id.tolist() == [[0, 1]]
+    assert numpy.isclose(found.length, 1.0) and pairs.length[0] == found.length and pairs.depth[0] == found.depth > 0.0
+    assert numpy.allclose(pairs.point, [[0.0, 0.5, 0.0]])
+    del pairs
+    none = riis.find_crossings(riis.Surface.from_arrays(CORNERS, FACES))
+    assert none.n_pairs == 0 and none.triangle_id.tolist() == [-1, -1]

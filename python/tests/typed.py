@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A program whose types ./run python checks with mypy --strict, so that the stubs say what the calls take and return."""
+
+import numpy
+from numpy.typing import NDArray
+
+import riis
+
+
+def resistance_of(xyz: NDArray[numpy.float64], opening: float) -> NDArray[numpy.float64]:
+    valve = riis.Valve("mitral", opening=opening)
+    valve["AP_diameter"] = 3.1
+    surface = riis.Surface(valve, half_thickness=0.1)
+    mesh = riis.Mesh(xyz)
+    marks: riis.MarkResult = riis.mark(surface, mesh, fields="normal")
+    ids: NDArray[numpy.int64] = marks.ids
+    normals: NDArray[numpy.float64] = marks.normal
+    assert len(ids) == len(normals)
+    coefficient = numpy.zeros(mesh.n_nodes)
+    marks.add_resistance(coefficient, resistance=1e4)
+    lowest: float = surface.info.lower[2]
+    assert lowest < surface.closest_point((0.0, 0.0, 9.0)).point[2]
+    law = riis.OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0)
+    valve["opening"] = law(0.475)
+    return coefficient
