@@ -58,14 +58,13 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
 
 contains
 
-  ! A face with a given pressure, through which the flow may go either way. The type alone would stop a flow that comes in.
+  ! A face with a given pressure, through which the flow may go either way. Of flow that comes in, code_saturne takes the momentum
+  ! as 0, so the pressure is that of fluid at rest.
   subroutine open_face(face, pressure)
     integer, intent(in) :: face
     double precision, intent(in) :: pressure
     itypfb(face) = isolib
     icodcl(face, ipr) = 1
     rcodcl(face, ipr, 1) = pressure
-    icodcl(face, [iu, iv, iw]) = 3
-    rcodcl(face, [iu, iv, iw], 3) = 0
   end subroutine open_face
 end subroutine cs_f_user_boundary_conditions
