@@ -246,7 +246,7 @@ def main():
             {"closed": check_closed, "open": check_open, "beat": check_beat}[part](report, words.study)
         if words.out:
             import draw  # it needs matplotlib, the checks do not
-            draw.draw_all(words.study, words.out, read_history)
+            draw.draw_all(words.study, words.parts, words.out, read_history)
     except BadRecord as error:
         print(f"check.py: {error}", file=sys.stderr)
         return 2

@@ -59,14 +59,14 @@ saturne_closed() {
 
 # saturne_open: the open valve, and none, in a flow of 20 cm/s.
 saturne_open() {
-  saturne_run c open 1 VALVE_OPENING=1 RUN_INFLOW=0.2 RUN_STEPS=40 &&
-    saturne_run c none 1 VALVE_PRESENT=0 RUN_INFLOW=0.2 RUN_STEPS=40
+  saturne_run c open 1 VALVE_OPENING=1 RUN_INFLOW=0.2 RUN_STEPS=25 &&
+    saturne_run c none 1 VALVE_PRESENT=0 RUN_INFLOW=0.2 RUN_STEPS=25
 }
 
 # saturne_beat: the beat, in which the pressures of the solver open and close the valve. It is run without u_surface, by several
 # ranks up to the open valve, and in two halves. Both halves are also run without a valve.
 saturne_beat() {
-  local half=30 steps=60
+  local half=30 steps=45
   saturne_run c beat 1 RUN_STEPS=150 RUN_SLICE_EVERY=5 RUN_CHECKPOINT=$half &&
     saturne_run fortran beat 1 RUN_STEPS=150 &&
     saturne_run c beat_still 1 RUN_STEPS=150 VALVE_VELOCITY=0 &&
@@ -80,4 +80,55 @@ saturne_beat() {
     saturne_run c none_whole 1 RUN_STEPS=$steps VALVE_PRESENT=0 &&
     saturne_run c none_half 1 RUN_STEPS=$half VALVE_PRESENT=0 &&
     saturne_run c none_continued 1 RUN_STEPS=$steps VALVE_PRESENT=0 RUN_RESTART="$saturne_work"/STUDY/c/RESU/none_half/checkpoint
+}
+
+# Packages that ./run code_saturne needs, without recommends. Debian 13 lacks the first two.
+saturne_packages=(code-saturne code-saturne-include gmsh openmpi-bin libopenmpi-dev python3-numpy python3-matplotlib)
+saturne_build_packages=(gcc g++ gfortran cmake ninja-build pkg-config libembree-dev libtbb-dev)
+
+# saturne_is_there: tells whether code_saturne is installed, or a package of this distribution.
+saturne_is_there() {
+  command -v code_saturne >/dev/null || { LC_ALL=C apt-cache policy code-saturne 2>/dev/null | grep -q 'Candidate: [^(]'; }
+}
+
+# saturne_install_riis FOLDER: builds the library with its Fortran modules, and installs it into FOLDER/prefix.
+saturne_install_riis() {
+  cmake -S . -B "$1/riis" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$PWD/$1/prefix" -D RIIS_WITH_VTK=OFF \
+    -D RIIS_WITH_FORTRAN=ON -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF &&
+    cmake --build "$1/riis" --parallel "$(nproc)" && cmake --install "$1/riis"
+}
+
+# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, say and step.
+code_saturne_example() {
+  local folder=$build/code_saturne parts=(closed open beat) python
+  case $* in
+    '') ;;
+    --short) parts=(closed) ;;
+    *)
+      echo "./run code_saturne: '$*' is not an option" >&2
+      exit 2
+      ;;
+  esac
+  packages=("${saturne_build_packages[@]}")
+  install_missing
+  if ! saturne_is_there; then
+    say "skipped: this distribution has no package code-saturne; Debian 12 has it"
+    return
+  fi
+  install_missing "${saturne_packages[@]}"
+  python=$(python_of_packages)
+  mkdir -p "$folder" out/code_saturne
+  step "build riis and install it into $folder/prefix" saturne_install_riis "$folder"
+  saturne_environment "$folder" "$folder/prefix"
+  step "mesh the aortic root" saturne_mesh
+  step "make the study" saturne_make_study
+  if [[ ${1:-} == --short ]]; then
+    step "closed valve: C and Fortran on 1 and 2 ranks, the solver's own zone" saturne_closed 10 20 1 2
+  else
+    step "closed valve: C and Fortran on 1, 2 and 4 ranks, the solver's own zone" saturne_closed 20 60 1 2 4
+    step "open valve, and none" saturne_open
+    step "a beat, on 1, 2 and 4 ranks, continued in the middle, and without a valve (the longest)" saturne_beat
+  fi
+  "$python" -B examples/code_saturne/check.py "$folder/STUDY" "${parts[@]}" --out out/code_saturne | tee out/code_saturne/checks.md
+  say "left: out/code_saturne/checks.md, with the tables, and out/code_saturne/*.png"
 }
