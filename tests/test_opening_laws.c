@@ -251,6 +251,19 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
+/* The steps of a solver do not end on the ramp's end: 0.04 s in steps of 2 ms, added up, end a rounding error before it. */
+static void an_opening_rounds_to_at_most_one(void **state) {
+  (void)state;
+  const riis_opening_switch law = some_switch();
+  for (int i = 0; i < 4096; ++i) {
+    riis_opening_switch_state now = closed_switch();
+    now.phase = RIIS_PHASE_OPENING;
+    now.progress = 1 - 0x1p-53 * (i < 2048 ? i : ldexp(1, i % 32));
+    CHECK_OK(riis_opening_switch_advance(&law, &now, 0, 1, 1, &now));
+    assert_true(now.opening > 0.9 && now.opening <= 1);
+  }
+}
+
 static void a_filter_and_a_dwell_keep_noise_out(void **state) {
   (void)state;
   riis_opening_switch law = some_switch();
@@ -458,6 +471,7 @@ int main(void) {
       cmocka_unit_test(a_valve_opens_and_closes_at_its_times),
       cmocka_unit_test(bad_times_are_refused),
       cmocka_unit_test(a_switch_opens_by_pressure_and_closes_by_flow),
+      cmocka_unit_test(an_opening_rounds_to_at_most_one),
       cmocka_unit_test(a_filter_and_a_dwell_keep_noise_out),
       cmocka_unit_test(a_restart_of_the_switch_has_the_same_bits),
       cmocka_unit_test(without_a_drive_friction_stops_the_leaflet),

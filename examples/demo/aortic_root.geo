@@ -24,8 +24,8 @@ sinus_height = leaflet_height + 0.4;
 sinus_depth = 0.5;
 aorta_length = 0.8;
 
-n_points = 72;  // of a section
-spacing = 0.1;  // of the sections, from the root to the end of the sinuses
+DefineConstant[ n_points = 72 ]; // of a section
+DefineConstant[ spacing = 0.1 ]; // of the sections, from the root to the end of the sinuses
 joint = 3;      // degrees of the wall at a commissure, in which it passes from one cusp's radius to the next one's
 
 Macro Section // at height z above the root

@@ -21,8 +21,8 @@ constexpr double degree = pi / 180;
 void check_time(double time) { check_range("", "time", time, -largest, largest); }
 
 // Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the velocity nor the
-// acceleration of the valve jumps.
-double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : x * x * x * (10 + x * (-15 + 6 * x)); }
+// acceleration of the valve jumps. Just below x = 1 the polynomial rounds to more than 1, which no valve takes.
+double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 
 }  // namespace

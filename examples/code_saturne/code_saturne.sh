@@ -1,0 +1,134 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run code_saturne, which reads this file, and of the test example_code_saturne. A study of code_saturne has one case
+# for each language: c, fortran, and reference, which has a head-loss zone of the solver's own. Each run of a case has a name.
+
+# saturne_environment WORK PREFIX: prepares for runs in the folder WORK with the riis that is installed in PREFIX.
+saturne_environment() {
+  saturne_work=$(cd -- "$1" && pwd)
+  saturne_source=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+  RIIS_PREFIX=$(cd -- "$2" && pwd)
+  export RIIS_PREFIX
+  # code_saturne's script ends without this variable, which containers lack.
+  export USER=${USER:-$(id -un)}
+  # Open MPI refuses root, and more ranks than processors, unless it is told. Each rank has one thread.
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+  export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
+  export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
+}
+
+# saturne_mesh: makes the mesh of the root, with one thread for the same mesh everywhere.
+saturne_mesh() {
+  gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -format msh22 -o "$saturne_work/root.msh" "$saturne_source/root.geo"
+}
+
+# saturne_make_study: makes the study with its mesh and the user files of each case.
+saturne_make_study() {
+  local case
+  rm -rf "$saturne_work/STUDY"
+  (cd "$saturne_work" && code_saturne create -s STUDY -c c -c fortran -c reference) || return
+  cp "$saturne_work/root.msh" "$saturne_work/STUDY/MESH" || return
+  for case in c fortran reference; do
+    cp "$saturne_source"/common/*.{c,h,f90} "$saturne_source/$case"/cs_user_* "$saturne_work/STUDY/$case/SRC" &&
+      cp "$saturne_source/common/cs_user_scripts.py" "$saturne_work/STUDY/$case/DATA" || return
+  done
+}
+
+# saturne_run CASE NAME RANKS [VARIABLE=VALUE...]: runs a case; settings.c lists the variables. The results are in
+# STUDY/CASE/RESU/NAME.
+saturne_run() {
+  local case=$1 name=$2 ranks=$3
+  shift 3
+  rm -rf "$saturne_work/STUDY/$case/RESU/$name"
+  (cd "$saturne_work/STUDY/$case/DATA" && env "$@" timeout "${saturne_limit:-1800}" code_saturne run -n "$ranks" --id "$name")
+}
+
+# saturne_closed RANKS STEPS...: the closed valve in a flow of 5 cm/s with so many ranks, in C and Fortran for so many steps. After
+# the first of them the solver's own head-loss zone has the same cells and the same K.
+saturne_closed() {
+  local ranks steps=$1 fortran_steps=$2 cells=$saturne_work/STUDY/c/RESU/closed_1
+  shift 2
+  for ranks in "$@"; do
+    saturne_run c "closed_$ranks" "$ranks" VALVE_OPENING=0 RUN_INFLOW=0.05 RUN_STEPS="$steps" RUN_CELLS_EVERY="$steps" &&
+      saturne_run fortran "closed_$ranks" "$ranks" VALVE_OPENING=0 RUN_INFLOW=0.05 RUN_STEPS="$fortran_steps" \
+        RUN_CELLS_EVERY="$steps" || return
+  done
+  cat "$cells"/cells_*.csv >"$saturne_work/cells.csv" &&
+    saturne_run reference closed 1 REFERENCE_CELLS="$saturne_work/cells.csv" RUN_INFLOW=0.05 RUN_STEPS="$steps"
+}
+
+# saturne_open: the open valve, and none, in a flow of 20 cm/s.
+saturne_open() {
+  saturne_run c open 1 VALVE_OPENING=1 RUN_INFLOW=0.2 RUN_STEPS=25 &&
+    saturne_run c none 1 VALVE_PRESENT=0 RUN_INFLOW=0.2 RUN_STEPS=25
+}
+
+# saturne_beat: the beat, in which the pressures of the solver open and close the valve. It is run without u_surface, by several
+# ranks up to the open valve, and in two halves. Both halves are also run without a valve.
+saturne_beat() {
+  local half=30 steps=45
+  saturne_run c beat 1 RUN_STEPS=150 RUN_SLICE_EVERY=5 RUN_CHECKPOINT=$half &&
+    saturne_run fortran beat 1 RUN_STEPS=150 &&
+    saturne_run c beat_still 1 RUN_STEPS=150 VALVE_VELOCITY=0 &&
+    saturne_run c beat_2 2 RUN_STEPS=$steps &&
+    saturne_run c beat_4 4 RUN_STEPS=$steps &&
+    saturne_run fortran beat_2 2 RUN_STEPS=$steps &&
+    saturne_run c half 1 RUN_STEPS=$half &&
+    saturne_run c continued 1 RUN_STEPS=$steps RUN_RESTART="$saturne_work"/STUDY/c/RESU/half/checkpoint &&
+    saturne_run fortran half 1 RUN_STEPS=$half &&
+    saturne_run fortran continued 1 RUN_STEPS=$steps RUN_RESTART="$saturne_work"/STUDY/fortran/RESU/half/checkpoint &&
+    saturne_run c none_whole 1 RUN_STEPS=$steps VALVE_PRESENT=0 &&
+    saturne_run c none_half 1 RUN_STEPS=$half VALVE_PRESENT=0 &&
+    saturne_run c none_continued 1 RUN_STEPS=$steps VALVE_PRESENT=0 RUN_RESTART="$saturne_work"/STUDY/c/RESU/none_half/checkpoint
+}
+
+# Packages that ./run code_saturne needs, without recommends. Debian 13 lacks the first two.
+saturne_packages=(code-saturne code-saturne-include gmsh openmpi-bin libopenmpi-dev python3-numpy python3-matplotlib)
+saturne_build_packages=(gcc g++ gfortran cmake ninja-build pkg-config libembree-dev libtbb-dev)
+
+# saturne_is_there: tells whether code_saturne is installed, or a package of this distribution.
+saturne_is_there() {
+  command -v code_saturne >/dev/null || { LC_ALL=C apt-cache policy code-saturne 2>/dev/null | grep -q 'Candidate: [^(]'; }
+}
+
+# saturne_install_riis FOLDER: builds the library with its Fortran modules, and installs it into FOLDER/prefix.
+saturne_install_riis() {
+  cmake -S . -B "$1/riis" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$PWD/$1/prefix" -D RIIS_WITH_VTK=OFF \
+    -D RIIS_WITH_FORTRAN=ON -D RIIS_BUILD_PROGRAM=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF &&
+    cmake --build "$1/riis" --parallel "$(nproc)" && cmake --install "$1/riis"
+}
+
+# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, say and step.
+code_saturne_example() {
+  local folder=$build/code_saturne parts=(closed open beat) python
+  case $* in
+    '') ;;
+    --short) parts=(closed) ;;
+    *)
+      echo "./run code_saturne: '$*' is not an option" >&2
+      exit 2
+      ;;
+  esac
+  packages=("${saturne_build_packages[@]}")
+  install_missing
+  if ! saturne_is_there; then
+    say "skipped: this distribution has no package code-saturne; Debian 12 has it"
+    return
+  fi
+  install_missing "${saturne_packages[@]}"
+  python=$(python_of_packages)
+  mkdir -p "$folder" out/code_saturne
+  step "build riis and install it into $folder/prefix" saturne_install_riis "$folder"
+  saturne_environment "$folder" "$folder/prefix"
+  step "mesh the aortic root" saturne_mesh
+  step "make the study" saturne_make_study
+  if [[ ${1:-} == --short ]]; then
+    step "closed valve: C and Fortran on 1 and 2 ranks, the solver's own zone" saturne_closed 10 20 1 2
+  else
+    step "closed valve: C and Fortran on 1, 2 and 4 ranks, the solver's own zone" saturne_closed 20 60 1 2 4
+    step "open valve, and none" saturne_open
+    step "a beat, on 1, 2 and 4 ranks, continued in the middle, and without a valve (the longest)" saturne_beat
+  fi
+  "$python" -B examples/code_saturne/check.py "$folder/STUDY" "${parts[@]}" --out out/code_saturne | tee out/code_saturne/checks.md
+  say "left: out/code_saturne/checks.md, with the tables, and out/code_saturne/*.png"
+}

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draws the runs of ./run code_saturne: the drop of the closed valve, the beat, and the flow with the leaflets."""
+import ctypes
+import glob
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.tri import Triangulation
+
+DT = 0.002  # s
+
+
+def leaflets_cut(opening):
+    """Returns the segments in which the plane y = 0 cuts the valve at an opening: (n, 2, 2), x and z in metres."""
+    riis = ctypes.CDLL(os.path.join(os.environ["RIIS_PREFIX"], "lib", "libriis.so"))
+    riis.riis_last_error.restype = ctypes.c_char_p
+
+    def check(status):
+        if status != 0:
+            raise RuntimeError(riis.riis_last_error().decode())
+
+    valve, surface = ctypes.c_void_p(), ctypes.c_void_p()
+    check(riis.riis_valve_create(b"trileaflet", ctypes.byref(valve)))
+    check(riis.riis_valve_set_scalar(valve, b"opening", ctypes.c_double(opening)))
+    check(riis.riis_surface_create(valve, None, ctypes.byref(surface)))
+    n, xyz = ctypes.c_int64(), ctypes.POINTER(ctypes.c_double)()
+    check(riis.riis_surface_vertices(surface, ctypes.byref(n), ctypes.byref(xyz)))
+    points = 0.01 * np.ctypeslib.as_array(xyz, (n.value, 3)).copy()
+    ids = ctypes.POINTER(ctypes.c_int64)()
+    check(riis.riis_surface_triangles(surface, ctypes.byref(n), ctypes.byref(ids), None, None, None))
+    triangles = np.ctypeslib.as_array(ids, (n.value, 3)).copy()
+    riis.riis_surface_destroy(ctypes.byref(surface))
+    riis.riis_valve_destroy(ctypes.byref(valve))
+    segments = []
+    for corners in points[triangles]:
+        ends = []
+        for a, b in ((0, 1), (1, 2), (2, 0)):
+            ya, yb = corners[a][1], corners[b][1]
+            if (ya < 0) != (yb < 0):
+                ends.append((corners[a] + (corners[b] - corners[a]) * ya / (ya - yb))[[0, 2]])
+        if len(ends) == 2:
+            segments.append(ends)
+    return np.array(segments).reshape(-1, 2, 2)
+
+
+def draw_flow(study, out, history):
+    """Draws the speed in the plane y = 0 at moments of the beat, with the leaflets."""
+    opening = history["opening"]
+    steps = sorted(int(os.path.basename(path).split("_")[1].split(".")[0])
+                   for path in glob.glob(os.path.join(study, "c", "RESU", "beat", "slice_*.0.csv")))
+    top = opening.index(max(opening))
+    jet = history["flow"].index(max(history["flow"]))
+
+    def nearest(wanted):
+        return min(steps, key=lambda step: abs(step - wanted))
+
+    half = next(i for i in range(len(opening)) if opening[i] > 0.4)
+    closing = next(i for i in range(top, len(opening)) if opening[i] < 0.4) if opening[-1] < 0.4 else len(opening) - 1
+    chosen = [nearest(step + 1) for step in (half - 18, half, jet, closing, len(opening) - 1)]
+    figure, axes = plt.subplots(1, len(chosen), figsize=(3.2 * len(chosen), 7), sharey=True, constrained_layout=True)
+    for axis, step in zip(axes, chosen):
+        rows = np.concatenate([np.loadtxt(path, delimiter=",", ndmin=2) for path in
+                               glob.glob(os.path.join(study, "c", "RESU", "beat", f"slice_{step:05d}.*.csv"))])
+        x, z, speed = 1e3 * rows[:, 0], 1e3 * rows[:, 1], np.linalg.norm(rows[:, 2:5], axis=1)
+        mesh = Triangulation(x, z)
+        sides = np.hypot(x[mesh.triangles] - np.roll(x[mesh.triangles], 1, axis=1),
+                         z[mesh.triangles] - np.roll(z[mesh.triangles], 1, axis=1)).max(axis=1)
+        mesh.set_mask(sides > 4)  # gaps outside the curved wall
+        colours = axis.tripcolor(mesh, np.minimum(speed, 0.8), shading="gouraud", vmin=0, vmax=0.8, cmap="viridis")
+        axis.quiver(x[::2], z[::2], rows[::2, 2], rows[::2, 4], color="white", scale=8, width=0.004)
+        for ends in leaflets_cut(opening[step - 1]):
+            axis.plot(1e3 * ends[:, 0], 1e3 * ends[:, 1], color="red", linewidth=2.5)
+        axis.set_title(f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa", fontsize=11)
+        axis.set_aspect("equal")
+        axis.set_xlabel("x, mm")
+    axes[0].set_ylabel("z, mm: the ventricle is below, the aorta above")
+    figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.7)
+    figure.suptitle("The aortic root in code_saturne, cut through the middle of one cusp (red: the leaflets)")
+    figure.savefig(os.path.join(out, "flow.png"), dpi=110)
+    plt.close(figure)
+
+
+def draw_beat(study, out, read_history):
+    """Draws drop, flow and opening over the beat."""
+    runs = [("C, head losses", read_history(study, "c", "beat"), "tab:blue", "-"),
+            ("C, without the leaflets' velocity", read_history(study, "c", "beat_still"), "tab:orange", "--"),
+            ("Fortran, momentum source", read_history(study, "fortran", "beat"), "tab:green", ":")]
+    figure, axes = plt.subplots(3, 1, figsize=(9, 9), sharex=True, constrained_layout=True)
+    for label, history, colour, line in runs:
+        time = np.array(history["time"])
+        axes[0].plot(time, history["drop"], color=colour, linestyle=line, label=label)
+        axes[1].plot(time, 1e6 * np.array(history["flow"]), color=colour, linestyle=line)
+        axes[2].plot(time, history["opening"], color=colour, linestyle=line)
+    axes[0].set_ylabel("pressure upstream less\ndownstream, Pa")
+    axes[1].set_ylabel("flow, ml/s")
+    axes[2].set_ylabel("opening")
+    axes[2].set_xlabel("time, s")
+    axes[0].legend()
+    for axis in axes:
+        axis.grid(alpha=0.3)
+        axis.axhline(0, color="black", linewidth=0.6)
+    figure.suptitle("A beat: the solver's own pressures and flow open and close the valve")
+    figure.savefig(os.path.join(out, "beat.png"), dpi=110)
+    plt.close(figure)
+
+
+def draw_closed(study, out, read_history):
+    """Draws how the drop of the closed valve builds up."""
+    figure, axis = plt.subplots(figsize=(8, 4.5), constrained_layout=True)
+    reference = read_history(study, "reference", "closed")
+    for label, history, style in (("C, head losses", read_history(study, "c", "closed_1"), "o-"),
+                                  ("Fortran, momentum source", read_history(study, "fortran", "closed_1"), "s-"),
+                                  ("the solver's own head-loss zone", reference, "k--")):
+        axis.plot(history["step"][1:], history["drop"][1:], style, markersize=3, label=label)
+    axis.set_xlabel("time step after a sudden start; the first one, with the inertia of the whole fluid, is left out")
+    axis.set_ylabel("drop across the closed valve, Pa")
+    axis.grid(alpha=0.3)
+    axis.legend()
+    figure.savefig(os.path.join(out, "closed.png"), dpi=110)
+    plt.close(figure)
+
+
+def draw_all(study, parts, out, read_history):
+    """Draws what the parts of check.py have run."""
+    os.makedirs(out, exist_ok=True)
+    if "closed" in parts:
+        draw_closed(study, out, read_history)
+    if "beat" in parts:
+        draw_beat(study, out, read_history)
+        draw_flow(study, out, read_history(study, "c", "beat"))
