@@ -9,10 +9,10 @@ module flow_circulation
 
   real(dp), parameter :: mmHg = 133.322_dp, ml = 1e-6_dp                 ! [Pa], [m^3]
   real(dp), parameter, public :: period = 0.8_dp                         ! [s] of the heartbeat
-  real(dp), parameter :: contraction = 0.32_dp, relaxation = 0.14_dp     ! [s] their lengths
+  real(dp), parameter :: contraction = 0.38_dp, relaxation = 0.15_dp     ! [s] their lengths
   real(dp), parameter :: E_min = 0.07_dp * mmHg / ml, E_max = 2.2_dp * mmHg / ml, V_0 = 10 * ml
   real(dp), parameter :: p_atrium = 9 * mmHg, R_mitral = 0.01_dp * mmHg / ml
-  real(dp), parameter :: Z_aorta = 0.05_dp * mmHg / ml, R_arteries = mmHg / ml, C_arteries = 1.4_dp * ml / mmHg
+  real(dp), parameter :: Z_aorta = 0.065_dp * mmHg / ml, R_arteries = mmHg / ml, C_arteries = 1.4_dp * ml / mmHg
 
   type :: circulation
     real(dp) :: V = 125 * ml                      ! [m^3] of the ventricle, at the end of its filling

@@ -9,11 +9,27 @@ module flow_files
   use flow_stop, only: refuse, step_number, step_time
   implicit none
   private
-  public :: write_frame, write_restart, read_restart
+  public :: open_table, write_frame, write_restart, read_restart
 
   character(len=*), parameter :: magic = 'riis flow_fortran 1 '
 
 contains
+
+  !> Opens the table of steps, and goes on with one that is there.
+  subroutine open_table(name, unit)
+    character(len=*), intent(in) :: name
+    integer, intent(out) :: unit
+    character(len=200) :: message
+    logical :: old
+    integer :: stat
+    inquire (file=name, exist=old)
+    if (step_number == 0) old = .false.
+    if (old) open (newunit=unit, file=name, position='append', action='write', iostat=stat, iomsg=message)
+    if (.not. old) open (newunit=unit, file=name, status='replace', action='write', iostat=stat, iomsg=message)
+    if (stat /= 0) call refuse(trim(message))
+    if (.not. old) write (unit, '(a)') 'step,time_s,dt_s,opening,p_ventricle_Pa,p_upstream_Pa,p_downstream_Pa,' // &
+      'flow_m3_per_s,jet_m_per_s,force_x_N,force_y_N,force_z_N,divergence_per_s,in_less_out_m3_per_s,iterations,marked'
+  end subroutine open_table
 
   !> Writes two slices: x = 0, and z = height. Each has the velocities of its cells, the walls, and the cut of the leaflets.
   subroutine write_frame(name, fluid, valve, height)
@@ -84,7 +100,7 @@ contains
     write (lines(2), '(2a)') 'valve ', trim(valve%kind)
     write (lines(3), '(a, es24.16)') 'resistance', valve%R
     write (lines(4), '(a, es24.16)') 'half_thickness', valve%eps
-    write (lines(5), '(a, 3es24.16)') 'place', valve%at
+    write (lines(5), '(a, 3es24.16)') 'place', valve%place
     write (lines(6), '(a, l2)') 'surface_velocity', valve%moves_flow
     do i = 1, size(lines) - 6
       call valve%valve%parameter(i, info)
@@ -106,7 +122,7 @@ contains
     integer :: unit
     call get_identity(fluid, valve, lines)
     open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
-    write (unit) magic, size(lines), lines, step_number, step_time, valve%opening, heart, law, fluid%v, fluid%p
+    write (unit) magic, size(lines), lines, step_number, step_time, heart, law, fluid%v, fluid%p
     close (unit)
   end subroutine write_restart
 
@@ -114,7 +130,7 @@ contains
   subroutine read_restart(name, fluid, valve, heart, law)
     character(len=*), intent(in) :: name
     type(flow), intent(inout) :: fluid
-    type(leaflets), intent(inout) :: valve
+    type(leaflets), intent(in) :: valve
     type(circulation), intent(inout) :: heart
     type(riis_opening_switch_state), intent(inout) :: law
     character(len=160), allocatable :: here(:), there(:)
@@ -128,12 +144,11 @@ contains
     call get_identity(fluid, valve, here)
     allocate (there(n))
     read (unit, iostat=stat) there
-    message = ''
-    do i = 1, min(n, size(here))
-      if (here(i) /= there(i)) message = trim(message) // ' it has ' // trim(there(i)) // ', here it is ' // trim(here(i)) // ';'
+    do i = 1, min(n, size(here))                  ! line 2 has the kind, on which all further lines depend
+      if (here(i) /= there(i)) call refuse('the restart file ' // name // ' is of another run: it has "' // trim(there(i)) // &
+        '", here it is "' // trim(here(i)) // '"')
     end do
-    if (message /= '') call refuse('the restart file ' // name // ' is of another run:' // trim(message))
-    read (unit, iostat=stat) step_number, step_time, valve%opening, heart, law, fluid%v, fluid%p
+    read (unit, iostat=stat) step_number, step_time, heart, law, fluid%v, fluid%p
     if (stat /= 0) call refuse('the restart file ' // name // ' ends too early')
     close (unit)
   end subroutine read_restart

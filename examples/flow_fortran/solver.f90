@@ -27,7 +27,8 @@ module flow_solver
     real(dp), allocatable :: xyz(:, :)            ! [m] (3, n_faces) the centres of these faces: the mesh that riis marks
     real(dp), allocatable :: K(:), K_u(:, :)      ! (n_faces), (3, n_faces): K and K u_surface, from riis
     real(dp), allocatable :: v(:, :), p(:)        ! [m/s] (:, 3), [Pa]
-    real(dp), allocatable, private :: A(:, :), p_before(:), coefficient(:, :), b(:), x(:), predicted(:)
+    real(dp), allocatable :: b(:)                 ! right-hand side of the pressure equation
+    real(dp), allocatable, private :: A(:, :), p_before(:), coefficient(:, :), x(:), predicted(:)
     type(pressure_equation) :: equation
   contains
     procedure :: start, step, time_step, divergence, flow_in, flow_out, mean_pressure, centre, finish
@@ -145,7 +146,10 @@ contains
         v(face(1, f), face(2, f)) = this%predicted(f)
       end do
 
-      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u*, times -h^2. At both ends p is given half a cell away.
+      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u*, times -h^2. At both ends p is given half a cell away, where
+      ! what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
+      p(this%inlet - s(3)) = at_inlet - rho / 2 * max(0._dp, v(this%inlet, 3))**2
+      p(this%outlet) = p_out - rho / 2 * min(0._dp, v(this%outlet, 3))**2
       !$omp parallel do private(m)
       do q = 1, size(this%cell)
         m = this%cell(q)
@@ -155,10 +159,10 @@ contains
         if (m <= 3 * s(3)) then
           this%coefficient(0, q) = this%coefficient(0, q) + A(m, 3)
           this%coefficient(3, q) = 0
-          this%b(q) = this%b(q) + 2 * A(m, 3) * at_inlet ! A is 0 if the velocity is given
+          this%b(q) = this%b(q) + 2 * A(m, 3) * p(m - s(3)) ! A is 0 if the velocity is given
         else if (m > (this%n(3) + 1) * s(3)) then
           this%coefficient(0, q) = this%coefficient(0, q) + A(m + s(3), 3)
-          this%b(q) = this%b(q) + 2 * A(m + s(3), 3) * p_out
+          this%b(q) = this%b(q) + 2 * A(m + s(3), 3) * p(m + s(3))
         end if
         if (this%coefficient(0, q) <= 0) this%coefficient(0, q) = dt / rho ! a cell in the wall
         this%x(q) = merge(p(m), 0._dp, this%K_in_pressure)
@@ -166,8 +170,8 @@ contains
       call this%equation%solve(this%coefficient, this%b, this%x, this%tolerance, failed)
       if (failed) call refuse('the pressure equation does not converge')
       p(this%cell) = this%x
-      p(this%inlet - s(3)) = 2 * at_inlet - p(this%inlet)
-      p(this%outlet) = 2 * p_out - p(this%outlet - s(3))
+      p(this%inlet - s(3)) = 2 * p(this%inlet - s(3)) - p(this%inlet)
+      p(this%outlet) = 2 * p(this%outlet) - p(this%outlet - s(3))
 
       ! The corrector: u = u* - 1/(rho/dt + K) grad p.
       !$omp parallel do private(m, c)
@@ -210,22 +214,20 @@ contains
     if (a * b > 0) limited = 2 * a * b / (a + b)
   end function limited
 
-  ! Velocities beyond the ends: those inside, but what comes in comes straight.
+  ! Velocities beyond the ends are those inside, but what comes in comes straight.
   subroutine fill_ends(this)
     class(flow), intent(inout) :: this
     integer :: c, f, m, s
     s = this%stride(3)
-    do f = 1, size(this%inlet)
-      m = this%inlet(f)
-      do c = 1, 3
+    do c = 1, 3
+      do f = 1, size(this%inlet)
+        m = this%inlet(f)
         this%v([m - s, m - 2 * s], c) = merge(0._dp, this%v(m, c), c < 3 .and. this%v(m, 3) > 0)
       end do
-    end do
-    do f = 1, size(this%outlet)
-      m = this%outlet(f)
-      this%v([m + s, m + 2 * s], 3) = this%v(m, 3)
-      do c = 1, 2
-        this%v([m, m + s], c) = merge(0._dp, this%v(m - s, c), this%v(m, 3) < 0)
+      do f = 1, size(this%outlet)
+        m = this%outlet(f)
+        if (c < 3) this%v([m, m + s], c) = merge(0._dp, this%v(m - s, c), this%v(m, 3) < 0)
+        if (c == 3) this%v([m + s, m + 2 * s], c) = this%v(m, c)
       end do
     end do
   end subroutine fill_ends

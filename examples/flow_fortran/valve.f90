@@ -13,7 +13,7 @@ module flow_valve
     character(len=32) :: kind = 'trileaflet'
     real(dp) :: R = 1e4_dp                        ! [kg/(m s)] resistance
     real(dp) :: eps = 0                           ! [m] half thickness
-    real(dp) :: at(3) = 0                         ! [m] where the valve's origin is
+    real(dp) :: place(3) = 0                      ! [m] where the valve's origin is
     logical :: moves_flow = .true.                ! .false. leaves K u_surface out (checks.f90)
     real(dp) :: opening = 0
     real(dp) :: seconds = 0                       ! spent in the library
@@ -37,15 +37,21 @@ contains
     type(flow), intent(in) :: fluid
     real(dp), intent(in) :: opening
     integer(riis_status) :: status
+    integer(int64) :: begin, end, rate
+    call system_clock(begin, rate)
     this%opening = opening
     call this%valve%set('opening', opening, status)
     if (status == RIIS_OK) call this%valve%copy(this%before, status)
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
-      translation=this%at, status=status)
+      translation=this%place, status=status)
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
     if (status == RIIS_OK) call this%faces%prepare(status=status)
     call check(status)
     allocate (this%marked(0))
+    call system_clock(end)
+    this%seconds = real(end - begin, dp) / rate
+    this%markings = 0
+    this%at_rest = .false.
   end subroutine start
 
   !> Moves the valve to an opening within dt, and gives every face of the flow K and K u_surface.
