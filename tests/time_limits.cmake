@@ -2,9 +2,11 @@
 # The time limits of tests, in seconds. A limit ends a hang, and a busy machine must not reach it. So it is at least ten times the
 # test's time alone on a machine of two processors.
 #   riis_test_timeout  the limit of a test that names no other
+#   riis_flow_timeout  that of the flow solver, which has checks, a run and a restart
 # With sanitizers each test has at least three times its plain limit, and with the thread sanitizer six times.
 # A test that is a script and names no limit has CTest's limit, 1500.
 set(riis_test_timeout 300) # needs at most 30
+set(riis_flow_timeout 900) # the flow solver needs at most 80
 set(riis_test_timeout_factor 1)
 if(RIIS_SANITIZE MATCHES "thread")
   set(riis_test_timeout_factor 6)
