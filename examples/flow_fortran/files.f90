@@ -31,34 +31,38 @@ contains
       'flow_m3_per_s,jet_m_per_s,force_x_N,force_y_N,force_z_N,divergence_per_s,in_less_out_m3_per_s,iterations,marked'
   end subroutine open_table
 
-  !> Writes two slices: x = 0, and z = height. Each has the velocities of its cells, the walls, and the cut of the leaflets.
+  !> Writes a frame of the movie: velocity and pressure in the cells beside x = 0, velocity in the layer at z = height, and the
+  !! cuts of the leaflets by both planes. Walls are NaN.
   subroutine write_frame(name, fluid, valve, height)
     character(len=*), intent(in) :: name
     type(flow), intent(in) :: fluid
     type(leaflets), intent(in) :: valve
     real(dp), intent(in) :: height
-    integer :: unit, k
+    integer :: unit, layer
     open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
-    k = ceiling((height - fluid%corner(3)) / fluid%h)
-    write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening], real32)
-    call write_slice(unit, fluid, pack(fluid%cell, mod(fluid%cell - 1, fluid%stride(2)) == fluid%n(1) / 2 + 2))
-    call write_slice(unit, fluid, fluid%cell((k - 1) * product(fluid%n(1:2)) + 1:k * product(fluid%n(1:2))))
+    layer = product(fluid%n(1:2)) * floor((height - fluid%corner(3)) / fluid%h)
+    write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening, valve%eps], real32)
+    call write_slice(unit, fluid, fluid%cell(fluid%n(1) / 2 + 1::fluid%n(1)), .true.)
+    call write_slice(unit, fluid, fluid%cell(layer + 1:layer + product(fluid%n(1:2))), .false.)
     call write_cut(unit, valve, 1, 0._dp)
     call write_cut(unit, valve, 3, height)
     close (unit)
   end subroutine write_frame
 
-  ! The velocities at the centres of cells; NaN in a wall.
-  subroutine write_slice(unit, fluid, m)
+  subroutine write_slice(unit, fluid, m, with_pressure)
     integer, intent(in) :: unit, m(:)
     type(flow), intent(in) :: fluid
-    real(real32) :: u(size(m), 3)
+    logical, intent(in) :: with_pressure
+    real(real32) :: values(size(m), 4)
     integer :: c
     do c = 1, 3
-      u(:, c) = real((fluid%v(m, c) + fluid%v(m + fluid%stride(c), c)) / 2, real32)
-      where (fluid%solid(m)) u(:, c) = transfer(int(z'7FC00000', int32), 1._real32)
+      values(:, c) = real((fluid%v(m, c) + fluid%v(m + fluid%stride(c), c)) / 2, real32)
     end do
-    write (unit) u
+    values(:, 4) = real(fluid%p(m), real32)
+    do c = 1, merge(4, 3, with_pressure)
+      where (fluid%solid(m)) values(:, c) = transfer(int(z'7FC00000', int32), 1._real32)
+      write (unit) values(:, c)
+    end do
   end subroutine write_slice
 
   ! The segments in which the leaflets' triangles cut a plane across an axis: their number, and two points of each.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Draws what the flow solver left in a folder: beat.png, the heartbeat over time; flow.mp4, the flow through the valve; and
-four stills of the movie."""
+five stills of it."""
 import pathlib
 import sys
 
@@ -46,8 +46,9 @@ class Frame:
             data = file.read()
         self.path, self.data, self.offset = path, data, 0
         nx, ny, nz = self.take("<i4", 3)
-        h, x, y, z, self.height, self.time, self.opening = self.take("<f4", 7) * 1.0
+        h, x, y, z, self.height, self.time, self.opening, self.half_thickness = self.take("<f4", 8).astype(float)
         self.long_axis = self.take("<f4", 3 * ny * nz).reshape(3, nz, ny)
+        self.pressure = self.take("<f4", ny * nz).reshape(nz, ny) / MMHG
         self.section = self.take("<f4", 3 * nx * ny).reshape(3, ny, nx)
         self.long_cut = self.take("<f4", 6 * self.take("<i4", 1)[0]).reshape(-1, 2, 3)
         self.section_cut = self.take("<f4", 6 * self.take("<i4", 1)[0]).reshape(-1, 2, 3)
@@ -111,70 +112,102 @@ def draw_beat(table, path):
 class Movie:
     """The drawing of one frame."""
 
-    def __init__(self, table, frames, fastest):
+    def __init__(self, table, frames):
         first = frames[0]
+        fastest = max(0.1, np.ceil(10 * max(np.nanmax(self.speed_of(frame.long_axis)) for frame in frames)) / 10)
+        highest = 20 * np.ceil(max(table["p_upstream_Pa"].max(), table["p_downstream_Pa"].max()) / MMHG / 20)
         self.figure = plt.figure(figsize=(12.8, 7.2), dpi=100)
-        grid = self.figure.add_gridspec(2, 3, width_ratios=(1.25, 0.06, 1.25), left=0.05, right=0.98, bottom=0.08, top=0.86,
-                                        wspace=0.35, hspace=0.38)
-        self.long = self.figure.add_subplot(grid[:, 0])
-        bar = self.figure.add_subplot(grid[:, 1])
-        self.section = self.figure.add_subplot(grid[0, 2])
-        self.chart = self.figure.add_subplot(grid[1, 2])
-        colours = plt.get_cmap("viridis").copy()
-        colours.set_bad(WALL)
-        self.title = self.figure.suptitle("", fontsize=15, x=0.02, ha="left")
-        options = {"cmap": colours, "vmin": 0, "vmax": fastest, "shading": "flat", "rasterized": True}
-        self.speed = self.long.pcolormesh(first.y, first.z, self.speed_of(first.long_axis), **options)
-        self.figure.colorbar(self.speed, cax=bar, label="speed of the blood, m/s")
-        self.long.set_title("cut along the vessel", fontsize=11)
-        self.long.set_xlabel("cm")
-        self.long.set_ylabel("cm; the ventricle is below, the aorta above")
-        centre = [(a[1:] + a[:-1]) / 2 for a in (first.y, first.z)]
+        grid = self.figure.add_gridspec(3, 3, width_ratios=(1, 1, 0.7), left=0.05, right=0.985, bottom=0.075, top=0.885,
+                                        wspace=0.19, hspace=0.5)
+        self.title = self.figure.suptitle("", fontsize=17, x=0.02, ha="left")
+        self.speed = self.draw_long(self.figure.add_subplot(grid[:, 0]), first, "speed and direction of the blood",
+                                    self.speed_of(first.long_axis), "viridis", fastest, "m/s")
+        self.pressure = self.draw_long(self.figure.add_subplot(grid[:, 1]), first, "pressure of the blood",
+                                       np.ma.masked_invalid(first.pressure), "coolwarm", highest, "mmHg")
+        self.speed.axes.set_ylabel("height, cm: the ventricle is below, the aorta above")
+        across = self.figure.add_subplot(grid[0, 2])
+        self.across = self.shade(across, first.x, first.y, self.speed_of(first.section), "viridis", fastest)
+        across.set_title("speed across, at the dotted line", fontsize=11)
+        across.set_xlabel("cm", labelpad=0)
+        across.set_ylabel("cm")
+        axes = (self.speed.axes, self.pressure.axes, across)
+        self.leaflets = [one.add_collection(matplotlib.collections.LineCollection([], colors=LEAFLET, linewidths=2.5))
+                         for one in axes]
         self.every = 2
-        self.arrows = self.long.quiver(centre[0][::self.every], centre[1][::self.every],
-                                       *self.arrows_of(first), color="w", scale=12 * fastest, width=0.003)
-        self.through = self.section.pcolormesh(first.x, first.y, self.speed_of(first.section), **options)
-        self.section.set_title(f"cut across the vessel, {10 * 100 * first.height:.1f} mm above the closed edges", fontsize=11)
-        self.section.set_xlabel("cm")
-        self.section.set_ylabel("cm")
-        self.leaflets = []
-        for axes in (self.long, self.section):
-            axes.set_aspect("equal")
-            lines = matplotlib.collections.LineCollection([], colors=LEAFLET, linewidths=3)
-            axes.add_collection(lines)
-            self.leaflets.append(lines)
-        self.long.axhline(100 * first.height, color="w", ls=":", lw=1)
-        self.long.plot([], [], color=LEAFLET, lw=3, label="valve leaflets")
-        self.long.plot([], [], color=WALL, lw=8, label="wall of the vessel")
-        self.long.legend(loc="upper left", framealpha=1, fontsize=9)
-        draw_pressures(self.chart, table)
-        shade_open(self.chart, table)
-        self.chart.legend(loc="upper right", fontsize=8, framealpha=1)
-        self.chart.set_xlabel("time, s (grey: the valve is closed)")
-        self.chart.set_xlim(0, table["time_s"][-1])
-        self.chart.set_title("pressures on both sides", fontsize=11)
-        self.now = self.chart.axvline(0, color="k")
-        self.flow_over_time = (table["time_s"], 1e6 * table["flow_m3_per_s"])
+        middle = [((a[1:] + a[:-1]) / 2)[::self.every] for a in (first.y, first.z)]
+        self.arrows = axes[0].quiver(*middle, *self.arrows_of(first), color="w", scale=13 * fastest, width=0.0035)
+        for one in axes[:2]:
+            one.axhline(100 * first.height, color="w", ls=":", lw=1)
+        axes[0].plot([], [], color=LEAFLET, lw=2.5, label="leaflets of the valve")
+        axes[0].plot([], [], color=WALL, lw=8, label="wall of the vessel")
+        axes[0].legend(loc="upper center", framealpha=1, fontsize=9, ncols=2, columnspacing=1)
+        charts = [self.figure.add_subplot(grid[row, 2]) for row in (1, 2)]
+        draw_pressures(charts[0], table)
+        charts[0].legend(loc="upper right", fontsize=7, framealpha=1)
+        charts[1].plot(table["time_s"], 1e6 * table["flow_m3_per_s"], color="k")
+        charts[1].set_ylabel("flow to aorta, ml/s")
+        charts[1].set_xlabel("time, s (grey: the valve is closed)")
+        self.now = []
+        for one in charts:
+            shade_open(one, table)
+            one.set_xlim(0, table["time_s"][-1])
+            self.now.append(one.axvline(0, color=LEAFLET, lw=1.5))
+        self.table = table
+
+    @staticmethod
+    def shade(axes, x, y, values, colours, highest):
+        colours = plt.get_cmap(colours).copy()
+        colours.set_bad(WALL)
+        axes.set_aspect("equal")
+        return axes.pcolormesh(x, y, values, cmap=colours, vmin=0, vmax=highest, shading="flat", rasterized=True)
+
+    def draw_long(self, axes, frame, title, values, colours, highest, unit):
+        mesh = self.shade(axes, frame.y, frame.z, values, colours, highest)
+        bar = self.figure.colorbar(mesh, ax=axes, orientation="horizontal", pad=0.08, fraction=0.04, aspect=30)
+        bar.set_label(unit, labelpad=0)
+        axes.set_title(title, fontsize=12)
+        axes.set_xlabel("cm", labelpad=0)
+        return mesh
 
     @staticmethod
     def speed_of(velocity):
         return np.ma.masked_invalid(np.sqrt((velocity.astype(float) ** 2).sum(axis=0)))
 
     def arrows_of(self, frame):
-        along = np.nan_to_num(frame.long_axis)[:, ::self.every, ::self.every]
-        return along[1], along[2]
+        along = frame.long_axis[1:, ::self.every, ::self.every].astype(float)
+        return np.ma.masked_where(np.broadcast_to(~(np.hypot(*along) > 0.05), along.shape), along)
 
     def draw(self, frame):
         self.speed.set_array(self.speed_of(frame.long_axis).ravel())
-        self.through.set_array(self.speed_of(frame.section).ravel())
+        self.pressure.set_array(np.ma.masked_invalid(frame.pressure).ravel())
+        self.across.set_array(self.speed_of(frame.section).ravel())
         self.arrows.set_UVC(*self.arrows_of(frame))
-        self.leaflets[0].set_segments(list(100 * frame.long_cut[:, :, 1:]))
-        self.leaflets[1].set_segments(list(100 * frame.section_cut[:, :, :2]))
-        self.now.set_xdata([frame.time, frame.time])
-        flow = np.interp(frame.time, *self.flow_over_time)
-        state = "closed" if frame.opening <= 0 else "open" if frame.opening >= 1 else "moving"
-        self.title.set_text(f"Aortic valve: {state}, {100 * frame.opening:.0f} % open   |   {1000 * frame.time:.0f} ms"
-                            f"   |   flow {flow:.0f} ml/s")
+        for lines, cut in zip(self.leaflets, (frame.long_cut[:, :, 1:], frame.long_cut[:, :, 1:], frame.section_cut[:, :, :2])):
+            lines.set_segments(list(100 * cut))
+        for line in self.now:
+            line.set_xdata([frame.time, frame.time])
+        flow = np.interp(frame.time, self.table["time_s"], 1e6 * self.table["flow_m3_per_s"])
+        before = np.interp(frame.time - 1e-3, self.table["time_s"], self.table["opening"])
+        state = "opens" if frame.opening > before + 1e-3 else "closes" if frame.opening < before - 1e-3 else \
+            "is closed" if frame.opening <= 0 else "is open"
+        self.title.set_text(f"The aortic valve {state}: opening {100 * frame.opening:.0f} %, time {1000 * frame.time:.0f} ms, "
+                            f"flow {flow:.0f} ml/s")
+
+
+def choose_stills(frames, table):
+    """Numbers of the frames that tell the story: closed, opening, at the largest flow, closing, closed again."""
+    opening = np.array([frame.opening for frame in frames])
+    time = np.array([frame.time for frame in frames])
+    most = int(np.argmin(abs(time - table["time_s"][np.argmax(table["flow_m3_per_s"])])))
+    held = table["p_downstream_Pa"] - table["p_upstream_Pa"]
+    late = np.where(table["time_s"] > time[most], held, -np.inf)
+    return {
+        0: "1_closed",
+        int(np.argmin(abs(opening[:most + 1] - 0.4))): "2_opens",
+        most: "3_open",
+        most + int(np.argmin(abs(opening[most:] - 0.4))): "4_closes",
+        int(np.argmin(abs(time - table["time_s"][np.argmax(late)]))): "5_holds",
+    }
 
 
 def main():
@@ -190,16 +223,15 @@ def main():
     if missing:
         stop(f"there is no file {folder / 'frames'}/{missing[0]:04}.bin")
     frames = [Frame(path) for path in paths]
-    fastest = np.ceil(10 * max(np.nanmax(Movie.speed_of(frame.long_axis)) for frame in frames)) / 10
-    movie = Movie(table, frames, max(fastest, 0.1))
+    movie = Movie(table, frames)
+    stills = choose_stills(frames, table)
     writer = matplotlib.animation.FFMpegWriter(fps=FRAME_RATE, extra_args=["-pix_fmt", "yuv420p"])
-    stills = {int(round(share * (len(frames) - 1))) for share in (0.02, 0.12, 0.2, 0.38, 0.45, 0.8)}
     with writer.saving(movie.figure, str(folder / "flow.mp4"), dpi=100):
         for i, frame in enumerate(frames):
             movie.draw(frame)
             writer.grab_frame()
             if i in stills:
-                movie.figure.savefig(folder / f"flow_{1000 * frame.time:03.0f}ms.png", dpi=100)
+                movie.figure.savefig(folder / f"{stills[i]}.png", dpi=100)
 
 
 if __name__ == "__main__":
