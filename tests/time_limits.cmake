@@ -3,10 +3,12 @@
 # test's time alone on a machine of two processors.
 #   riis_test_timeout          the limit of a test that names no other
 #   riis_test_timeout_saturne  that of example_code_saturne
+#   riis_test_timeout_flow     that of the flow solver, which has checks, a run and a restart
 # With sanitizers each test has at least three times its plain limit, and with the thread sanitizer six times.
 # A test that is a script and names no limit has CTest's limit, 1500.
 set(riis_test_timeout 300) # needs at most 30
 set(riis_test_timeout_saturne 800) # example_code_saturne needs at most 80
+set(riis_test_timeout_flow 900) # the flow solver needs at most 80
 set(riis_test_timeout_factor 1)
 if(RIIS_SANITIZE MATCHES "thread")
   set(riis_test_timeout_factor 6)

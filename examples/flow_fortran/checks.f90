@@ -1,0 +1,366 @@
+! SPDX-License-Identifier: Apache-2.0
+!> Checks of the flow solver against what is known: checks NAME, or all of them without a name. The status is 1 if one fails.
+program checks
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use riis
+  use flow_solver, only: dp, flow
+  use flow_valve, only: leaflets, check
+  use flow_root, only: in_root
+  use flow_stop, only: step_number, step_time
+  implicit none
+  real(dp), parameter :: pi = acos(-1._dp)
+  logical :: all_right = .true.
+  character(len=20) :: name
+
+  call get_command_argument(1, name)
+  select case (name)
+  case ('duct')
+    call check_duct()
+  case ('drop')
+    call check_drop()
+  case ('slow')
+    call check_slow_drop()
+  case ('balance')
+    call check_balance()
+  case ('moving')
+    call check_moving()
+  case ('study')
+    call study()
+  case ('nan')
+    call feed_nan()
+  case ('')
+    call check_duct()
+    call check_drop()
+    call check_slow_drop()
+    call check_balance()
+    call check_moving()
+  case default
+    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, study, nan'
+    stop 2, quiet=.true.
+  end select
+  if (.not. all_right) stop 1, quiet=.true.
+
+contains
+
+  ! Prints whether a condition holds, and remembers it.
+  subroutine demand(condition, text)
+    logical, intent(in) :: condition
+    character(len=*), intent(in) :: text
+    all_right = all_right .and. condition
+    print '(4a)', '  ', merge('holds: ', 'FAILS: ', condition), text
+    print '(a)', ''
+  end subroutine demand
+
+  pure logical function anywhere(x)
+    real(dp), intent(in) :: x(3)
+    anywhere = all(x > -huge(x))
+  end function anywhere
+
+  ! Begins with a duct of n cells of side h, its lower corner at 0.
+  subroutine make_duct(fluid, n, h, imposed)
+    type(flow), intent(inout) :: fluid
+    integer, intent(in) :: n(3)
+    real(dp), intent(in) :: h
+    logical, intent(in) :: imposed
+    fluid%imposed_inlet = imposed
+    call fluid%start(n, h, [0._dp, 0._dp, 0._dp], anywhere)
+  end subroutine make_duct
+
+  ! Puts a flat plate across a duct, at height z, that moves with w: riis gives K and K w.
+  subroutine put_plate(fluid, z, R, eps, w, moves_flow)
+    type(flow), intent(inout) :: fluid
+    real(dp), intent(in) :: z, R, eps, w
+    logical, intent(in) :: moves_flow
+    type(riis_surface) :: surface
+    type(riis_mesh) :: faces
+    type(riis_mark_result) :: marks
+    real(dp) :: corners(3, 4), velocity(3, 4), side
+    side = fluid%h * maxval(fluid%n)
+    corners = reshape([-side, -side, z, 2 * side, -side, z, 2 * side, 2 * side, z, -side, 2 * side, z], [3, 4])
+    velocity = 0
+    velocity(3, :) = w
+    call surface%create_from_arrays(corners, reshape([1, 2, 3, 4], [4, 1]), half_thickness=eps, velocity=velocity)
+    call faces%create(fluid%xyz)
+    call riis_mark_nodes(surface, faces, marks, fields=RIIS_FIELD_VELOCITY)
+    fluid%K = 0
+    fluid%K_u = 0
+    call marks%add_resistance(R, fluid%K, fluid%K_u)
+    if (.not. moves_flow) fluid%K_u = 0
+    call marks%destroy()
+    call faces%destroy()
+    call surface%destroy()
+  end subroutine put_plate
+
+  ! The pressure drop over the middle of a duct.
+  real(dp) function drop_of(fluid)
+    type(flow), intent(in) :: fluid
+    drop_of = fluid%mean_pressure(fluid%h * 1.5_dp) - fluid%mean_pressure(fluid%h * (fluid%n(3) - 1.5_dp))
+  end function drop_of
+
+  ! (a) Steady flow through a square duct that a pressure difference drives; the closed form is a series of cosines.
+  subroutine check_duct()
+    integer, parameter :: sizes(3) = [6, 12, 24]
+    real(dp), parameter :: side = 0.01_dp, gradient = 0.01_dp ! slow: inertia does not count
+    type(flow) :: fluid
+    real(dp) :: error(0:3), flow_error(0:3), order(2), exact, flow_exact, x(3), length, largest
+    integer :: i, n, q, term
+    print '(a)', 'Duct, without a valve: error of the velocity against the closed form, and of the flow'
+    error(0) = 1
+    flow_error(0) = 1
+    print '(a)', '  cells across  velocity, %  order  flow, %  order'
+    do i = 1, 3
+      n = sizes(i)
+      fluid = flow()
+      fluid%mu = 0.05_dp
+      call make_duct(fluid, [n, n, 4], side / n, .false.)
+      length = 4 * fluid%h
+      do q = 1, 8 * n**2                          ! until side^2 rho/mu: what is left is below 1e-8
+        call fluid%step(fluid%time_step(1._dp), gradient * length, 0._dp)
+      end do
+      error(i) = 0
+      largest = 0
+      flow_exact = 0
+      do q = 1, n * n
+        x = (fluid%centre(fluid%cell(q)) - side / 2) / side
+        exact = 0
+        do term = 1, 199, 2
+          exact = exact + 4 * gradient * side**2 / (fluid%mu * pi**3 * term**3) * sin(term * pi / 2) * cos(term * pi * x(1)) * &
+            (1 - cosh(term * pi * x(2)) / cosh(term * pi / 2))
+        end do
+        error(i) = max(error(i), abs(fluid%v(fluid%cell(q), 3) - exact))
+        largest = max(largest, abs(exact))
+      end do
+      do term = 1, 199, 2
+        flow_exact = flow_exact + 8 * gradient * side**4 / (fluid%mu * pi**4 * term**4) * &
+          (1 - 2 * tanh(term * pi / 2) / (term * pi))
+      end do
+      error(i) = error(i) / largest
+      flow_error(i) = abs(fluid%flow_out() / flow_exact - 1)
+      order = log([error(i - 1) / error(i), flow_error(i - 1) / flow_error(i)]) / log(2._dp)
+      if (i == 1) print '(i14, f13.3, a7, f9.3, a7)', n, 100 * error(i), '-', 100 * flow_error(i), '-'
+      if (i > 1) print '(i14, f13.3, f7.2, f9.3, f7.2)', n, 100 * error(i), order(1), 100 * flow_error(i), order(2)
+      call fluid%finish()
+    end do
+    call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
+  end subroutine check_duct
+
+  ! (b) A plate closes a duct whose flow is given. In the very next step it has its drop, whatever the step.
+  subroutine check_drop()
+    real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp
+    type(flow) :: fluid
+    real(dp) :: dt, before, drop, worst
+    integer :: halving, i
+    print '(a)', 'Plate in a duct, flow 0.1 m/s given, K in both equations: drop in the very step after closing'
+    print '(a)', '   dt, ms  drop, kPa  (R/eps) u, kPa  ratio'
+    worst = 0
+    do halving = 0, 2
+      dt = 1e-3_dp / 2**halving
+      fluid = flow()
+      call make_duct(fluid, [12, 12, 24], h, .true.)
+      do i = 1, 10
+        call fluid%step(dt, u, 0._dp)
+      end do
+      before = drop_of(fluid)
+      call put_plate(fluid, 12.3_dp * h, R, eps, 0._dp, .true.)
+      call fluid%step(dt, u, 0._dp)
+      drop = drop_of(fluid) - before
+      worst = max(worst, abs(drop / (R / eps * u) - 1))
+      print '(f9.2, f11.2, f16.2, f7.4)', 1e3_dp * dt, drop / 1000, R / eps * u / 1000, drop / (R / eps * u)
+      call fluid%finish()
+    end do
+    call demand(worst < 0.05_dp, 'each is within 5 % of (R/eps) u')
+  end subroutine check_drop
+
+  ! (b) The same without K in the pressure equation: each face lacks the share (1 + rho/(K dt))^-steps of its drop.
+  subroutine check_slow_drop()
+    real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp, dt = 1e-3_dp
+    integer, parameter :: seen(5) = [1, 10, 100, 1000, 10000]
+    type(flow) :: fluid
+    real(dp) :: drop, expected, worst
+    integer :: i
+    print '(a)', 'The same with K in the momentum equation alone, and pressure increments: share of (R/eps) u, dt 1 ms'
+    print '(a)', '   steps     time, s  measured  expected'
+    fluid = flow()
+    fluid%K_in_pressure = .false.
+    fluid%mu = 1e-9_dp                            ! so that the flow stays even, as the formula has it
+    call make_duct(fluid, [4, 4, 16], h, .true.)
+    fluid%v(fluid%face(1, :), 3) = merge(u, 0._dp, fluid%face(2, :) == 3)
+    call put_plate(fluid, 8.3_dp * h, R, eps, 0._dp, .true.)
+    worst = 0
+    do i = 1, maxval(seen)
+      call fluid%step(dt, u, 0._dp)
+      if (all(i /= seen)) cycle
+      drop = drop_of(fluid) / (R / eps * u)
+      expected = h / 16 / (R / eps) * sum(fluid%K * (1 - (fluid%K * dt / (fluid%rho + fluid%K * dt))**i), &
+        mask=fluid%face(2, :) == 3)
+      worst = max(worst, abs(drop / expected - 1))
+      print '(i8, f12.3, 2f10.4)', i, i * dt, drop, expected
+    end do
+    call fluid%finish()
+    call demand(worst < 0.05_dp, 'the drop builds up as expected, within 5 %')
+  end subroutine check_slow_drop
+
+  ! (c) What flows in and does not flow out is bounded by the residual that HYPRE leaves.
+  subroutine check_balance()
+    type(flow), target :: fluid
+    type(leaflets) :: valve
+    real(dp) :: bound, flow_bound, difference, divergence
+    logical :: fits
+    integer :: i, j
+    print '(a)', 'Mass balance with the valve half open in its root, 1 kPa: largest divergence, and inflow less outflow'
+    print '(a)', '  tolerance  residual  divergence, 1/s     bound  in - out, ml/s     bound  flow, ml/s  iterations'
+    fits = .true.
+    do i = 4, 10, 2
+      fluid = flow()
+      fluid%tolerance = 10._dp**(-i)
+      call start_root(fluid, valve, 24, 1.5_dp, 1e4_dp, 0.5_dp)
+      do j = 1, 10
+        call valve%move(0.5_dp, 1e-3_dp, fluid)
+        call fluid%step(1e-3_dp, 1000._dp, 0._dp)
+      end do
+      bound = fluid%tolerance * norm2(fluid%b) / fluid%h**2
+      flow_bound = fluid%tolerance * norm2(fluid%b) * sqrt(real(size(fluid%b), dp)) * fluid%h
+      difference = abs(fluid%flow_in() - fluid%flow_out())
+      divergence = fluid%divergence()
+      fits = fits .and. divergence <= 1.01_dp * bound .and. difference <= 1.01_dp * flow_bound
+      print '(es11.0, es10.1, es17.2, es10.1, es16.2, es10.1, f12.2, i12)', fluid%tolerance, fluid%equation%residual, &
+        divergence, bound, 1e6_dp * difference, 1e6_dp * flow_bound, 1e6_dp * fluid%flow_out(), fluid%equation%iterations
+      call finish_root(fluid, valve)
+    end do
+    call demand(fits, 'both are within their bounds')
+  end subroutine check_balance
+
+  ! (d) With and without u_surface: a plate that moves through a duct takes the fluid along, as a piston does.
+  subroutine check_moving()
+    real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, w = 0.1_dp, dt = 1e-3_dp
+    type(flow), target :: fluid
+    type(leaflets) :: valve
+    real(dp) :: u(2), displaced(2), least(2), time, short
+    integer :: i, with
+    print '(a)', 'A plate moves at 0.1 m/s through a duct with equal pressures at its ends; the aortic valve closes within 40 ms,'
+    print '(a)', 'also between equal pressures: what goes back through the root meanwhile'
+    print '(a)', '  K u_surface  flow behind plate, m/s  back through root, ml  most, ml/s'
+    do with = 1, 2
+      fluid = flow()
+      call make_duct(fluid, [8, 8, 32], h, .false.)
+      do i = 1, 100
+        call put_plate(fluid, 0.01_dp + i * dt * w, R, eps, w, with == 1)
+        call fluid%step(dt, 0._dp, 0._dp)
+      end do
+      u(with) = fluid%flow_out() / (64 * h**2)
+      call fluid%finish()
+      fluid = flow()
+      valve%moves_flow = with == 1
+      call start_root(fluid, valve, 24, 1.5_dp, 1e4_dp, 1._dp)
+      displaced(with) = 0
+      least(with) = 0
+      time = 0
+      do while (time < 0.04_dp)
+        short = fluid%time_step(dt)
+        time = time + short
+        call valve%move(ramp(1 - time / 0.04_dp), short, fluid)
+        call fluid%step(short, 0._dp, 0._dp)
+        displaced(with) = displaced(with) - short * fluid%flow_out()
+        least(with) = min(least(with), fluid%flow_out())
+      end do
+      call finish_root(fluid, valve)
+      print '(a13, f24.4, f23.2, f12.1)', merge('with   ', 'without', with == 1), u(with), 1e6_dp * displaced(with), &
+        1e6_dp * abs(least(with))
+    end do
+    call demand(abs(u(1) / w - 1) < 0.01_dp .and. abs(u(2)) < 0.01_dp * w .and. displaced(1) > 10 * abs(displaced(2)), &
+      'with it the fluid moves with the plate, without it the fluid rests; leaflets push the fluid only with it')
+  end subroutine check_moving
+
+  pure real(dp) function ramp(x)
+    real(dp), intent(in) :: x
+    ramp = max(0._dp, x)**3 * (10 + x * (6 * x - 15))
+  end function ramp
+
+  ! Begins with the aortic valve in its root, `cells` across, with a half thickness of `cells_of_eps` cells.
+  subroutine start_root(fluid, valve, cells, cells_of_eps, R, opening)
+    type(flow), intent(inout), target :: fluid
+    type(leaflets), intent(inout) :: valve
+    integer, intent(in) :: cells
+    real(dp), intent(in) :: cells_of_eps, R, opening
+    integer(riis_status) :: status
+    call fluid%start([cells, cells, 6 * cells / 5], 0.033_dp / cells, [-0.0165_dp, -0.0165_dp, -0.018_dp], in_root)
+    valve%eps = cells_of_eps * fluid%h
+    valve%R = R
+    call valve%valve%create(valve%kind, status)
+    call check(status)
+    call valve%start(fluid, opening)
+  end subroutine start_root
+
+  subroutine finish_root(fluid, valve)
+    type(flow), intent(inout) :: fluid
+    type(leaflets), intent(inout) :: valve
+    call fluid%finish()
+    call valve%finish()
+    deallocate (valve%marked)
+  end subroutine finish_root
+
+  ! (f) What R and eps do: the drop of a plate anywhere between faces, and the leak of the closed aortic valve.
+  subroutine study()
+    real(dp), parameter :: h = 1e-3_dp, u = 0.1_dp, cells_of_eps(6) = [0.75_dp, 1._dp, 1.25_dp, 1.5_dp, 2._dp, 3._dp]
+    real(dp), parameter :: dp_closed = 80 * 133.322_dp
+    integer, parameter :: sizes(3) = [24, 40, 56]
+    type(flow), target :: fluid
+    type(leaflets) :: valve
+    real(dp) :: drop(0:9), eps, R, ideal
+    integer :: i, j, k
+    print '(a)', 'Drop of a plate in one step, over (R/eps) u: least and largest of 10 places between two faces'
+    print '(a)', '  eps/h     least   largest'
+    do i = 1, size(cells_of_eps)
+      eps = cells_of_eps(i) * h
+      do j = 0, 9
+        fluid = flow()
+        call make_duct(fluid, [4, 4, 24], h, .true.)
+        fluid%v(fluid%face(1, :), 3) = merge(u, 0._dp, fluid%face(2, :) == 3)
+        call put_plate(fluid, (12 + j / 10._dp) * h, 1e4_dp, eps, 0._dp, .true.)
+        call fluid%step(1e-3_dp, u, 0._dp)
+        drop(j) = drop_of(fluid) / (1e4_dp / eps * u)
+        call fluid%finish()
+      end do
+      print '(f7.2, 2f10.4)', cells_of_eps(i), minval(drop), maxval(drop)
+    end do
+    print '(/a)', 'Leak of the closed aortic valve at 80 mmHg. Ideal: dp eps/R through the area of the root, 4.91 cm^2'
+    print '(a)', '  cells  eps/h  eps, mm       R  leak, ml/s  ideal  ratio  iterations'
+    do k = 1, size(sizes)
+      do i = 1, size(cells_of_eps)
+        do j = 3, 5
+          if (j /= 4 .and. .not. (k == 2 .and. abs(cells_of_eps(i) - 1.5_dp) < 0.1_dp)) cycle
+          R = 10._dp**j
+          fluid = flow()
+          call start_root(fluid, valve, sizes(k), cells_of_eps(i), R, 0._dp)
+          call valve%move(0._dp, 1e-3_dp, fluid)
+          do step_number = 1, 20
+            call fluid%step(1e-3_dp, 0._dp, dp_closed)
+          end do
+          ideal = dp_closed * valve%eps / R * pi * 0.0125_dp**2
+          print '(i7, f7.2, f9.3, es8.0, f12.2, f7.2, f7.2, i12)', sizes(k), cells_of_eps(i), valve%eps * 1000, R, &
+            -1e6_dp * fluid%flow_out(), 1e6_dp * ideal, -fluid%flow_out() / ideal, fluid%equation%iterations
+          call finish_root(fluid, valve)
+        end do
+      end do
+    end do
+  end subroutine study
+
+  ! A pressure that is not a number reaches the law of opening in step 3: the library refuses it.
+  subroutine feed_nan()
+    type(riis_opening_switch) :: law = riis_opening_switch(opening_seconds=0.04d0, closing_seconds=0.04d0)
+    type(riis_opening_switch_state) :: state
+    type(flow), target :: fluid
+    type(leaflets) :: valve
+    integer(riis_status) :: status
+    call start_root(fluid, valve, 16, 1.5_dp, 1e4_dp, 0._dp)
+    do step_number = 1, 5
+      step_time = step_number * 1e-3_dp
+      if (step_number == 3) fluid%p = ieee_value(1._dp, ieee_quiet_nan)
+      call riis_opening_advance(law, state, step_time, fluid%mean_pressure(-0.014_dp) - fluid%mean_pressure(0.006_dp), &
+        fluid%flow_out(), status)
+      call check(status)
+      call valve%move(state%opening, 1e-3_dp, fluid)
+      call fluid%step(1e-3_dp, 0._dp, 1e4_dp)
+    end do
+  end subroutine feed_nan
+end program checks

@@ -1,0 +1,159 @@
+! SPDX-License-Identifier: Apache-2.0
+!> What the solver leaves: a row for each step, slices for the movie, and a restart file.
+module flow_files
+  use, intrinsic :: iso_fortran_env, only: int32, int64, real32
+  use riis, only: riis_parameter_info, riis_opening_switch_state
+  use flow_solver, only: dp, flow
+  use flow_valve, only: leaflets, check
+  use flow_circulation, only: circulation
+  use flow_stop, only: refuse, step_number, step_time
+  implicit none
+  private
+  public :: open_table, write_frame, write_restart, read_restart
+
+  character(len=*), parameter :: magic = 'riis flow_fortran 1 '
+
+contains
+
+  !> Opens the table of steps, and goes on with one that is there.
+  subroutine open_table(name, unit)
+    character(len=*), intent(in) :: name
+    integer, intent(out) :: unit
+    character(len=200) :: message
+    logical :: old
+    integer :: stat
+    inquire (file=name, exist=old)
+    if (step_number == 0) old = .false.
+    if (old) open (newunit=unit, file=name, position='append', action='write', iostat=stat, iomsg=message)
+    if (.not. old) open (newunit=unit, file=name, status='replace', action='write', iostat=stat, iomsg=message)
+    if (stat /= 0) call refuse(trim(message))
+    if (.not. old) write (unit, '(a)') 'step,time_s,dt_s,opening,p_ventricle_Pa,p_upstream_Pa,p_downstream_Pa,' // &
+      'flow_m3_per_s,jet_m_per_s,force_x_N,force_y_N,force_z_N,divergence_per_s,in_less_out_m3_per_s,iterations,marked'
+  end subroutine open_table
+
+  !> Writes a frame of the movie: velocity and pressure in the cells beside x = 0, velocity in the layer at z = height, and the
+  !! cuts of the leaflets by both planes. Walls are NaN.
+  subroutine write_frame(name, fluid, valve, height)
+    character(len=*), intent(in) :: name
+    type(flow), intent(in) :: fluid
+    type(leaflets), intent(in) :: valve
+    real(dp), intent(in) :: height
+    integer :: unit, layer
+    open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
+    layer = product(fluid%n(1:2)) * floor((height - fluid%corner(3)) / fluid%h)
+    write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening, valve%eps], real32)
+    call write_slice(unit, fluid, fluid%cell(fluid%n(1) / 2 + 1::fluid%n(1)), .true.)
+    call write_slice(unit, fluid, fluid%cell(layer + 1:layer + product(fluid%n(1:2))), .false.)
+    call write_cut(unit, valve, 1, 0._dp)
+    call write_cut(unit, valve, 3, height)
+    close (unit)
+  end subroutine write_frame
+
+  subroutine write_slice(unit, fluid, m, with_pressure)
+    integer, intent(in) :: unit, m(:)
+    type(flow), intent(in) :: fluid
+    logical, intent(in) :: with_pressure
+    real(real32) :: values(size(m), 4)
+    integer :: c
+    do c = 1, 3
+      values(:, c) = real((fluid%v(m, c) + fluid%v(m + fluid%stride(c), c)) / 2, real32)
+    end do
+    values(:, 4) = real(fluid%p(m), real32)
+    do c = 1, merge(4, 3, with_pressure)
+      where (fluid%solid(m)) values(:, c) = transfer(int(z'7FC00000', int32), 1._real32)
+      write (unit) values(:, c)
+    end do
+  end subroutine write_slice
+
+  ! The segments in which the leaflets' triangles cut a plane across an axis: their number, and two points of each.
+  subroutine write_cut(unit, valve, axis, position)
+    integer, intent(in) :: unit, axis
+    type(leaflets), intent(in) :: valve
+    real(dp), intent(in) :: position
+    real(dp), pointer :: xyz(:, :)
+    integer(int64), pointer :: corner(:, :)
+    real(real32), allocatable :: ends(:, :)
+    real(dp) :: a(3), b(3)
+    integer :: i, side, n
+    call valve%surface%vertices(xyz)
+    call valve%surface%triangles(corner)
+    allocate (ends(3, 2 * size(corner, 2)))
+    n = 0
+    do i = 1, size(corner, 2)
+      do side = 1, 3
+        a = xyz(:, corner(side, i) + 1)
+        b = xyz(:, corner(mod(side, 3) + 1, i) + 1)
+        if ((a(axis) < position) .eqv. (b(axis) < position)) cycle ! two sides of a triangle cross the plane, or none
+        n = n + 1
+        ends(:, n) = real(a + (b - a) * (position - a(axis)) / (b(axis) - a(axis)), real32)
+      end do
+    end do
+    write (unit) int(n / 2, int32), ends(:, :n)
+  end subroutine write_cut
+
+  ! Gives what makes a run this run: grid, valve, its parameters and its placement, as "name value" in lines of a file.
+  subroutine get_identity(fluid, valve, lines)
+    type(flow), intent(in) :: fluid
+    type(leaflets), intent(in) :: valve
+    character(len=160), allocatable, intent(out) :: lines(:)
+    type(riis_parameter_info) :: info
+    real(dp), allocatable :: values(:)
+    integer :: i
+    allocate (lines(6 + valve%valve%n_parameters()))
+    write (lines(1), '(a, 3i6)') 'cells', fluid%n
+    write (lines(2), '(2a)') 'valve ', trim(valve%kind)
+    write (lines(3), '(a, es24.16)') 'resistance', valve%R
+    write (lines(4), '(a, es24.16)') 'half_thickness', valve%eps
+    write (lines(5), '(a, 3es24.16)') 'place', valve%place
+    write (lines(6), '(a, l2)') 'surface_velocity', valve%moves_flow
+    do i = 1, size(lines) - 6
+      call valve%valve%parameter(i, info)
+      values = info%default_values
+      call valve%valve%get(info%name, values)
+      if (info%name == 'opening') values = 0      ! that is a part of the state
+      write (lines(6 + i), '(a, 3es24.16)') info%name, values
+    end do
+  end subroutine get_identity
+
+  !> Writes all that the next step needs, in full precision.
+  subroutine write_restart(name, fluid, valve, heart, law)
+    character(len=*), intent(in) :: name
+    type(flow), intent(in) :: fluid
+    type(leaflets), intent(in) :: valve
+    type(circulation), intent(in) :: heart
+    type(riis_opening_switch_state), intent(in) :: law
+    character(len=160), allocatable :: lines(:)
+    integer :: unit
+    call get_identity(fluid, valve, lines)
+    open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
+    write (unit) magic, size(lines), lines, step_number, step_time, heart, law, fluid%v, fluid%p
+    close (unit)
+  end subroutine write_restart
+
+  !> Reads it, and refuses a file of another run: it names what differs.
+  subroutine read_restart(name, fluid, valve, heart, law)
+    character(len=*), intent(in) :: name
+    type(flow), intent(inout) :: fluid
+    type(leaflets), intent(in) :: valve
+    type(circulation), intent(inout) :: heart
+    type(riis_opening_switch_state), intent(inout) :: law
+    character(len=160), allocatable :: here(:), there(:)
+    character(len=len(magic)) :: first
+    character(len=200) :: message
+    integer :: unit, i, n, stat
+    open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', iostat=stat, iomsg=message)
+    if (stat /= 0) call refuse(trim(message))
+    read (unit, iostat=stat) first, n
+    if (stat /= 0 .or. first /= magic) call refuse(name // ' is no restart file of this program')
+    call get_identity(fluid, valve, here)
+    allocate (there(n))
+    read (unit, iostat=stat) there
+    do i = 1, min(n, size(here))                  ! line 2 has the kind, on which all further lines depend
+      if (here(i) /= there(i)) call refuse('the restart file ' // name // ' is of another run: it has "' // trim(there(i)) // &
+        '", here it is "' // trim(here(i)) // '"')
+    end do
+    read (unit, iostat=stat) step_number, step_time, heart, law, fluid%v, fluid%p
+    if (stat /= 0) call refuse('the restart file ' // name // ' ends too early')
+    close (unit)
+  end subroutine read_restart
+end module flow_files

@@ -1,0 +1,106 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run flow, which reads this file: compile, check, run, draw, tell. They use its $n_jobs, $logs, install_missing,
+# python_of_packages, say and step.
+
+# Packages of Debian 12 or 13 that ./run flow needs, without recommends.
+flow_packages=(gcc g++ gfortran cmake make libembree-dev libtbb-dev libopenmpi-dev libhypre-dev python3-matplotlib ffmpeg)
+flow_build=build-flow
+
+# flow_available: tells whether HYPRE is there, or can be installed.
+flow_available() {
+  ! command -v dpkg-query >/dev/null && return
+  [[ $(dpkg-query -W -f='${db:Status-Status}' libhypre-dev 2>/dev/null) == installed ]] && return
+  [[ $(apt-cache policy libhypre-dev 2>/dev/null) == *Candidate:\ [0-9]* ]] && return
+  step "apt-get update" apt-get update
+  [[ $(apt-cache policy libhypre-dev 2>/dev/null) == *Candidate:\ [0-9]* ]]
+}
+
+# flow_compile: installs the library and its Fortran modules to a folder, and compiles the solver as a user's own project.
+flow_compile() {
+  cmake --preset library -B "$flow_build/library" -D RIIS_WITH_FORTRAN=ON -D CMAKE_INSTALL_PREFIX="$PWD/$flow_build/riis" &&
+    cmake --build "$flow_build/library" --parallel "$n_jobs" &&
+    cmake --install "$flow_build/library"
+}
+
+flow_compile_solver() {
+  cmake -S examples/flow_fortran -B "$flow_build/solver" -D CMAKE_PREFIX_PATH="$PWD/$flow_build/riis" &&
+    cmake --build "$flow_build/solver" --parallel "$n_jobs"
+}
+
+# flow_restart FOLDER FIRST SECOND WORD...: goes on from the step FIRST of a run to the step SECOND. Both states must be the same
+# there, and so must the rows of the table be in between.
+flow_restart() {
+  local folder=$1 first=$2 second=$3 again=$1/again
+  shift 3
+  rm -rf "$again"
+  mkdir -p "$again/frames"
+  "$flow_build/solver/flow" "$@" save="$second" steps="$second" out="'$again'" restart="'$folder/restart_$first.bin'" &&
+    cmp "$folder/restart_$second.bin" "$again/restart_$second.bin" &&
+    cmp <(awk -F , -v a="$first" -v b="$second" '$1 + 0 > a && $1 + 0 <= b' "$folder/beat.csv") <(sed 1d "$again/beat.csv")
+}
+
+# flow_story FOLDER: says what the beat was, from its table.
+flow_story() {
+  LC_ALL=C awk -F , '
+    NR == 1 { next }
+    { dt = $3; flow = $8; if (flow > 0) forward += dt * flow; else if ($4 > 0) closing -= dt * flow; else leak -= dt * flow }
+    flow > peak { peak = flow; when = $2 }
+    $9 > jet { jet = $9 }
+    $6 - $7 > most { most = $6 - $7 }
+    $7 - $6 > held { held = $7 - $6; force = $12 }
+    $7 > top { top = $7 }
+    END {
+      printf "\n  forward flow              %6.1f ml, at most %.0f ml/s at %.0f ms\n", 1e6 * forward, 1e6 * peak, 1e3 * when
+      printf "  back while it closes      %6.1f ml\n  through the closed valve  %6.1f ml\n", 1e6 * closing, 1e6 * leak
+      printf "  jet                       %6.2f m/s\n", jet
+      printf "  pressure in the aorta     %6.0f mmHg at most\n", top / 133.322
+      printf "  the closed valve holds    %6.0f mmHg, and a force of %.1f N\n", held / 133.322, force
+    }' "$1/beat.csv"
+}
+
+# flow [--short] [--study] [--cells N]
+flow() {
+  local out=out/flow python words=() save=(600 620) short='' study=''
+  while (($# > 0)); do
+    case $1 in
+      --short) short=1 out=out/flow_short words+=(cells=24 end_time=0.16 frames=12) save=(60 80) ;;
+      --study) study=1 ;;
+      --cells)
+        [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { echo "./run flow: --cells needs a number, not '${2:-}'" >&2; exit 2; }
+        words+=(cells="$2")
+        shift
+        ;;
+      *)
+        echo "./run flow: '$1' is not an option" >&2
+        exit 2
+        ;;
+    esac
+    shift
+  done
+  if ! flow_available; then
+    say "flow is skipped: this distribution lacks the package libhypre-dev"
+    return
+  fi
+  packages=("${flow_packages[@]}")
+  install_missing
+  export OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  step "compile the library" flow_compile
+  step "compile the flow solver" flow_compile_solver
+  if [[ $study ]]; then
+    "$flow_build/solver/flow_checks" study
+    return
+  fi
+  say "check the solver against closed forms"
+  "$flow_build/solver/flow_checks"
+  say "one heartbeat"
+  rm -rf "$out"
+  mkdir -p "$out/frames"
+  "$flow_build/solver/flow" "${words[@]}" save="${save[0]},${save[1]}" out="'$out'"
+  step "go on from step ${save[0]} in a second run: the same bits" flow_restart "$out" "${save[@]}" "${words[@]}"
+  python=$(python_of_packages)
+  step "draw" "$python" -B examples/flow_fortran/plots.py "$out"
+  flow_story "$out"
+  say "left: $out/beat.png, $out/flow.mp4 and stills of it, $out/beat.csv, $out/frames"
+  [[ ! $short ]] || say "this was the short variant: a coarse grid, and the beat until the valve opens"
+}

@@ -1,0 +1,288 @@
+! SPDX-License-Identifier: Apache-2.0
+!> Incompressible flow on a staggered grid of cubic cells, by a fractional step in which the resistance K of a valve is
+!! implicit in the momentum AND in the pressure equation (README.md has the equations).
+!!
+!! Cells and faces have one number m; the neighbour in direction d is m + stride(d). Velocity component c of number m is at the
+!! lower face of cell m in direction c. Walls are closed faces between cells inside and outside of the lumen. The flow enters
+!! at the lower end in z and leaves at the upper end.
+module flow_solver
+  use, intrinsic :: iso_fortran_env, only: dp => real64
+  use flow_pressure, only: pressure_equation
+  use flow_stop, only: refuse
+  implicit none
+  private
+  public :: dp, flow, lumen_function
+
+  type :: flow
+    real(dp) :: rho = 1060, mu = 3.5e-3_dp        ! [kg/m^3], [Pa s] of blood
+    real(dp) :: tolerance = 1e-8_dp               ! of the pressure equation, relative to its right-hand side
+    logical :: imposed_inlet = .false.            ! the inlet has a given velocity; otherwise, a given pressure
+    logical :: K_in_pressure = .true.             ! .false. shows what goes wrong without (checks.f90)
+    integer :: n(3) = 0, stride(3) = 0            ! cells of the box
+    real(dp) :: h = 0, corner(3) = 0              ! [m] side of a cell, lower corner of the box
+    integer, allocatable :: cell(:)               ! the cells of the box, x fastest
+    integer, allocatable :: face(:, :)            ! (2, n_faces): number and direction of every face with an unknown velocity
+    integer, allocatable :: inlet(:), outlet(:)   ! the open faces at both ends
+    logical, allocatable :: solid(:), closed(:, :) ! cells outside the lumen; faces without flow
+    real(dp), allocatable :: xyz(:, :)            ! [m] (3, n_faces) the centres of these faces: the mesh that riis marks
+    real(dp), allocatable :: K(:), K_u(:, :)      ! (n_faces), (3, n_faces): K and K u_surface, from riis
+    real(dp), allocatable :: v(:, :), p(:)        ! [m/s] (:, 3), [Pa]
+    real(dp), allocatable :: b(:)                 ! right-hand side of the pressure equation
+    real(dp), allocatable, private :: A(:, :), p_before(:), coefficient(:, :), x(:), predicted(:)
+    type(pressure_equation) :: equation
+  contains
+    procedure :: start, step, time_step, divergence, flow_in, flow_out, mean_pressure, centre, finish
+  end type flow
+
+  abstract interface
+    pure function lumen_function(x) result(inside)
+      import :: dp
+      real(dp), intent(in) :: x(3)
+      logical :: inside
+    end function lumen_function
+  end interface
+
+contains
+
+  !> Numbers cells and faces, and begins with fluid at rest. lumen tells whether a cell's centre is inside the walls.
+  subroutine start(this, n, h, corner, lumen)
+    class(flow), intent(inout) :: this
+    integer, intent(in) :: n(3)
+    real(dp), intent(in) :: h, corner(3)
+    procedure(lumen_function) :: lumen
+    integer :: all, c, i, j, k, last(3), m, pass, f
+    this%n = n
+    this%h = h
+    this%corner = corner
+    this%stride = [1, n(1) + 5, (n(1) + 5) * (n(2) + 5)]
+    all = this%stride(3) * (n(3) + 5)             ! numbers run from -1 to n + 3 in each direction
+    allocate (this%solid(all), this%closed(all, 3), this%v(all, 3), this%p(all), this%A(all, 3), this%cell(product(n)))
+    allocate (this%coefficient(0:3, product(n)), this%b(product(n)), this%x(product(n)), this%inlet(0), this%outlet(0))
+    this%solid = .true.
+    this%closed = .true.
+    this%v = 0
+    this%p = 0
+    this%A = 0
+    m = 0
+    do k = 1, n(3); do j = 1, n(2); do i = 1, n(1)
+      m = m + 1
+      this%cell(m) = number(this, i, j, k)
+      this%solid(this%cell(m)) = .not. lumen(this%centre(this%cell(m)))
+    end do; end do; end do
+    do i = 1, 2                                   ! beyond its ends the lumen goes on
+      do k = this%stride(3) + 1, 2 * this%stride(3)
+        this%solid(k + (1 - i) * this%stride(3)) = this%solid(k + this%stride(3))
+        this%solid(k + (n(3) + i) * this%stride(3)) = this%solid(k + n(3) * this%stride(3))
+      end do
+    end do
+    do pass = 1, 2                                ! counts, then stores
+      f = 0
+      do c = 1, 3
+        last = n
+        last(c) = n(c) + 1
+        do k = 0, n(3) + 2; do j = 0, n(2) + 2; do i = 0, n(1) + 2
+          m = number(this, i, j, k)
+          this%closed(m, c) = this%solid(m) .or. this%solid(m - this%stride(c))
+          if (this%closed(m, c) .or. any([i, j, k] < 1 .or. [i, j, k] > last)) cycle
+          if (pass == 1 .and. c == 3 .and. k == 1) this%inlet = [this%inlet, m]
+          if (pass == 1 .and. c == 3 .and. k == last(3)) this%outlet = [this%outlet, m]
+          if (this%imposed_inlet .and. c == 3 .and. k == 1) cycle
+          f = f + 1
+          if (pass == 1) cycle
+          this%face(:, f) = [m, c]
+          this%xyz(:, f) = this%centre(m)
+          this%xyz(c, f) = this%xyz(c, f) - h / 2
+        end do; end do; end do
+      end do
+      if (pass == 1) allocate (this%face(2, f), this%xyz(3, f), this%K(f), this%K_u(3, f), this%predicted(f))
+    end do
+    this%K = 0
+    this%K_u = 0
+    call this%equation%start(n)
+  end subroutine start
+
+  pure integer function number(this, i, j, k)
+    class(flow), intent(in) :: this
+    integer, intent(in) :: i, j, k
+    number = 1 + dot_product([i, j, k] + 1, this%stride)
+  end function number
+
+  !> Returns the centre of cell m.
+  pure function centre(this, m) result(x)
+    class(flow), intent(in) :: this
+    integer, intent(in) :: m
+    real(dp) :: x(3)
+    x = this%corner + this%h * (0.5_dp - 2 + [mod(m - 1, this%stride(2)), mod(m - 1, this%stride(3)) / this%stride(2), &
+      (m - 1) / this%stride(3)])
+  end function centre
+
+  !> Advances velocity and pressure by dt. at_inlet is the velocity or the pressure there, p_out the pressure at the outlet.
+  subroutine step(this, dt, at_inlet, p_out)
+    class(flow), intent(inout) :: this
+    real(dp), intent(in) :: dt, at_inlet, p_out
+    real(dp) :: rate
+    logical :: failed
+    integer :: c, d, f, m, q
+    associate (v => this%v, p => this%p, A => this%A, s => this%stride, h => this%h, rho => this%rho, face => this%face)
+      if (this%imposed_inlet) v(this%inlet, 3) = at_inlet
+      call fill_ends(this)
+      if (.not. this%K_in_pressure) this%p_before = p
+
+      ! The predictor: (rho/dt + K) u* = rho/dt u - rho div(u u) + mu laplace(u) + K u_surface.
+      !$omp parallel do private(m, c, d, rate)
+      do f = 1, size(face, 2)
+        m = face(1, f)
+        c = face(2, f)
+        rate = 0
+        do d = 1, 3
+          rate = rate + (flux(this, m - s(d), d, c) - flux(this, m, d, c)) / h
+        end do
+        if (.not. this%K_in_pressure) rate = rate - (p(m) - p(m - s(c))) / h
+        this%predicted(f) = (rho / dt * v(m, c) + rate + this%K_u(c, f)) / (rho / dt + this%K(f))
+        A(m, c) = 1 / (rho / dt + merge(this%K(f), 0._dp, this%K_in_pressure))
+      end do
+      !$omp parallel do private(m, c)
+      do f = 1, size(face, 2)
+        v(face(1, f), face(2, f)) = this%predicted(f)
+      end do
+
+      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u*, times -h^2. At both ends p is given half a cell away, where
+      ! what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
+      p(this%inlet - s(3)) = at_inlet - rho / 2 * max(0._dp, v(this%inlet, 3))**2
+      p(this%outlet) = p_out - rho / 2 * min(0._dp, v(this%outlet, 3))**2
+      !$omp parallel do private(m)
+      do q = 1, size(this%cell)
+        m = this%cell(q)
+        this%coefficient(0, q) = sum(A(m, :)) + A(m + s(1), 1) + A(m + s(2), 2) + A(m + s(3), 3)
+        this%coefficient(1:3, q) = -A(m, :)
+        this%b(q) = -h * (v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3))
+        if (m <= 3 * s(3)) then
+          this%coefficient(0, q) = this%coefficient(0, q) + A(m, 3)
+          this%coefficient(3, q) = 0
+          this%b(q) = this%b(q) + 2 * A(m, 3) * p(m - s(3)) ! A is 0 if the velocity is given
+        else if (m > (this%n(3) + 1) * s(3)) then
+          this%coefficient(0, q) = this%coefficient(0, q) + A(m + s(3), 3)
+          this%b(q) = this%b(q) + 2 * A(m + s(3), 3) * p(m + s(3))
+        end if
+        if (this%coefficient(0, q) <= 0) this%coefficient(0, q) = dt / rho ! a cell in the wall
+        this%x(q) = merge(p(m), 0._dp, this%K_in_pressure)
+      end do
+      call this%equation%solve(this%coefficient, this%b, this%x, this%tolerance, failed)
+      if (failed) call refuse('the pressure equation does not converge')
+      p(this%cell) = this%x
+      p(this%inlet - s(3)) = 2 * p(this%inlet - s(3)) - p(this%inlet)
+      p(this%outlet) = 2 * p(this%outlet) - p(this%outlet - s(3))
+
+      ! The corrector: u = u* - 1/(rho/dt + K) grad p.
+      !$omp parallel do private(m, c)
+      do f = 1, size(face, 2)
+        m = face(1, f)
+        c = face(2, f)
+        v(m, c) = v(m, c) - A(m, c) * (p(m) - p(m - s(c))) / h
+      end do
+      if (.not. this%K_in_pressure) p = p + this%p_before
+    end associate
+  end subroutine step
+
+  ! The flux of momentum c through the face between m and its next in direction d: carried by the flow, less viscous. The
+  ! carried value is second order where the velocity is smooth, and between its neighbours anywhere (van Leer's limiter).
+  pure real(dp) function flux(this, m, d, c)
+    class(flow), intent(in) :: this
+    integer, intent(in) :: m, d, c
+    real(dp) :: carrier, low, high, value
+    integer :: next
+    next = m + this%stride(d)
+    low = this%v(m, c)
+    high = this%v(next, c)
+    carrier = (this%v(next, d) + this%v(next - this%stride(c), d)) / 2
+    if (carrier >= 0) then
+      value = low + limited(low - this%v(m - this%stride(d), c), high - low) / 2
+    else
+      value = high - limited(this%v(next + this%stride(d), c) - high, high - low) / 2
+    end if
+    if (d /= c) then                              ! a wall is half a cell away
+      if (this%closed(m, c)) low = -high
+      if (this%closed(next, c)) high = -low
+    end if
+    flux = this%rho * carrier * value - this%mu * (high - low) / this%h
+  end function flux
+
+  ! The harmonic mean of two slopes, 0 at an extreme.
+  pure real(dp) function limited(a, b)
+    real(dp), intent(in) :: a, b
+    limited = 0
+    if (a * b > 0) limited = 2 * a * b / (a + b)
+  end function limited
+
+  ! Velocities beyond the ends are those inside, but what comes in comes straight.
+  subroutine fill_ends(this)
+    class(flow), intent(inout) :: this
+    integer :: c, f, m, s
+    s = this%stride(3)
+    do c = 1, 3
+      do f = 1, size(this%inlet)
+        m = this%inlet(f)
+        this%v([m - s, m - 2 * s], c) = merge(0._dp, this%v(m, c), c < 3 .and. this%v(m, 3) > 0)
+      end do
+      do f = 1, size(this%outlet)
+        m = this%outlet(f)
+        if (c < 3) this%v([m, m + s], c) = merge(0._dp, this%v(m - s, c), this%v(m, 3) < 0)
+        if (c == 3) this%v([m + s, m + 2 * s], c) = this%v(m, c)
+      end do
+    end do
+  end subroutine fill_ends
+
+  !> Returns the largest stable time step, at most `longest`: half a cell by the sum of the three speeds.
+  real(dp) function time_step(this, longest)
+    class(flow), intent(in) :: this
+    real(dp), intent(in) :: longest
+    real(dp) :: speed
+    integer :: m, q
+    speed = 0
+    !$omp parallel do private(m) reduction(max: speed)
+    do q = 1, size(this%cell)
+      m = this%cell(q)
+      speed = max(speed, max(abs(this%v(m, 1)), abs(this%v(m + this%stride(1), 1))) + &
+        max(abs(this%v(m, 2)), abs(this%v(m + this%stride(2), 2))) + max(abs(this%v(m, 3)), abs(this%v(m + this%stride(3), 3))))
+    end do
+    time_step = min(longest, this%h**2 * this%rho / (8 * this%mu), 0.5_dp * this%h / max(speed, tiny(speed)))
+  end function time_step
+
+  !> Returns the largest divergence of a cell [1/s].
+  real(dp) function divergence(this)
+    class(flow), intent(in) :: this
+    associate (m => this%cell, s => this%stride, v => this%v)
+      divergence = maxval(abs(v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3))) / this%h
+    end associate
+  end function divergence
+
+  !> Returns the flow through the inlet [m^3/s].
+  real(dp) function flow_in(this)
+    class(flow), intent(in) :: this
+    flow_in = this%h**2 * sum(this%v(this%inlet, 3))
+  end function flow_in
+
+  !> Returns the flow through the outlet [m^3/s].
+  real(dp) function flow_out(this)
+    class(flow), intent(in) :: this
+    flow_out = this%h**2 * sum(this%v(this%outlet, 3))
+  end function flow_out
+
+  !> Returns the mean pressure over the lumen at the layer of cells with height z [Pa].
+  real(dp) function mean_pressure(this, z)
+    class(flow), intent(in) :: this
+    real(dp), intent(in) :: z
+    integer :: area, k
+    area = product(this%n(1:2))
+    k = min(this%n(3), max(1, ceiling((z - this%corner(3)) / this%h)))
+    associate (layer => this%cell((k - 1) * area + 1:k * area))
+      mean_pressure = sum(this%p(layer), mask=.not. this%solid(layer)) / count(.not. this%solid(layer))
+    end associate
+  end function mean_pressure
+
+  !> Frees HYPRE's memory; Fortran frees the rest.
+  subroutine finish(this)
+    class(flow), intent(inout) :: this
+    call this%equation%finish()
+  end subroutine finish
+end module flow_solver

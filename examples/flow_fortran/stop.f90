@@ -1,0 +1,19 @@
+! SPDX-License-Identifier: Apache-2.0
+!> The step and the time that a message names, and the one way out after an error.
+module flow_stop
+  use, intrinsic :: iso_fortran_env, only: dp => real64, error_unit
+  implicit none
+  private
+  public :: refuse
+  integer, public :: step_number = 0
+  real(dp), public :: step_time = 0
+
+contains
+
+  !> Prints the text with the step, and ends the program with status 1.
+  subroutine refuse(text)
+    character(len=*), intent(in) :: text
+    write (error_unit, '(a, i0, a, f0.6, 2a)') 'flow: step ', step_number, ', ', step_time, ' s: ', text
+    stop 1, quiet=.true.
+  end subroutine refuse
+end module flow_stop

@@ -1,0 +1,85 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_flow.sh SOURCE FLOW FLOW_CHECKS WORK
+# The flow solver of examples/flow_fortran on coarse grids: its own checks, a restart with the same bits, plots, and refusals.
+set -euo pipefail
+source=$1 flow=$2 checks=$3 work=$4
+failed=0
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+# Open MPI runs as root, on a machine without a network, with one rank. OpenMP does not keep a busy processor.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_plm=isolated OMPI_MCA_btl=self OMPI_MCA_pml=ob1
+export OMP_WAIT_POLICY=passive
+
+problem() {
+  printf 'problem: %s\n' "$*" >&2
+  failed=1
+}
+
+# run FOLDER WORD...: the solver on a coarse grid, which writes its files to FOLDER.
+run() {
+  local folder=$1
+  shift
+  mkdir -p "$folder/frames"
+  "$flow" cells=16 out="'$folder'" "$@" >"$folder/log" 2>&1
+}
+
+# refuses TEXT COMMAND...: the command must end with the status 1 and this text.
+refuses() {
+  local text=$1 status=0 output
+  shift
+  output=$("$@" 2>&1) || status=$?
+  if ((status != 1)) || [[ $output != *"$text"* ]]; then
+    problem "expected the status 1 and '$text', got $status and: $output"
+  fi
+}
+
+"$checks" || problem "a check fails"
+
+# The step at which the valve moves, so that the state of the law counts. Frames are at other steps.
+run whole end_time=0.15 frames=5 steps=150 save=140,150 || problem "the solver failed: $(<whole/log)"
+run again end_time=0.15 frames=5 steps=150 save=150 restart="'whole/restart_140.bin'" || problem "no restart: $(<again/log)"
+awk -F , '$1 == 140 { exit !($4 > 0 && $4 < 1) }' whole/beat.csv || problem "the valve does not move at the restart"
+cmp whole/restart_150.bin again/restart_150.bin || problem "after a restart the state differs"
+cmp <(sed -n '/^14[1-9],/p; /^150,/p' whole/beat.csv) <(sed 1d again/beat.csv) || problem "after a restart the table differs"
+
+# A closed valve holds: less than 2 ml/s leak at 70 mmHg.
+awk -F , '$1 == 20 { found = 1; exit !($4 == 0 && $8 < 0 && $8 > -2e-6 && $7 - $6 > 9000) } END { exit !found }' whole/beat.csv ||
+  problem "the closed valve leaks: $(sed -n 21p whole/beat.csv)"
+
+# What it refuses, by its texts.
+at_20='flow: step 0, .000000 s: '
+refuses "$at_20"'the restart file whole/restart_140.bin is of another run: it has "valve trileaflet", here it is "valve aortic"' \
+  "$flow" cells=16 kind="'aortic'" restart="'whole/restart_140.bin'"
+refuses 'is of another run: it has "resistance' "$flow" cells=16 resistance=2e4 restart="'whole/restart_140.bin'"
+refuses 'is of another run: it has "place' "$flow" cells=16 place=0,0,0.001 restart="'whole/restart_140.bin'"
+refuses 'is of another run: it has "cells' "$flow" cells=24 restart="'whole/restart_140.bin'"
+refuses "whole/log is no restart file of this program" "$flow" cells=16 restart="'whole/log'"
+head -c 30000 whole/restart_140.bin >short.bin
+refuses "the restart file short.bin ends too early" "$flow" cells=16 restart="'short.bin'"
+refuses "Cannot open file 'nothing.bin'" "$flow" cells=16 restart="'nothing.bin'"
+refuses "flow: step 1, .001000 s: the valve leaves the box: it goes from" "$flow" cells=16 place=0,0,0.03 out="'again'"
+refuses "flow: step 3, .003000 s: RIIS_INVALID_ARGUMENT: pressure_difference is nan" "$checks" nan
+refuses "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" "$flow" cells=16 kind="'tricuspid'"
+refuses "options: Cannot match namelist object name cels" "$flow" cels=16
+refuses "options: cells must be at least 8" "$flow" cells=4
+refuses "options: end_time, longest_step and eps_in_cells must be positive" "$flow" end_time=0
+refuses "beat.csv': No such file or directory" "$flow" cells=16 out="'nowhere'"
+
+# The plots, where matplotlib and ffmpeg are there.
+python=/usr/bin/python3
+plots=$source/examples/flow_fortran/plots.py
+if command -v ffmpeg >/dev/null && "$python" -c 'import matplotlib' 2>/dev/null; then
+  "$python" -B "$plots" whole || problem "plots.py failed"
+  for file in beat.png flow.mp4; do [[ -s whole/$file ]] || problem "plots.py left no whole/$file"; done
+  refuses "there is no file nowhere/beat.csv; the program flow writes it" "$python" -B "$plots" nowhere
+  rm whole/frames/0002.bin
+  refuses "there is no file whole/frames/0002.bin" "$python" -B "$plots" whole
+  head -c 1000 whole/frames/0001.bin >whole/frames/0002.bin
+  refuses "whole/frames/0002.bin ends after 1000 bytes" "$python" -B "$plots" whole
+else
+  echo "matplotlib or ffmpeg was not found: nothing is drawn"
+fi
+exit "$failed"
