@@ -7,17 +7,22 @@ openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja
   bzip2 xz-utils python3-numpy python3-matplotlib)
 openfoam_here=examples/openfoam
 
-# openfoam [--short]
+# openfoam [--short | --size CENTIMETRES]
 openfoam() {
-  local size=0.125 time_step=1e-3
-  case $* in
+  of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
+  case ${1:-} in
     '') ;;
-    --short) size=0.2 time_step=2e-3 ;;
+    --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
+    --size) of_size=${2:-} ;;
     *)
       echo "./run openfoam: '$*' is not an option" >&2
       exit 2
       ;;
   esac
+  [[ $of_size =~ ^0\.[0-9]*[1-9][0-9]*$ ]] || {
+    echo "./run openfoam: '$of_size' is not a size of edges in centimetres, such as 0.1" >&2
+    exit 2
+  }
   openfoam_has_package || return 0
   packages=("${openfoam_packages[@]}")
   install_missing
@@ -26,12 +31,12 @@ openfoam() {
   openfoam_has_source || return 0
   step "build the library and the plug-in" openfoam_build
   openfoam_environment
-  step "mesh the root" openfoam_mesh "$size"
+  step "mesh the root" openfoam_mesh "$of_size"
 
   local python
   python=$(python_of_packages)
   of_check() { "$python" -B "$openfoam_here/check.py" "$@"; }
-  of_cases=$of_work/cases of_size=$size of_time_step=$time_step of_out=$PWD/out/openfoam
+  of_cases=$of_work/cases of_out=$PWD/out/openfoam
   rm -rf "$of_cases" "$of_out"
   mkdir -p "$of_cases" "$of_out"
 
@@ -41,7 +46,7 @@ openfoam() {
   of_check marks "$of_cases/marks-1" "$of_cases/marks-2" "$of_cases/marks-4" | tee "$of_out/marks.txt"
   step "the closed valve, OpenFOAM's porosity, the open valve, no valve" openfoam_drops
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
-  if [[ $* != --short ]]; then
+  if [[ ${1:-} != --short ]]; then
     step "the closed valve in four meshes" openfoam_sizes
     of_check sizes "$of_cases"/closed-0.* | tee "$of_out/sizes.txt"
   fi
@@ -149,7 +154,8 @@ of_case() {
   local folder=$of_cases/$1
   rm -rf "$folder"
   cp -r "$openfoam_here/case" "$folder" &&
-    cp -r "$of_work/mesh-${2:-$of_size}/constant/polyMesh" "$folder/constant"
+    cp -r "$of_work/mesh-${2:-$of_size}/constant/polyMesh" "$folder/constant" &&
+    of_set "$1" system/fvOptions aorticValve/halfThickness "$of_half_thickness"
 }
 
 # of_set NAME FILE KEY VALUE [KEY VALUE...]: changes entries of a file of a case.
@@ -157,7 +163,7 @@ of_set() {
   local file=$of_cases/$1/$2
   shift 2
   while (($# > 1)); do
-    foamDictionary "$file" -entry "$1" -set "$2" -disableFunctionEntries >/dev/null || return
+    foamDictionary "$file" -entry "$1" -set "$2" -disableFunctionEntries >/dev/null 2>&1 || return
     shift 2
   done
 }
@@ -229,7 +235,7 @@ openfoam_beat() {
 
 # Two steps of writing after a restart while the valve closes, and the same without a valve.
 openfoam_restart() {
-  local name time=0.26 end=0.3
+  local name time=0.2 end=0.24
   cp -r "$of_cases/beat" "$of_cases/beat-restart" && of_case none && rm "$of_cases/none/system/fvOptions" &&
     of_set none system/controlDict deltaT "$of_time_step" writeControl runTime writeInterval 0.02 endTime "$end" &&
     of_run none 2 && cp -r "$of_cases/none" "$of_cases/none-restart" || return
@@ -277,9 +283,9 @@ of_bad() {
 openfoam_refusals() {
   local dict=system/fvOptions
   of_bad unknown-valve && of_set unknown-valve $dict aorticValve/valve/kind tricuspid &&
-    of_refused "an unknown valve" unknown-valve 'RIIS_INVALID_PARAMETER' &&
+    of_refused "an unknown valve" unknown-valve "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" &&
     of_bad unknown-parameter && of_set unknown-parameter $dict aorticValve/valve/leaflet_hight 1 &&
-    of_refused "an unknown parameter" unknown-parameter 'leaflet_hight' &&
+    of_refused "an unknown parameter" unknown-parameter "'leaflet_hight' is not a parameter of the trileaflet valve" &&
     of_bad no-resistance && foamDictionary "$of_cases/no-resistance/$dict" -entry aorticValve/resistance -remove >/dev/null &&
     of_refused "a missing key" no-resistance "Entry 'resistance' not found in dictionary" &&
     of_bad unknown-key && of_set unknown-key $dict aorticValve/opening/closesBelow 0 &&
@@ -287,9 +293,9 @@ openfoam_refusals() {
     of_bad unknown-law && of_set unknown-law $dict aorticValve/opening/law swich &&
     of_refused "an unknown law" unknown-law "law is 'swich', and must be constant, times, table or switch" &&
     of_bad wrong-unit && of_set wrong-unit $dict aorticValve/halfThickness '[0 2 0 0 0 0 0] 1e-3' &&
-    of_refused "a half thickness in m2" wrong-unit 'dimensions' &&
+    of_refused "a half thickness in m2" wrong-unit 'The dimensions [0 2 0 0 0 0 0] provided do not match' &&
     of_bad no-half-thickness && of_set no-half-thickness $dict aorticValve/halfThickness 0 &&
-    of_refused "a half thickness of 0" no-half-thickness 'half_thickness' &&
+    of_refused "a half thickness of 0" no-half-thickness 'options.half_thickness is 0; it must be' &&
     of_bad outside && of_set outside $dict aorticValve/placement '{ scale 0.01; translation (0 0 1); }' &&
     of_refused "a valve outside the mesh" outside 'at time 0.001: no cell centre lies within the half thickness' &&
     of_bad no-patch && of_set no-patch $dict aorticValve/opening/flowPatch aorta &&

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
 
 namespace Foam {
 namespace fv {
@@ -52,13 +53,19 @@ void copy(const vector &from, double *to) {
   for (direction c = 0; c < 3; ++c) to[c] = from[c];
 }
 
-} // namespace
+}  // namespace
 
 bool riisState::writeData(Ostream &os) const {
   const int digits = os.precision(17);
   const bool good = IOdictionary::writeData(os);
   os.precision(digits);
   return good;
+}
+
+// OpenFOAM does not read back the lists of a dictionary that says it is binary.
+bool riisState::writeObject(IOstream::streamFormat, IOstream::versionNumber version,
+                            IOstream::compressionType compression, const bool valid) const {
+  return IOdictionary::writeObject(IOstream::ASCII, version, compression, valid);
 }
 
 riisValve::riisValve(const word &name, const word &modelType, const dictionary &dict, const fvMesh &mesh)
@@ -69,7 +76,8 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
       flowPatch_(-1),
       opening_(0),
       timeIndex_(mesh.time().timeIndex()),
-      K_(IOobject(IOobject::groupName("K", name), mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::AUTO_WRITE),
+      K_(IOobject(IOobject::groupName("K", name), mesh.time().timeName(), mesh, IOobject::NO_READ,
+                  IOobject::AUTO_WRITE),
          mesh, dimensionedScalar(dimDensity / dimTime, Zero)),
       state_(IOobject(name + "State", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT,
                       IOobject::AUTO_WRITE)) {
@@ -95,19 +103,19 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
 
 void riisValve::check(riis_status status) const {
   if (status == RIIS_OK) return;
-  FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": " << riis_status_name(status) << ": "
-                       << riis_last_error() << exit(FatalError);
+  FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": "
+                       << riis_status_name(status) << ": " << riis_last_error() << exit(FatalError);
 }
 
 void riisValve::check(riis_status status, const dictionary &dict) const {
   if (status == RIIS_OK) return;
-  FatalIOErrorInFunction(dict) << "valve " << name_ << " at time " << mesh_.time().timeName() << ": " << riis_status_name(status)
-                               << ": " << riis_last_error() << exit(FatalIOError);
+  FatalIOErrorInFunction(dict) << "valve " << name_ << " at time " << mesh_.time().timeName() << ": "
+                               << riis_status_name(status) << ": " << riis_last_error() << exit(FatalIOError);
 }
 
 void riisValve::readAll() {
-  refuseOthers(coeffs_, {"type", "active", "libs", "U", "p", "phi", "rho", "valve", "placement", "halfThickness", "resistance",
-                         "velocity", "opening", "nThreads", "writeLeaflets"});
+  refuseOthers(coeffs_, {"type", "active", "libs", "U", "p", "phi", "rho", "valve", "placement", "halfThickness",
+                         "resistance", "velocity", "opening", "nThreads", "writeLeaflets"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -120,7 +128,8 @@ void riisValve::readAll() {
   fieldNames_ = wordList(1, UName_);
   applied_.setSize(1, false);
   if (withVelocity_ && !KU_.valid()) {
-    const IOobject io(IOobject::groupName("KU", name_), mesh_.time().timeName(), mesh_, IOobject::NO_READ, IOobject::AUTO_WRITE);
+    const IOobject io(IOobject::groupName("KU", name_), mesh_.time().timeName(), mesh_, IOobject::NO_READ,
+                      IOobject::AUTO_WRITE);
     KU_.reset(new volVectorField(io, mesh_, dimensionedVector(dimDensity * dimVelocity / dimTime, Zero)));
   } else if (!withVelocity_) {
     KU_.clear();
@@ -158,7 +167,8 @@ void riisValve::readValve(const dictionary &dict) {
   for (const entry &e : dict) {
     if (e.keyword() == "kind") continue;
     if (e.isDict() || e.keyword() == "opening") {
-      FatalIOErrorInFunction(dict) << "'" << e.keyword() << "' is no parameter here; the law sets the opening" << exit(FatalIOError);
+      FatalIOErrorInFunction(dict) << "'" << e.keyword() << "' is no parameter here; the law sets the opening"
+                                   << exit(FatalIOError);
     }
     const scalarList values = numbers(e);
     check(riis_valve_set(valve, e.keyword().c_str(), values.size(), values.cdata()), dict);
@@ -181,7 +191,8 @@ void riisValve::readLaw(const dictionary &dict) {
     law_ = Law::constant;
     constant_ = dict.get<scalar>("opening");
   } else if (name == "times") {
-    refuseOthers(dict, {"law", "openingStart", "openingSeconds", "closingStart", "closingSeconds", "closed", "open", "period"});
+    refuseOthers(
+        dict, {"law", "openingStart", "openingSeconds", "closingStart", "closingSeconds", "closed", "open", "period"});
     law_ = Law::times;
     check(riis_opening_times_init(&times_, sizeof times_));
     times_.opening_start = dict.get<scalar>("openingStart");
@@ -215,8 +226,8 @@ void riisValve::readLaw(const dictionary &dict) {
     table_.interpolation = interpolation == "cubic" ? RIIS_INTERPOLATION_CUBIC : RIIS_INTERPOLATION_LINEAR;
     check(riis_opening_from_table(&table_, 0, nullptr, nullptr), dict);
   } else if (name == "switch") {
-    refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds", "dwellSeconds",
-                        "upstream", "downstream", "flowPatch"});
+    refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds",
+                        "dwellSeconds", "upstream", "downstream", "flowPatch"});
     law_ = Law::pressure;
     check(riis_opening_switch_init(&switch_, sizeof switch_));
     switch_.opening_seconds = dict.get<scalar>("openingSeconds");
@@ -237,7 +248,8 @@ void riisValve::readLaw(const dictionary &dict) {
                                    << mesh_.boundaryMesh().names() << exit(FatalIOError);
     }
   } else {
-    FatalIOErrorInFunction(dict) << "law is '" << name << "', and must be constant, times, table or switch" << exit(FatalIOError);
+    FatalIOErrorInFunction(dict) << "law is '" << name << "', and must be constant, times, table or switch"
+                                 << exit(FatalIOError);
   }
 }
 
@@ -254,7 +266,8 @@ riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
   }
   reduce(found.volume, sumOp<scalar>());
   if (!(found.volume > 0)) {
-    FatalIOErrorInFunction(dict) << "no cell has its centre within " << radius << " of " << centre << exit(FatalIOError);
+    FatalIOErrorInFunction(dict) << "no cell has its centre within " << radius << " of " << centre
+                                 << exit(FatalIOError);
   }
   return found;
 }
@@ -271,9 +284,9 @@ void riisValve::restart() {
   if (found) {
     const word kind = state_.get<word>("kind"), lawBefore = state_.get<word>("law");
     if (kind != kind_ || lawBefore != law) {
-      FatalIOErrorInFunction(state_) << "this state is that of a valve of kind " << kind << " with the law " << lawBefore
-                                     << ", and valve " << name_ << " has kind " << kind_ << " with the law " << law
-                                     << exit(FatalIOError);
+      FatalIOErrorInFunction(state_) << "this state is that of a valve of kind " << kind << " with the law "
+                                     << lawBefore << ", and valve " << name_ << " has kind " << kind_
+                                     << " with the law " << law << exit(FatalIOError);
     }
     const dictionary &parameters = state_.subDict("parameters");
     int64_t n = 0;
@@ -321,8 +334,8 @@ void riisValve::restart() {
       opening_ = switchState_.opening;
       break;
   }
-  Info << "riis " << name_ << ": " << (found ? "continues" : "starts") << " at time " << mesh_.time().timeName() << " with opening "
-       << opening_ << (found ? " from " : ", without ") << state_.IOobject::objectPath() << endl;
+  Info << "riis " << name_ << ": " << (found ? "continues" : "starts") << " at time " << mesh_.time().timeName()
+       << " with opening " << opening_ << (found ? " from " : ", without ") << state_.IOobject::objectPath() << endl;
 }
 
 void riisValve::keepState() {
@@ -335,7 +348,8 @@ void riisValve::keepState() {
     state_.add("rate", switchState_.rate);
     state_.add("progress", switchState_.progress);
     state_.add("phase", label(switchState_.phase));
-    if (!std::isnan(switchState_.pressure_difference)) state_.add("pressureDifference", switchState_.pressure_difference);
+    if (!std::isnan(switchState_.pressure_difference))
+      state_.add("pressureDifference", switchState_.pressure_difference);
     if (!std::isnan(switchState_.flow)) state_.add("flow", switchState_.flow);
     if (!std::isnan(switchState_.since)) state_.add("since", switchState_.since);
   }
@@ -404,7 +418,8 @@ void riisValve::mark() {
 
   const auto start = std::chrono::steady_clock::now();
   if (withVelocity_) {
-    check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), time.deltaTValue(), nullptr, nullptr));
+    check(
+        riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), time.deltaTValue(), nullptr, nullptr));
   } else {
     check(riis_surface_update(surface_.get(), valve_.get(), nullptr));
   }
@@ -422,19 +437,21 @@ void riisValve::mark() {
   if (all == 0) {
     riis_surface_info info;
     check(riis_surface_get_info(surface_.get(), &info, sizeof info));
-    FatalErrorInFunction << "valve " << name_ << " at time " << time.timeName() << ": no cell centre lies within the half thickness "
-                         << info.half_thickness << " of a leaflet. The valve lies in the box ("
+    FatalErrorInFunction << "valve " << name_ << " at time " << time.timeName()
+                         << ": no cell centre lies within the half thickness " << info.half_thickness
+                         << " of a leaflet. The valve lies in the box ("
                          << vector(info.lower[0], info.lower[1], info.lower[2]) << ' '
-                         << vector(info.upper[0], info.upper[1], info.upper[2]) << "), the mesh in (" << mesh_.bounds().min()
-                         << ' ' << mesh_.bounds().max() << "): look at placement" << exit(FatalError);
+                         << vector(info.upper[0], info.upper[1], info.upper[2]) << "), the mesh in ("
+                         << mesh_.bounds().min() << ' ' << mesh_.bounds().max() << "): look at placement"
+                         << exit(FatalError);
   }
   K_.correctBoundaryConditions();
   if (withVelocity_) KU_->correctBoundaryConditions();
   keepState();
   const dimensionedScalar integral = gSum(K_.primitiveField() * mesh_.V().field());
   const scalar slowest = returnReduce(seconds.count(), maxOp<scalar>());
-  Info << "riis " << name_ << ": opening " << opening_ << ", " << all << " cells marked, integral of K " << integral.value()
-       << " kg/s, " << slowest << " s in the library" << report.str().c_str() << endl;
+  Info << "riis " << name_ << ": opening " << opening_ << ", " << all << " cells marked, integral of K "
+       << integral.value() << " kg/s, " << slowest << " s in the library" << report.str().c_str() << endl;
   if (writeLeaflets_ && time.writeTime() && Pstream::master()) writeLeaflets();
 }
 
@@ -450,8 +467,8 @@ void riisValve::writeLeaflets() const {
   check(riis_surface_vertices(surface_.get(), &nVertices, &xyz));
   check(riis_surface_vertex_velocities(surface_.get(), &nVertices, &velocity));
   check(riis_surface_triangles(surface_.get(), &nTriangles, &corners, nullptr, nullptr, nullptr));
-  os << "# vtk DataFile Version 3.0" << nl << "leaflets of " << name_ << nl << "ASCII" << nl << "DATASET POLYDATA" << nl << "POINTS "
-     << label(nVertices) << " double" << nl;
+  os << "# vtk DataFile Version 3.0" << nl << "leaflets of " << name_ << nl << "ASCII" << nl << "DATASET POLYDATA" << nl
+     << "POINTS " << label(nVertices) << " double" << nl;
   for (int64_t i = 0; i < nVertices; ++i) os << xyz[3 * i] << ' ' << xyz[3 * i + 1] << ' ' << xyz[3 * i + 2] << nl;
   os << "POLYGONS " << label(nTriangles) << ' ' << label(4 * nTriangles) << nl;
   for (int64_t i = 0; i < nTriangles; ++i) {
@@ -459,15 +476,17 @@ void riisValve::writeLeaflets() const {
   }
   if (velocity) {
     os << "POINT_DATA " << label(nVertices) << nl << "VECTORS velocity double" << nl;
-    for (int64_t i = 0; i < nVertices; ++i) os << velocity[3 * i] << ' ' << velocity[3 * i + 1] << ' ' << velocity[3 * i + 2] << nl;
+    for (int64_t i = 0; i < nVertices; ++i)
+      os << velocity[3 * i] << ' ' << velocity[3 * i + 1] << ' ' << velocity[3 * i + 2] << nl;
   }
   if (!os.good()) FatalErrorInFunction << "cannot write " << os.name() << exit(FatalError);
 }
 
 void riisValve::addSup(fvMatrix<vector> &eqn, const label) {
   if (eqn.dimensions() != dimForce / dimDensity) {
-    FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of " << eqn.psi().name()
-                         << " has the dimensions " << eqn.dimensions() << ". riisValve is for equations divided by a constant "
+    FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of "
+                         << eqn.psi().name() << " has the dimensions " << eqn.dimensions()
+                         << ". riisValve is for equations divided by a constant "
                          << "density, with the dimensions " << dimForce / dimDensity << exit(FatalError);
   }
   if (timeIndex_ != mesh_.time().timeIndex()) {
@@ -479,9 +498,10 @@ void riisValve::addSup(fvMatrix<vector> &eqn, const label) {
 }
 
 void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const label) {
-  FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of " << eqn.psi().name()
-                       << " is multiplied by a density. riisValve is for equations divided by a constant density, such as those of "
-                       << "pimpleFoam" << exit(FatalError);
+  FatalErrorInFunction
+      << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of " << eqn.psi().name()
+      << " is multiplied by a density. riisValve is for equations divided by a constant density, such as those of "
+      << "pimpleFoam" << exit(FatalError);
 }
 
 bool riisValve::read(const dictionary &dict) {
@@ -497,5 +517,5 @@ bool riisValve::read(const dictionary &dict) {
   return true;
 }
 
-} // namespace fv
-} // namespace Foam
+}  // namespace fv
+}  // namespace Foam
