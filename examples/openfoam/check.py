@@ -71,7 +71,8 @@ def zones(closed, case, model):
     n = len(k)
     level = numpy.minimum((k / k.max() * levels).astype(int), levels - 1)
     head = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
-    nu = 3.3e-6
+    nu = 3.3e-6  # of case/constant/transportProperties
+    axes = "coordinateSystem { origin (0 0 0); e1 (1 0 0); e2 (0 1 0); }"
     lines, options = [], []
     used = [i for i in range(levels) if ((level == i) & (k > 0)).any()]
     for i in used:
@@ -79,10 +80,10 @@ def zones(closed, case, model):
         mean = k[cells].mean() / RHO
         lines.append(f"zone{i} {{ type cellZone; cellLabels List<label> {len(cells)}({' '.join(map(str, cells))}); }}\n")
         if model == "powerLaw":  # the force is C0 |U|^(C1 - 1) U
-            numbers = f"powerLawCoeffs {{ C0 {mean:.17g}; C1 1; }}"
+            numbers = f"powerLawCoeffs {{ C0 {mean:.17g}; C1 1; {axes} }}"
         else:  # the force is nu d U
-            numbers = (f"DarcyForchheimerCoeffs {{ d ({mean / nu:.17g} {mean / nu:.17g} {mean / nu:.17g}); f (0 0 0);"
-                       " coordinateSystem { origin (0 0 0); e1 (1 0 0); e2 (0 1 0); } }")
+            d = f"{mean / nu:.17g}"
+            numbers = f"DarcyForchheimerCoeffs {{ d ({d} {d} {d}); f (0 0 0); {axes} }}"
         options.append(f"zone{i} {{ type explicitPorositySource; explicitPorositySourceCoeffs {{ selectionMode cellZone;"
                        f" cellZone zone{i}; type {model}; {numbers} }} }}\n")
     case = pathlib.Path(case)
