@@ -25,7 +25,7 @@ def constant(case, key):
 
 def flat_drop(case, flow):
     """(R / eps) u in Pa, and the area of the leaflets."""
-    size = foam.area(*foam.leaflets(sorted(pathlib.Path(case).glob("postProcessing/aorticValve/*/leaflets.vtk"))[-1]))
+    size = foam.area(*foam.triangles(sorted(pathlib.Path(case).glob("postProcessing/aorticValve/*/leaflets.vtk"))[-1])[:2])
     return constant(case, "resistance") / constant(case, "halfThickness") * flow / size, size
 
 

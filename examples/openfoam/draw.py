@@ -3,6 +3,7 @@
 import pathlib
 
 import matplotlib
+import matplotlib.collections
 import numpy
 
 import foam_files as foam
@@ -41,51 +42,51 @@ def beat(case, still, path):
     plt.close(figure)
 
 
-def _cut(points, triangles):
-    """The segments in which triangles cut the plane y = 0."""
+def _cut(points, corners):
+    """The segments in which triangles cut the plane x = 0, as pairs of y and z."""
     segments = []
-    for corners in points[triangles]:
+    for triangle in points[corners]:
         ends = []
         for k in range(3):
-            a, b = corners[k], corners[(k + 1) % 3]
-            if (a[1] > 0) != (b[1] > 0):
-                t = a[1] / (a[1] - b[1])
-                ends.append((a + t * (b - a))[[0, 2]])
+            a, b = triangle[k], triangle[(k + 1) % 3]
+            if (a[0] > 0) != (b[0] > 0):
+                t = a[0] / (a[0] - b[0])
+                ends.append((a + t * (b - a))[1:])
         if len(ends) == 2:
             segments.append(ends)
     return segments
 
 
 def velocity(case, path):
-    """The speed in the plane y = 0, and the leaflets there, at six of the written times."""
+    """The speed in the plane x = 0, and the leaflets there, at six of the written times."""
     case = pathlib.Path(case)
     rows = foam.steps(case)
-    found = sorted((folder for folder in (case / "postProcessing/slice").iterdir()), key=lambda folder: float(folder.name))
-    # From shortly before the valve opens to shortly after it has closed.
-    moving = rows[rows[:, 1] > 0, 0]
-    inside = [folder for folder in found if moving[0] - 0.025 < float(folder.name) < moving[-1] + 0.025]
-    chosen = [inside[round(i)] for i in numpy.linspace(0, len(inside) - 1, 6)]
-    slices = [numpy.loadtxt(next(folder.glob("U*middle*.raw"))) for folder in chosen]
-    largest = max(numpy.linalg.norm(values[:, 3:6], axis=1).max() for values in slices)
-    figure, axes = plt.subplots(1, 6, figsize=(14, 5.4), sharey=True, layout="constrained")
-    for one, folder, values in zip(axes, chosen, slices):
-        x, z = 100 * values[:, 0], 100 * values[:, 2]
-        mesh = matplotlib.tri.Triangulation(x, z)
-        # The root is not convex: triangles across the outside are long.
-        corners = numpy.stack([x, z], axis=1)[mesh.triangles]
-        longest = numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        mesh.set_mask(longest > 6 * numpy.median(longest))
-        colours = one.tripcolor(mesh, numpy.linalg.norm(values[:, 3:6], axis=1), shading="gouraud", vmin=0, vmax=largest, cmap="viridis")
-        leaflets = case / "postProcessing/aorticValve" / folder.name / "leaflets.vtk"
-        lines = [[100 * a, 100 * b] for a, b in _cut(*foam.leaflets(leaflets))]
+    time, opening = rows[:, 0], rows[:, 1]
+    half = time[opening > 0.5]
+    moving = time[opening > 0]
+    full = time[opening > 0.999]
+    # Closed, half open, open, shortly before closing, half closed, closed again.
+    wanted = [moving[0] - 0.01, half[0], full.mean(), full[-1] - 0.01, half[-1], moving[-1] + 0.01]
+    written = {float(folder.name): folder for folder in (case / "postProcessing/slice").iterdir()}
+    chosen = [written[min(written, key=lambda t: abs(t - want))] for want in wanted]
+    slices = [foam.triangles(folder / "middle.vtk") for folder in chosen]
+    # A few cells beside the moving band may be far faster than all others: they do not set the scale.
+    largest = max(numpy.percentile(numpy.linalg.norm(vectors, axis=1), 99.5) for _, _, vectors in slices)
+    figure, axes = plt.subplots(1, 6, figsize=(14, 4.4), sharey=True, layout="constrained")
+    for one, folder, (points, corners, vectors) in zip(axes, chosen, slices):
+        speed = numpy.linalg.norm(vectors, axis=1)
+        colours = one.tripcolor(100 * points[:, 1], 100 * points[:, 2], corners, speed, shading="gouraud", vmin=0, vmax=largest,
+                                cmap="viridis")
+        leaflets = foam.triangles(case / "postProcessing/aorticValve" / folder.name / "leaflets.vtk")
+        lines = [[100 * a, 100 * b] for a, b in _cut(*leaflets[:2])]
         one.add_collection(matplotlib.collections.LineCollection(lines, colors="white", linewidths=2.5))
         one.add_collection(matplotlib.collections.LineCollection(lines, colors="red", linewidths=1.2))
-        opening = rows[numpy.abs(rows[:, 0] - float(folder.name)).argmin(), 1]
-        one.set_title(f"{float(folder.name):.2f} s, opening {opening:.2f}", fontsize=10)
+        now = opening[numpy.abs(time - float(folder.name)).argmin()]
+        one.set_title(f"{float(folder.name):.2f} s, opening {now:.2f}", fontsize=10)
         one.set_aspect("equal")
-        one.set_xlabel("x, cm")
+        one.set_xlabel("y, cm")
     axes[0].set_ylabel("z, cm; blood flows upwards")
-    figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.8)
-    figure.suptitle("Speed in the plane y = 0; red: the leaflets there")
+    figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.9, extend="max")
+    figure.suptitle("Speed in the plane x = 0; red: the leaflets there")
     figure.savefig(path, dpi=110)
     plt.close(figure)

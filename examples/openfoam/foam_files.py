@@ -98,15 +98,18 @@ def steps(case):
     return numpy.array(rows)
 
 
-def leaflets(path):
-    """The points (n, 3) and triangles (m, 3) of a leaflets.vtk."""
+def triangles(path):
+    """The points (n, 3), triangles (m, 3) and vectors at the points (n, 3) of a .vtk of triangles; no vectors are None."""
     words = pathlib.Path(path).read_text().split()
     at, count = words.index("POINTS") + 3, int(words[words.index("POINTS") + 1])
     points = numpy.array(words[at:at + 3 * count], float).reshape(-1, 3)
-    at, count = words.index("POLYGONS") + 3, int(words[words.index("POLYGONS") + 1])
-    return points, numpy.array(words[at:at + 4 * count], int).reshape(-1, 4)[:, 1:]
+    at, n = words.index("POLYGONS") + 3, int(words[words.index("POLYGONS") + 1])
+    corners = numpy.array(words[at:at + 4 * n], int).reshape(-1, 4)[:, 1:]
+    at = words.index("POINT_DATA") if "POINT_DATA" in words else len(words)
+    vectors = numpy.array(words[-3 * count:], float).reshape(-1, 3) if at + 3 * count < len(words) else None
+    return points, corners, vectors
 
 
-def area(points, triangles):
-    a, b, c = (points[triangles[:, k]] for k in range(3))
+def area(points, corners):
+    a, b, c = (points[corners[:, k]] for k in range(3))
     return numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1).sum() / 2
