@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The checks and pictures of ./run openfoam. A check prints its numbers, and ends with an error if one is not as it must be."""
+import pathlib
+import re
+import struct
+import sys
+
+import numpy
+
+import foam_files as foam
+
+RHO = 1060.0  # of case/system/fvOptions
+K_NAME, KU_NAME = "K.aorticValve", "KU.aorticValve"
+
+
+def require(holds, text):
+    if not holds:
+        raise SystemExit(f"check.py: not as it must be: {text}")
+
+
+def constant(case, key):
+    """A number of the valve in a case's fvOptions."""
+    return float(re.search(rf"{key}\s+(\S+?);", (pathlib.Path(case) / "system/fvOptions").read_text()).group(1))
+
+
+def flat_drop(case, flow):
+    """(R / eps) u in Pa, and the area of the leaflets."""
+    size = foam.area(*foam.triangles(sorted(pathlib.Path(case).glob("postProcessing/aorticValve/*/leaflets.vtk"))[-1])[:2])
+    return constant(case, "resistance") / constant(case, "halfThickness") * flow / size, size
+
+
+def marks(serial, *others):
+    """The cells and K of runs on several ranks, by the global ids of the cells."""
+    centres = foam.global_field(serial, "0", "C")
+    print(f"An opening valve, every step written, {len(centres):,} cells. Cells are compared by their global ids.")
+    print(f"  {'ranks':>5} {'steps':>5} {'marked':>13} {'same marks':>10} {'centres with other bits':>23} {'K with other bits':>17}"
+          f" {'of these with equal centres':>27} {'largest difference of K':>23}")
+    times = foam.times(serial)
+    require(len(times) > 3, f"{serial} has written more than three steps, not {times}")
+    for case in others:
+        n_ranks = len(foam.parts(case))
+        require(foam.times(case) == times, f"{case} has the times {times}, not {foam.times(case)}")
+        moved = (foam.global_field(case, "0", "C") != centres).any(axis=1)
+        same, different, unexplained, largest, counts = True, 0, 0, 0.0, []
+        for time in times:
+            for name in (K_NAME, KU_NAME):
+                here, there = foam.global_field(serial, time, name), foam.global_field(case, time, name)
+                if here.ndim > 1:
+                    here, there = here.reshape(len(here), -1), there.reshape(len(there), -1)
+                else:
+                    here, there = here[:, None], there[:, None]
+                bits = (here != there).any(axis=1)
+                unexplained += int((bits & ~moved).sum())
+                if name == K_NAME:
+                    counts.append(int((here > 0).sum()))
+                    same = same and bool(((here > 0) == (there > 0)).all())
+                    different += int(bits.sum())
+                    largest = max(largest, float(numpy.abs(here - there).max() / here.max()))
+        require(min(counts) > 100 and max(counts) != min(counts), f"the valve moves through cells: {counts} are marked")
+        print(f"  {n_ranks:>5} {len(times):>5} {min(counts):>6,}-{max(counts):<6,} {'yes' if same else 'no':>10} {moved.sum():>23,}"
+              f" {different:>17,} {unexplained:>27,} {largest:>23.1e}")
+        require(same, f"{case} marks the cells that {serial} marks")
+        require(unexplained == 0, f"cells whose centres have the same bits have the same K, not {unexplained} others")
+        require(largest < 1e-9, f"K differs by at most 1e-9 of its largest value, not {largest:.1e}")
+
+
+def zones(closed, case, model):
+    """Writes zones of cells with nearly equal K, and OpenFOAM's own porosity for them into case."""
+    levels = 200
+    k = foam.global_field(closed, foam.times(closed)[-1], K_NAME)
+    n = len(k)
+    level = numpy.minimum((k / k.max() * levels).astype(int), levels - 1)
+    head = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
+    nu = 3.3e-6  # of case/constant/transportProperties
+    axes = "coordinateSystem { origin (0 0 0); e1 (1 0 0); e2 (0 1 0); }"
+    lines, options = [], []
+    used = [i for i in range(levels) if ((level == i) & (k > 0)).any()]
+    for i in used:
+        cells = numpy.flatnonzero((level == i) & (k > 0))
+        mean = k[cells].mean() / RHO
+        lines.append(f"zone{i} {{ type cellZone; cellLabels List<label> {len(cells)}({' '.join(map(str, cells))}); }}\n")
+        if model == "powerLaw":  # the force is C0 |U|^(C1 - 1) U
+            numbers = f"powerLawCoeffs {{ C0 {mean:.17g}; C1 1; {axes} }}"
+        else:  # the force is nu d U
+            d = f"{mean / nu:.17g}"
+            numbers = f"DarcyForchheimerCoeffs {{ d ({d} {d} {d}); f (0 0 0); {axes} }}"
+        options.append(f"zone{i} {{ type explicitPorositySource; explicitPorositySourceCoeffs {{ selectionMode cellZone;"
+                       f" cellZone zone{i}; type {model}; {numbers} }} }}\n")
+    case = pathlib.Path(case)
+    (case / "constant/polyMesh/cellZones").write_text(
+        head.format("regIOobject", "cellZones") + f"{len(used)}\n(\n{''.join(lines)})\n")
+    (case / "system/fvOptions").write_text(head.format("dictionary", "fvOptions") + "".join(options))
+    print(f"{n} cells, {int((k > 0).sum())} with K, {len(used)} zones")
+
+
+def drop(case):
+    """Pressure upstream less that downstream, in Pa, of each step, and the flow of the last step."""
+    upstream, downstream = foam.table(case, "upstream"), foam.table(case, "downstream")
+    return RHO * (upstream[:, 1] - downstream[:, 1]), foam.table(case, "flow")[-1, 1]
+
+
+def drops(cases):
+    """The drop across the closed valve, against OpenFOAM's porosity and against (R / eps) u."""
+    cases = pathlib.Path(cases)
+    closed, flow = drop(cases / "closed")
+    flat, size = flat_drop(cases / "closed", flow)
+    print(f"A steady flow of {flow * 1e6:.2f} ml/s from rest, velocity 0.1 m/s at the inlet. The closed leaflets have {size * 1e4:.3f}"
+          " cm2.\nDrop in Pa between sections below and above the valve:")
+    print(f"  {'':<34} {'1st step':>10} {'2nd step':>10} {'last step':>10} {'of riis':>9}")
+    last = {}
+    for name, text in (("closed", "closed valve, riis"), ("powerLaw", "OpenFOAM's powerLaw porosity"),
+                       ("DarcyForchheimer", "OpenFOAM's DarcyForchheimer"), ("open", "open valve, riis"), ("none", "no valve")):
+        values, _ = drop(cases / name)
+        require(len(values) == 10, f"{name} has 10 steps, not {len(values)}")
+        last[name] = values[-1]
+        print(f"  {text:<34} {values[0]:>10.1f} {values[1]:>10.1f} {values[-1]:>10.1f} {100 * values[-1] / closed[-1]:>8.2f}%")
+    print(f"  {'(R / eps) u, u = flow / area':<34} {flat:>10.1f} {flat:>10.1f} {flat:>10.1f} {100 * flat / closed[-1]:>8.2f}%")
+    require(abs(last["powerLaw"] / closed[-1] - 1) < 5e-3, "OpenFOAM's powerLaw porosity gives the same drop to 0.5 %")
+    require(abs(closed[1] / closed[-1] - 1) < 0.05, "the drop is there at once: the second step has it to 5 %")
+    require(0.4 < closed[-1] / flat < 1.1, "the drop is between 0.4 and 1.1 of (R / eps) u")
+    require(last["open"] - last["none"] < 1e-3 * closed[-1], "the open valve is near to no valve: within 0.1 % of the closed one")
+
+
+def sizes(*cases):
+    """The drop of the closed valve in meshes of several sizes, against (R / eps) u."""
+    print("The closed valve in finer meshes. h is the cube root of the mean volume of a cell.")
+    print(f"  {'edges, cm':>9} {'cells':>9} {'marked':>8} {'eps / h':>8} {'drop / ((R / eps) u)':>20}")
+    shares = []
+    for case in sorted(map(pathlib.Path, cases), key=lambda path: -float(path.name.split("-")[1])):
+        values, flow = drop(case)
+        n = foam.n_cells(case / "constant/polyMesh")
+        log = case.parent.parent / case.name.replace("closed", "mesh") / "checkMesh.log"
+        mesh = float(re.search(r"Total volume = ([0-9.e+-]+?)\.? ", log.read_text()).group(1))
+        shares.append(values[-1] / flat_drop(case, flow)[0])
+        print(f"  {case.name.split('-')[1]:>9} {n:>9,} {int(foam.steps(case)[-1, 2]):>8,} {constant(case, 'halfThickness') / (mesh / n) ** (1 / 3):>8.2f}"
+              f" {shares[-1]:>20.3f}")
+    require(all(a < b for a, b in zip(shares, shares[1:])) and shares[-1] < 1.05, "finer meshes come nearer to (R / eps) u")
+
+
+def beat(*cases):
+    """The heartbeat with and without the leaflets' velocity."""
+    print(f"A heartbeat by pressure: the valve opens when the pressure difference exceeds 0, and closes when the flow reverses.")
+    print(f"  {'':<22} {'opens at':>9} {'closes at':>9} {'least K cells':>13} {'largest flow':>13} {'least flow':>11} {'out':>8}"
+          f" {'back':>8} {'library':>9} {'step':>7} {'share':>6}")
+    for case in cases:
+        name = "with their velocity" if not str(case).endswith("still") else "without it"
+        rows, flow = foam.steps(case), foam.table(case, "flow")
+        opening, q = rows[:, 1], flow[:, 1] * 1e6
+        dt = flow[1, 0] - flow[0, 0]
+        rising, falling = numpy.diff(opening) > 0, numpy.diff(opening) < 0
+        require(rising.any() and falling.any(), "the valve opens and closes")
+        require(opening.max() > 0.999 and opening[-1] == 0, f"the valve opens fully and ends closed, not {opening.max()}, {opening[-1]}")
+        library, whole = numpy.nanmean(rows[1:, 4]), numpy.nanmean(rows[1:, 5])
+        print(f"  {name:<22} {rows[:-1][rising][0, 0]:>7.3f} s {rows[:-1][falling][0, 0]:>7.3f} s {int(rows[:, 2].min()):>13,}"
+              f" {q.max():>8.1f} ml/s {q.min():>6.1f} ml/s {q[q > 0].sum() * dt:>5.2f} ml {-q[q < 0].sum() * dt:>5.2f} ml"
+              f" {1e3 * library:>6.2f} ms {1e3 * whole:>4.0f} ms {100 * library / whole:>5.2f}%")
+        leak = q[(rows[:, 0] > 0.002) & (rows[:, 0] < 0.02)]
+        require(abs(leak).max() < 0.02 * q.max(), "the closed valve holds: it lets less than 2 % of the largest flow through")
+
+
+def restart(whole, again, none, none_again):
+    """A restart of the heartbeat, beside the same restart without a valve."""
+    print("A restart on 2 ranks while the valve closes, against the run that went on:")
+    for name, first, second, fields in (("with the valve", whole, again, (K_NAME, KU_NAME, "p", "U")),
+                                        ("without a valve", none, none_again, ("p", "U"))):
+        times = [time for time in foam.times(second) if float(time) > 0.2001]
+        require(len(times) == 2, f"{second} has written two times after its start, not {times}")
+        for time in times:
+            words = []
+            for field in fields:
+                a, b = foam.global_field(first, time, field), foam.global_field(second, time, field)
+                difference = numpy.abs(a - b).max() / numpy.abs(a).max()
+                words.append(f"{field} {'the same bits' if (a == b).all() else f'differs by {difference:.1e}'}")
+                if field in (K_NAME, KU_NAME):
+                    require((a == b).all() and (a != 0).any(), f"{field} at {time} has the same bits")
+                require(difference < 1e-6, f"{field} at {time} differs by less than 1e-6")
+            print(f"  {name:<16} {time:>6} s: {', '.join(words)}")
+
+
+def nan(pressure, owner):
+    """Puts NaN into every cell of a pressure that is uniform in its file."""
+    count = foam.n_cells(pathlib.Path(owner).parent)
+    text = pathlib.Path(pressure).read_bytes()
+    values = b"nonuniform List<scalar> %d(" % count + struct.pack("<d", float("nan")) * count + b")"
+    old = b"internalField uniform 0;"
+    require(text.count(old) == 1, f"{pressure} has the line {old}")
+    pathlib.Path(pressure).write_bytes(
+        text.replace(b"format ascii;", b'format binary; arch "LSB;label=32;scalar=64";').replace(old, b"internalField " + values + b";"))
+
+
+def pictures(case, still, out):
+    import draw
+    draw.beat(case, still, pathlib.Path(out) / "beat.png")
+    draw.velocity(case, pathlib.Path(out) / "velocity.png")
+
+
+if __name__ == "__main__":
+    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "beat": beat, "restart": restart, "nan": nan,
+                "pictures": pictures}
+    if len(sys.argv) < 2 or sys.argv[1] not in commands:
+        raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
+    commands[sys.argv[1]](*sys.argv[2:])

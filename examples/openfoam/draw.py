@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The plots of ./run openfoam: the heartbeat in time, and the velocity with the leaflets."""
+import pathlib
+
+import matplotlib
+import matplotlib.collections
+import numpy
+
+import foam_files as foam
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+RHO = 1060.0
+
+
+def _drop(case):
+    upstream, downstream = foam.table(case, "upstream"), foam.table(case, "downstream")
+    return upstream[:, 0], RHO * (upstream[:, 1] - downstream[:, 1])
+
+
+def beat(case, still, path):
+    """Opening, pressure difference and flow over the heartbeat."""
+    figure, axes = plt.subplots(3, 1, figsize=(8, 8), sharex=True)
+    for folder, name, style in ((case, "K (u - velocity of the leaflets)", "C0-"), (still, "K u", "C1--")):
+        rows, flow = foam.steps(folder), foam.table(folder, "flow")
+        time, drop = _drop(folder)
+        axes[0].plot(rows[:, 0], rows[:, 1], style, label=name)
+        axes[1].plot(time, drop, style)
+        axes[2].plot(flow[:, 0], flow[:, 1] * 1e6, style)
+    axes[0].set_ylabel("opening, 0 to 1")
+    axes[0].legend(frameon=False)
+    axes[1].set_ylabel("pressure below the valve\nless that above, Pa")
+    axes[2].set_ylabel("flow through the outlet, ml/s")
+    axes[2].set_xlabel("time, s")
+    for one in axes:
+        one.axhline(0, color="0.8", linewidth=0.8, zorder=0)
+        one.spines[["top", "right"]].set_visible(False)
+    axes[0].set_title("A heartbeat of the aortic valve in OpenFOAM's pimpleFoam")
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def _cut(points, corners):
+    """The segments in which triangles cut the plane x = 0, as pairs of y and z."""
+    segments = []
+    for triangle in points[corners]:
+        ends = []
+        for k in range(3):
+            a, b = triangle[k], triangle[(k + 1) % 3]
+            if (a[0] > 0) != (b[0] > 0):
+                t = a[0] / (a[0] - b[0])
+                ends.append((a + t * (b - a))[1:])
+        if len(ends) == 2:
+            segments.append(ends)
+    return segments
+
+
+def velocity(case, path):
+    """The speed in the plane x = 0, and the leaflets there, at six of the written times."""
+    case = pathlib.Path(case)
+    rows = foam.steps(case)
+    time, opening = rows[:, 0], rows[:, 1]
+    half = time[opening > 0.5]
+    moving = time[opening > 0]
+    full = time[opening > 0.999]
+    # Closed, half open, open, shortly before closing, half closed, closed again.
+    wanted = [moving[0] - 0.01, half[0], full.mean(), full[-1] - 0.01, half[-1], moving[-1] + 0.01]
+    written = {float(folder.name): folder for folder in (case / "postProcessing/slice").iterdir()}
+    chosen = [written[min(written, key=lambda t: abs(t - want))] for want in wanted]
+    slices = [foam.triangles(folder / "middle.vtk") for folder in chosen]
+    # A few cells beside the moving band may be far faster than all others: they do not set the scale.
+    largest = max(numpy.percentile(numpy.linalg.norm(vectors, axis=1), 99.5) for _, _, vectors in slices)
+    figure, axes = plt.subplots(1, 6, figsize=(14, 4.4), sharey=True, layout="constrained")
+    for one, folder, (points, corners, vectors) in zip(axes, chosen, slices):
+        speed = numpy.linalg.norm(vectors, axis=1)
+        colours = one.tripcolor(100 * points[:, 1], 100 * points[:, 2], corners, speed, shading="gouraud", vmin=0, vmax=largest,
+                                cmap="viridis")
+        leaflets = foam.triangles(case / "postProcessing/aorticValve" / folder.name / "leaflets.vtk")
+        lines = [[100 * a, 100 * b] for a, b in _cut(*leaflets[:2])]
+        one.add_collection(matplotlib.collections.LineCollection(lines, colors="white", linewidths=2.5))
+        one.add_collection(matplotlib.collections.LineCollection(lines, colors="red", linewidths=1.2))
+        now = opening[numpy.abs(time - float(folder.name)).argmin()]
+        one.set_title(f"{float(folder.name):.2f} s, opening {now:.2f}", fontsize=10)
+        one.set_aspect("equal")
+        one.set_xlabel("y, cm")
+    axes[0].set_ylabel("z, cm; blood flows upwards")
+    figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.9, extend="max")
+    figure.suptitle("Speed in the plane x = 0; red: the leaflets there")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)

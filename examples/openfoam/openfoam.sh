@@ -1,0 +1,311 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run openfoam, which reads this file: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. They use
+# its $build, $n_jobs, $packages, install_missing, python_of_packages, say and step.
+
+openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
+  bzip2 xz-utils python3-numpy python3-matplotlib)
+openfoam_here=examples/openfoam
+
+# openfoam [--short | --size CENTIMETRES]
+openfoam() {
+  of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
+  case ${1:-} in
+    '') ;;
+    --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
+    --size) of_size=${2:-} ;;
+    *)
+      echo "./run openfoam: '$*' is not an option" >&2
+      exit 2
+      ;;
+  esac
+  [[ $of_size =~ ^0\.[0-9]*[1-9][0-9]*$ ]] || {
+    echo "./run openfoam: '$of_size' is not a size of edges in centimetres, such as 0.1" >&2
+    exit 2
+  }
+  openfoam_has_package || return 0
+  packages=("${openfoam_packages[@]}")
+  install_missing
+  of_work=$PWD/$build/openfoam
+  mkdir -p "$of_work"
+  openfoam_has_source || return 0
+  step "build the library and the plug-in" openfoam_build
+  openfoam_environment
+  step "mesh the root" openfoam_mesh "$of_size"
+
+  local python
+  python=$(python_of_packages)
+  of_check() { "$python" -B "$openfoam_here/check.py" "$@"; }
+  of_cases=$of_work/cases of_out=$PWD/out/openfoam
+  rm -rf "$of_cases" "$of_out"
+  mkdir -p "$of_cases" "$of_out"
+
+  step "bad input" openfoam_refusals
+  cat "$of_out/refusals.txt"
+  step "marks of 1, 2 and 4 ranks" openfoam_marks
+  of_check marks "$of_cases/marks-1" "$of_cases/marks-2" "$of_cases/marks-4" | tee "$of_out/marks.txt"
+  step "the closed valve, OpenFOAM's porosity, the open valve, no valve" openfoam_drops
+  of_check drops "$of_cases" | tee "$of_out/drops.txt"
+  if [[ ${1:-} != --short ]]; then
+    step "the closed valve in four meshes" openfoam_sizes
+    of_check sizes "$of_cases"/closed-0.* | tee "$of_out/sizes.txt"
+  fi
+  step "a heartbeat on 2 ranks, with the leaflets' velocity" openfoam_beat beat yes
+  step "a heartbeat on 2 ranks, without it" openfoam_beat beat-still no
+  of_check beat "$of_cases/beat" "$of_cases/beat-still" | tee "$of_out/beat.txt"
+  step "restart in mid-cycle" openfoam_restart
+  of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/none" "$of_cases/none-restart" | tee "$of_out/restart.txt"
+  of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
+  say "left: out/openfoam/beat.png, out/openfoam/velocity.png; for ParaView $of_cases/beat (after reconstructPar)"
+}
+
+# Says why nothing runs if the distribution lacks the package.
+openfoam_has_package() {
+  local as_root=()
+  if ! command -v dpkg-query >/dev/null; then
+    say "OpenFOAM is left out: this is no Debian system, and the plug-in is built for Debian's package openfoam"
+    return 1
+  fi
+  [[ $(dpkg-query -W -f='${db:Status-Status}' openfoam 2>/dev/null) != installed ]] || return 0
+  if ! openfoam_candidate; then
+    ((EUID == 0)) || as_root=(sudo)
+    "${as_root[@]}" apt-get -qq update || true
+  fi
+  openfoam_candidate || {
+    say "OpenFOAM is left out: this distribution has no package openfoam"
+    return 1
+  }
+}
+
+openfoam_candidate() { apt-cache policy openfoam | grep -q 'Candidate: [0-9]'; }
+
+# Debian's packages have no headers, so its source package gives them: OPENFOAM_SOURCE. Says why nothing runs if it cannot be had.
+openfoam_has_source() {
+  local version folder=$of_work/source
+  # shellcheck disable=SC2016 # dpkg-query's own variable
+  version=$(dpkg-query -W -f='${source:Version}' openfoam)
+  of_source=$folder/$version
+  [[ ! -e $of_source/complete ]] || return 0
+  rm -rf "$of_source"
+  mkdir -p "$of_source"
+  if ! (step "OpenFOAM's headers, from its source package (45 MB)" openfoam_source "$version" "$of_source"); then
+    say "OpenFOAM is left out: the source package of openfoam $version, which has its headers, cannot be had"
+    return 1
+  fi
+}
+
+# openfoam_source VERSION FOLDER: the system's own apt entries, as entries for sources in a private folder. The system's lists stay.
+openfoam_source() {
+  local folder=$2 file apt_options part
+  mkdir -p "$folder/apt/parts" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [[ -e $file ]] || continue
+    sed 's/^Types:.*/Types: deb-src/' "$file" >"$folder/apt/parts/${file##*/}"
+  done
+  cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
+    sed -nE 's/^[[:space:]]*deb(-src)?[[:space:]]/deb-src /p' | sort -u >"$folder/apt/parts/lines.list" || true
+  apt_options=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$folder/apt/parts" -o "Dir::State::lists=$folder/apt/lists"
+    -o "Dir::Cache=$folder/apt/cache" -o APT::Sandbox::User=)
+  apt-get "${apt_options[@]}" update &&
+    (cd "$folder" && apt-get "${apt_options[@]}" source --download-only "openfoam=$1") &&
+    tar -xf "$folder"/openfoam_*.orig.tar.* -C "$folder" --strip-components=1 --wildcards \
+      '*/wmake' '*/src/OpenFOAM' '*/src/OSspecific' '*/src/finiteVolume' '*/src/meshTools' || return
+  for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools; do
+    "$folder/wmake/wmakeLnInclude" -s "$folder/src/$part" || return
+  done
+  rm -rf "$folder/apt" "$folder"/openfoam_*
+  touch "$folder/complete"
+}
+
+openfoam_build() {
+  cmake --preset library -B "$of_work/library" -D CMAKE_INSTALL_PREFIX="$of_work/riis" &&
+    cmake --build "$of_work/library" --parallel "$n_jobs" &&
+    cmake --install "$of_work/library" &&
+    cmake -S "$openfoam_here/plugin" -B "$of_work/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release \
+      -D CMAKE_PREFIX_PATH="$of_work/riis" -D OPENFOAM_SOURCE="$of_source/src" &&
+    cmake --build "$of_work/plugin"
+}
+
+openfoam_environment() {
+  export WM_PROJECT_DIR=/usr/share/openfoam
+  export LD_LIBRARY_PATH=$of_work/plugin${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+  # Ranks may be more than processors, and may belong to root.
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+}
+
+# openfoam_mesh SIZE: OpenFOAM's mesh with edges of SIZE centimetres, in mesh-SIZE.
+openfoam_mesh() {
+  local folder=$of_work/mesh-$1
+  [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete || examples/demo/aortic_root.geo -nt $folder/complete ]] ||
+    return 0
+  rm -rf "$folder"
+  cp -r "$openfoam_here/case" "$folder" &&
+    gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber size "$1" -format msh22 -o "$folder/root.msh" \
+      "$openfoam_here/root.geo" &&
+    gmshToFoam -case "$folder" "$folder/root.msh" &&
+    sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" &&
+    checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" &&
+    grep -q '^Mesh OK' "$folder/checkMesh.log" &&
+    touch "$folder/complete"
+}
+
+# of_case NAME [SIZE]: a copy of the case with a mesh, in $of_cases/NAME.
+of_case() {
+  local folder=$of_cases/$1
+  rm -rf "$folder"
+  cp -r "$openfoam_here/case" "$folder" &&
+    cp -r "$of_work/mesh-${2:-$of_size}/constant/polyMesh" "$folder/constant" &&
+    of_set "$1" system/fvOptions aorticValve/halfThickness "$of_half_thickness"
+}
+
+# of_set NAME FILE KEY VALUE [KEY VALUE...]: changes entries of a file of a case.
+of_set() {
+  local file=$of_cases/$1/$2
+  shift 2
+  while (($# > 1)); do
+    foamDictionary "$file" -entry "$1" -set "$2" -disableFunctionEntries >/dev/null 2>&1 || return
+    shift 2
+  done
+}
+
+# of_run NAME RANKS: runs the case; log.pimpleFoam has what it printed.
+of_run() {
+  local folder=$of_cases/$1 parts=([1]='1 1 1' [2]='2 1 1' [4]='2 2 1')
+  if (($2 == 1)); then
+    timeout 3600 pimpleFoam -case "$folder" >"$folder/log.pimpleFoam" 2>&1
+  else
+    of_set "$1" system/decomposeParDict numberOfSubdomains "$2" simpleCoeffs/n "(${parts[$2]})" &&
+      decomposePar -case "$folder" >"$folder/log.decomposePar" 2>&1 &&
+      timeout 3600 mpirun -n "$2" pimpleFoam -case "$folder" -parallel >"$folder/log.pimpleFoam" 2>&1
+  fi
+}
+
+# An opening valve, with every step written. The cell centres are OpenFOAM's own.
+openfoam_marks() {
+  local ranks name
+  for ranks in 1 2 4; do
+    name=marks-$ranks
+    of_case "$name" &&
+      of_set "$name" system/controlDict endTime 0.006 deltaT 1e-3 writeInterval 1 &&
+      of_set "$name" system/fvOptions aorticValve/opening \
+        '{ law times; openingStart -0.01; openingSeconds 0.04; closingStart 0.1; closingSeconds 0.04; }' &&
+      of_run "$name" "$ranks" || return
+    if ((ranks == 1)); then
+      postProcess -case "$of_cases/$name" -func writeCellCentres -time 0
+    else
+      timeout 600 mpirun -n "$ranks" postProcess -case "$of_cases/$name" -parallel -func writeCellCentres -time 0
+    fi || return
+  done
+}
+
+# of_constant_flow NAME OPENING [SIZE]: a given velocity at the inlet, and a valve that does not move.
+of_constant_flow() {
+  of_case "$1" "${3:-}" &&
+    of_set "$1" 0/U boundaryField '{ inlet { type fixedValue; value uniform (0 0 0.1); } outlet { type zeroGradient; } wall { type noSlip; } }' &&
+    of_set "$1" 0/p boundaryField '{ inlet { type zeroGradient; } outlet { type fixedValue; value uniform 0; } wall { type zeroGradient; } }' &&
+    of_set "$1" system/controlDict endTime 0.01 deltaT 1e-3 writeInterval 10 &&
+    of_set "$1" system/fvOptions aorticValve/opening "{ law constant; opening $2; }" aorticValve/velocity no
+}
+
+openfoam_drops() {
+  local model
+  of_constant_flow closed 0 && of_run closed 1 &&
+    of_constant_flow open 1 && of_run open 1 &&
+    of_constant_flow none 1 && rm "$of_cases/none/system/fvOptions" && of_run none 1 || return
+  # OpenFOAM's own porosity in the same cells, with the same coefficients to a part in 400 of the largest.
+  for model in powerLaw DarcyForchheimer; do
+    of_constant_flow "$model" 0 && of_check zones "$of_cases/closed" "$of_cases/$model" "$model" && of_run "$model" 1 || return
+  done
+}
+
+openfoam_sizes() {
+  local size
+  for size in 0.16 0.125 0.1 0.08; do
+    openfoam_mesh "$size" && of_constant_flow "closed-$size" 0 "$size" &&
+      of_set "closed-$size" system/controlDict endTime 0.003 writeInterval 3 && of_run "closed-$size" 1 || return
+  done
+}
+
+# openfoam_beat NAME VELOCITY
+openfoam_beat() {
+  of_case "$1" &&
+    of_set "$1" system/controlDict deltaT "$of_time_step" writeControl runTime writeInterval 0.02 &&
+    of_set "$1" system/fvOptions aorticValve/velocity "$2" && of_run "$1" 2
+}
+
+# Two steps of writing after a restart while the valve closes, and the same without a valve.
+openfoam_restart() {
+  local name time=0.2 end=0.24
+  cp -r "$of_cases/beat" "$of_cases/beat-restart" && of_case none && rm "$of_cases/none/system/fvOptions" &&
+    of_set none system/controlDict deltaT "$of_time_step" writeControl runTime writeInterval 0.02 endTime "$end" &&
+    of_run none 2 && cp -r "$of_cases/none" "$of_cases/none-restart" || return
+  for name in beat none; do
+    of_forget_after "$name-restart" "$time" &&
+      of_set "$name-restart" system/controlDict startTime "$time" endTime "$end" &&
+      timeout 3600 mpirun -n 2 pimpleFoam -case "$of_cases/$name-restart" -parallel >"$of_cases/$name-restart/log.pimpleFoam" 2>&1 ||
+      return
+  done
+}
+
+# of_forget_after NAME TIME: removes what a case has of later times.
+of_forget_after() {
+  local folder
+  for folder in "$of_cases/$1"/processor*/[0-9]*; do
+    ! awk -v a="${folder##*/}" -v b="$2" 'BEGIN { exit !(a > b) }' || rm -r "$folder"
+  done
+  rm -rf "${of_cases:?}/$1/postProcessing"
+}
+
+# of_refused TEXT NAME WORDS: the case must stop with the words, and leave no time folder.
+of_refused() {
+  local name=$2 log=$of_cases/$2/log.pimpleFoam left
+  if of_run "$name" 1; then
+    echo "$1: the solver ran" >&2
+    return 1
+  fi
+  grep -qF -- "$3" "$log" || {
+    echo "$1: '$3' is not in $log" >&2
+    return 1
+  }
+  left=$(find "$of_cases/$name" -maxdepth 1 -name '[0-9]*' ! -name 0 ! -name 0.02)
+  [[ ! $left ]] || {
+    echo "$1: left $left" >&2
+    return 1
+  }
+  printf '  %-34s refused: %s\n' "$1" "$3" >>"$of_out/refusals.txt"
+}
+
+# of_bad NAME: a case that does two steps.
+of_bad() {
+  of_case "$1" && of_set "$1" system/controlDict endTime 2e-3 deltaT 1e-3 writeInterval 2
+}
+
+openfoam_refusals() {
+  local dict=system/fvOptions
+  of_bad unknown-valve && of_set unknown-valve $dict aorticValve/valve/kind tricuspid &&
+    of_refused "an unknown valve" unknown-valve "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" &&
+    of_bad unknown-parameter && of_set unknown-parameter $dict aorticValve/valve/leaflet_hight 1 &&
+    of_refused "an unknown parameter" unknown-parameter "'leaflet_hight' is not a parameter of the trileaflet valve" &&
+    of_bad no-resistance && foamDictionary "$of_cases/no-resistance/$dict" -entry aorticValve/resistance -remove >/dev/null &&
+    of_refused "a missing key" no-resistance "Entry 'resistance' not found in dictionary" &&
+    of_bad unknown-key && of_set unknown-key $dict aorticValve/opening/closesBelow 0 &&
+    of_refused "an unknown key" unknown-key "unknown key 'closesBelow'" &&
+    of_bad unknown-law && of_set unknown-law $dict aorticValve/opening/law swich &&
+    of_refused "an unknown law" unknown-law "law is 'swich', and must be constant, times, table or switch" &&
+    of_bad wrong-unit && of_set wrong-unit $dict aorticValve/halfThickness '[0 2 0 0 0 0 0] 1e-3' &&
+    of_refused "a half thickness in m2" wrong-unit 'The dimensions [0 2 0 0 0 0 0] provided do not match' &&
+    of_bad no-half-thickness && of_set no-half-thickness $dict aorticValve/halfThickness 0 &&
+    of_refused "a half thickness of 0" no-half-thickness 'options.half_thickness is 0; it must be' &&
+    of_bad outside && of_set outside $dict aorticValve/placement '{ scale 0.01; translation (0 0 1); }' &&
+    of_refused "a valve outside the mesh" outside 'at time 0.001: no cell centre lies within the half thickness' &&
+    of_bad no-patch && of_set no-patch $dict aorticValve/opening/flowPatch aorta &&
+    of_refused "an unknown patch" no-patch "flowPatch is 'aorta', and the mesh has no such patch" &&
+    of_bad not-a-number && of_check nan "$of_cases/not-a-number/0/p" "$of_cases/not-a-number/constant/polyMesh/owner" &&
+    of_refused "a pressure that is NaN" not-a-number 'at time 0.001: RIIS_INVALID_ARGUMENT: pressure_difference' &&
+    of_bad no-library && of_set no-library $dict aorticValve/libs '("libnoValve.so")' &&
+    of_refused "a library that is not in the path" no-library 'Unknown fvOption type riisValve' &&
+    of_bad other-state && of_run other-state 1 && mv "$of_cases/other-state/0.002" "$of_cases/other-state/0.02" &&
+    of_set other-state system/controlDict startTime 0.02 endTime 0.03 &&
+    of_set other-state $dict aorticValve/valve '{ kind trileaflet; leaflet_height 1.15; }' &&
+    of_refused "a restart of another valve" other-state 'this state is that of a valve whose leaflet_height is'
+}

@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "riisValve.H"
+
+#include "OFstream.H"
+#include "OSspecific.H"
+#include "addToRunTimeSelectionTable.H"
+#include "fvMatrices.H"
+#include "fvmSup.H"
+#include "surfaceFields.H"
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+namespace Foam {
+namespace fv {
+
+defineTypeNameAndDebug(riisValve, 0);
+addToRunTimeSelectionTable(option, riisValve, dictionary);
+
+namespace {
+
+// The library's warnings, such as that of a mesh and a valve in different units.
+void warn(void *, int32_t level, const char *message) {
+  if (level == RIIS_LOG_WARNING) Warning << "riis: " << message << endl;
+}
+
+// A key that nothing reads is a mistake in writing: its default would count in silence.
+void refuseOthers(const dictionary &dict, std::initializer_list<const char *> keys) {
+  for (const entry &e : dict) {
+    bool known = false;
+    for (const char *key : keys) known = known || e.keyword() == key;
+    if (known) continue;
+    FatalIOErrorInFunction(dict) << "unknown key '" << e.keyword() << "'. The keys are";
+    for (const char *key : keys) FatalIOError << ' ' << key;
+    FatalIOError << exit(FatalIOError);
+  }
+}
+
+// Reads a number or a list of numbers.
+scalarList numbers(const entry &e) {
+  ITstream &is = e.stream();
+  scalarList values;
+  if (is.size() == 1) {
+    values.append(readScalar(is));
+  } else {
+    is >> values;
+  }
+  return values;
+}
+
+void copy(const vector &from, double *to) {
+  for (direction c = 0; c < 3; ++c) to[c] = from[c];
+}
+
+}  // namespace
+
+bool riisState::writeData(Ostream &os) const {
+  const int digits = os.precision(17);
+  const bool good = IOdictionary::writeData(os);
+  os.precision(digits);
+  return good;
+}
+
+// OpenFOAM does not read back the lists of a dictionary that says it is binary.
+bool riisState::writeObject(IOstream::streamFormat, IOstream::versionNumber version,
+                            IOstream::compressionType compression, const bool valid) const {
+  return IOdictionary::writeObject(IOstream::ASCII, version, compression, valid);
+}
+
+riisValve::riisValve(const word &name, const word &modelType, const dictionary &dict, const fvMesh &mesh)
+    : option(name, modelType, dict, mesh),
+      rho_("rho", dimDensity, coeffs_),
+      law_(Law::constant),
+      constant_(0),
+      flowPatch_(-1),
+      opening_(0),
+      timeIndex_(mesh.time().timeIndex()),
+      K_(IOobject(IOobject::groupName("K", name), mesh.time().timeName(), mesh, IOobject::NO_READ,
+                  IOobject::AUTO_WRITE),
+         mesh, dimensionedScalar(dimDensity / dimTime, Zero)),
+      state_(IOobject(name + "State", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT,
+                      IOobject::AUTO_WRITE)) {
+  static_assert(sizeof(scalar) == sizeof(double), "riis needs OpenFOAM in double precision");
+  riis_set_log(warn, nullptr);
+  readAll();
+  restart();
+
+  check(riis_valve_set_scalar(valve_.get(), "opening", opening_));
+  riis_valve *before = nullptr;
+  check(riis_valve_copy(valve_.get(), &before));
+  before_.reset(before);
+  const vectorField &centres = mesh_.cellCentres();
+  const double *xyz = centres.empty() ? nullptr : centres[0].cdata();
+  riis_mesh *cells = nullptr;
+  check(riis_mesh_create(centres.size(), xyz, xyz + 1, xyz + 2, 3, &cells));
+  cells_.reset(cells);
+  riis_mark_result *result = nullptr;
+  check(riis_mark_result_create(&result));
+  result_.reset(result);
+  keepState();
+}
+
+void riisValve::check(riis_status status) const {
+  if (status == RIIS_OK) return;
+  FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": "
+                       << riis_status_name(status) << ": " << riis_last_error() << exit(FatalError);
+}
+
+void riisValve::check(riis_status status, const dictionary &dict) const {
+  if (status == RIIS_OK) return;
+  FatalIOErrorInFunction(dict) << "valve " << name_ << " at time " << mesh_.time().timeName() << ": "
+                               << riis_status_name(status) << ": " << riis_last_error() << exit(FatalIOError);
+}
+
+void riisValve::readAll() {
+  refuseOthers(coeffs_, {"type", "active", "libs", "U", "p", "phi", "rho", "valve", "placement", "halfThickness",
+                         "resistance", "velocity", "opening", "nThreads", "writeLeaflets"});
+  rho_.read(coeffs_);
+  if (!(rho_.value() > 0)) {
+    FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
+  }
+  UName_ = coeffs_.getOrDefault<word>("U", "U");
+  pName_ = coeffs_.getOrDefault<word>("p", "p");
+  phiName_ = coeffs_.getOrDefault<word>("phi", "phi");
+  withVelocity_ = coeffs_.getOrDefault<Switch>("velocity", true);
+  writeLeaflets_ = coeffs_.getOrDefault<Switch>("writeLeaflets", false);
+  fieldNames_ = wordList(1, UName_);
+  applied_.setSize(1, false);
+  if (withVelocity_ && !KU_.valid()) {
+    const IOobject io(IOobject::groupName("KU", name_), mesh_.time().timeName(), mesh_, IOobject::NO_READ,
+                      IOobject::AUTO_WRITE);
+    KU_.reset(new volVectorField(io, mesh_, dimensionedVector(dimDensity * dimVelocity / dimTime, Zero)));
+  } else if (!withVelocity_) {
+    KU_.clear();
+  }
+
+  readValve(coeffs_.subDict("valve"));
+  readLaw(coeffs_.subDict("opening"));
+
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  readPlacement(coeffs_.subDict("placement"), options);
+  options.half_thickness = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
+  // One rank is one thread by default, as for the rest of the solver.
+  options.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve_.get(), &options, &surface), coeffs_);
+  surface_.reset(surface);
+
+  check(riis_mark_options_init(&markOptions_, sizeof markOptions_));
+  markOptions_.n_threads = options.n_threads;
+  markOptions_.fields = withVelocity_ ? RIIS_FIELD_VELOCITY : 0;
+  check(riis_resistance_init(&resistance_, sizeof resistance_));
+  resistance_.resistance = dimensionedScalar("resistance", dimMass / dimLength / dimTime, coeffs_).value();
+  if (!(resistance_.resistance >= 0)) {
+    FatalIOErrorInFunction(coeffs_) << "resistance is " << resistance_.resistance << ", and must be at least 0"
+                                    << exit(FatalIOError);
+  }
+}
+
+void riisValve::readValve(const dictionary &dict) {
+  kind_ = dict.get<word>("kind");
+  riis_valve *valve = nullptr;
+  check(riis_valve_create(kind_.c_str(), &valve), dict);
+  valve_.reset(valve);
+  for (const entry &e : dict) {
+    if (e.keyword() == "kind") continue;
+    if (e.isDict() || e.keyword() == "opening") {
+      FatalIOErrorInFunction(dict) << "'" << e.keyword() << "' is no parameter here; the law sets the opening"
+                                   << exit(FatalIOError);
+    }
+    const scalarList values = numbers(e);
+    check(riis_valve_set(valve, e.keyword().c_str(), values.size(), values.cdata()), dict);
+  }
+}
+
+void riisValve::readPlacement(const dictionary &dict, riis_surface_options &options) const {
+  refuseOthers(dict, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals"});
+  options.scale = dict.get<scalar>("scale");
+  copy(dict.getOrDefault<vector>("rotationAxis", vector(0, 0, 1)), options.rotation_axis);
+  options.rotation_angle = dict.getOrDefault<scalar>("rotationAngle", 0);
+  copy(dict.getOrDefault<vector>("translation", Zero), options.translation);
+  options.flip_normals = dict.getOrDefault<Switch>("flipNormals", false);
+}
+
+void riisValve::readLaw(const dictionary &dict) {
+  const word name = dict.get<word>("law");
+  if (name == "constant") {
+    refuseOthers(dict, {"law", "opening"});
+    law_ = Law::constant;
+    constant_ = dict.get<scalar>("opening");
+  } else if (name == "times") {
+    refuseOthers(
+        dict, {"law", "openingStart", "openingSeconds", "closingStart", "closingSeconds", "closed", "open", "period"});
+    law_ = Law::times;
+    check(riis_opening_times_init(&times_, sizeof times_));
+    times_.opening_start = dict.get<scalar>("openingStart");
+    times_.opening_seconds = dict.get<scalar>("openingSeconds");
+    times_.closing_start = dict.get<scalar>("closingStart");
+    times_.closing_seconds = dict.get<scalar>("closingSeconds");
+    times_.closed = dict.getOrDefault<scalar>("closed", times_.closed);
+    times_.open = dict.getOrDefault<scalar>("open", times_.open);
+    times_.period = dict.getOrDefault<scalar>("period", times_.period);
+    check(riis_opening_from_times(&times_, 0, nullptr, nullptr), dict);
+  } else if (name == "table") {
+    refuseOthers(dict, {"law", "keys", "interpolation", "period"});
+    law_ = Law::table;
+    const List<Tuple2<scalar, scalar>> keys = dict.get<List<Tuple2<scalar, scalar>>>("keys");
+    keyTimes_.setSize(keys.size());
+    keyOpenings_.setSize(keys.size());
+    forAll(keys, i) {
+      keyTimes_[i] = keys[i].first();
+      keyOpenings_[i] = keys[i].second();
+    }
+    check(riis_opening_table_init(&table_, sizeof table_));
+    table_.n_keys = keys.size();
+    table_.time = keyTimes_.cdata();
+    table_.opening = keyOpenings_.cdata();
+    table_.period = dict.getOrDefault<scalar>("period", table_.period);
+    const word interpolation = dict.getOrDefault<word>("interpolation", "linear");
+    if (interpolation != "linear" && interpolation != "cubic") {
+      FatalIOErrorInFunction(dict) << "interpolation is '" << interpolation << "', and must be linear or cubic"
+                                   << exit(FatalIOError);
+    }
+    table_.interpolation = interpolation == "cubic" ? RIIS_INTERPOLATION_CUBIC : RIIS_INTERPOLATION_LINEAR;
+    check(riis_opening_from_table(&table_, 0, nullptr, nullptr), dict);
+  } else if (name == "switch") {
+    refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds",
+                        "dwellSeconds", "upstream", "downstream", "flowPatch"});
+    law_ = Law::pressure;
+    check(riis_opening_switch_init(&switch_, sizeof switch_));
+    switch_.opening_seconds = dict.get<scalar>("openingSeconds");
+    switch_.closing_seconds = dict.get<scalar>("closingSeconds");
+    switch_.open_above = dict.getOrDefault<scalar>("openAbove", switch_.open_above);
+    switch_.close_below = dict.getOrDefault<scalar>("closeBelow", switch_.close_below);
+    switch_.filter_seconds = dict.getOrDefault<scalar>("filterSeconds", switch_.filter_seconds);
+    switch_.dwell_seconds = dict.getOrDefault<scalar>("dwellSeconds", switch_.dwell_seconds);
+    riis_opening_switch_state state;
+    check(riis_opening_switch_state_init(&state, sizeof state));
+    check(riis_opening_switch_advance(&switch_, &state, 0, 0, 0, &state), dict);
+    upstream_ = sensor(dict.subDict("upstream"));
+    downstream_ = sensor(dict.subDict("downstream"));
+    const word patch = dict.get<word>("flowPatch");
+    flowPatch_ = mesh_.boundaryMesh().findPatchID(patch);
+    if (flowPatch_ < 0) {
+      FatalIOErrorInFunction(dict) << "flowPatch is '" << patch << "', and the mesh has no such patch. Its patches are "
+                                   << mesh_.boundaryMesh().names() << exit(FatalIOError);
+    }
+  } else {
+    FatalIOErrorInFunction(dict) << "law is '" << name << "', and must be constant, times, table or switch"
+                                 << exit(FatalIOError);
+  }
+}
+
+riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
+  refuseOthers(dict, {"centre", "radius"});
+  const vector centre = dict.get<vector>("centre");
+  const scalar radius = dict.get<scalar>("radius");
+  Sensor found;
+  found.volume = 0;
+  forAll(mesh_.cellCentres(), cell) {
+    if (mag(mesh_.cellCentres()[cell] - centre) > radius) continue;
+    found.cells.append(cell);
+    found.volume += mesh_.V()[cell];
+  }
+  reduce(found.volume, sumOp<scalar>());
+  if (!(found.volume > 0)) {
+    FatalIOErrorInFunction(dict) << "no cell has its centre within " << radius << " of " << centre
+                                 << exit(FatalIOError);
+  }
+  return found;
+}
+
+// Continues from the state in the folder of the start time. A first start has none.
+void riisValve::restart() {
+  const scalar start = mesh_.time().value();
+  const bool found = state_.found("kind");
+  if (returnReduce(found, orOp<bool>()) != returnReduce(found, andOp<bool>())) {
+    FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": some ranks have "
+                         << state_.IOobject::objectPath() << " and others lack it" << exit(FatalError);
+  }
+  const word law = coeffs_.subDict("opening").get<word>("law");
+  if (found) {
+    const word kind = state_.get<word>("kind"), lawBefore = state_.get<word>("law");
+    if (kind != kind_ || lawBefore != law) {
+      FatalIOErrorInFunction(state_) << "this state is that of a valve of kind " << kind << " with the law "
+                                     << lawBefore << ", and valve " << name_ << " has kind " << kind_
+                                     << " with the law " << law << exit(FatalIOError);
+    }
+    const dictionary &parameters = state_.subDict("parameters");
+    int64_t n = 0;
+    check(riis_valve_n_parameters(valve_.get(), &n));
+    for (int64_t i = 0; i < n; ++i) {
+      riis_parameter parameter;
+      check(riis_valve_parameter(valve_.get(), i, &parameter, sizeof parameter));
+      if (!strcmp(parameter.name, "opening")) continue;
+      double now[3] = {0, 0, 0};
+      check(riis_valve_get(valve_.get(), parameter.name, parameter.n_values, now));
+      const scalarList then = parameters.get<scalarList>(parameter.name);
+      for (label c = 0; c < parameter.n_values; ++c) {
+        if (c < then.size() && then[c] == now[c]) continue;
+        FatalIOErrorInFunction(state_) << "this state is that of a valve whose " << parameter.name << " is " << then
+                                       << ", and that of valve " << name_ << " is " << now[c] << exit(FatalIOError);
+      }
+    }
+    opening_ = state_.get<scalar>("opening");
+  }
+
+  switch (law_) {
+    case Law::constant:
+      opening_ = found ? opening_ : constant_;
+      break;
+    case Law::times:
+      if (!found) check(riis_opening_from_times(&times_, start, &opening_, nullptr));
+      break;
+    case Law::table:
+      if (!found) check(riis_opening_from_table(&table_, start, &opening_, nullptr));
+      break;
+    case Law::pressure:
+      check(riis_opening_switch_state_init(&switchState_, sizeof switchState_));
+      switchState_.time = start;
+      if (found) {
+        switchState_.time = state_.get<scalar>("time");
+        switchState_.opening = opening_;
+        switchState_.rate = state_.get<scalar>("rate");
+        switchState_.progress = state_.get<scalar>("progress");
+        switchState_.phase = state_.get<label>("phase");
+        // Without these keys there was none yet.
+        state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
+        state_.readIfPresent("flow", switchState_.flow);
+        state_.readIfPresent("since", switchState_.since);
+      }
+      opening_ = switchState_.opening;
+      break;
+  }
+  Info << "riis " << name_ << ": " << (found ? "continues" : "starts") << " at time " << mesh_.time().timeName()
+       << " with opening " << opening_ << (found ? " from " : ", without ") << state_.IOobject::objectPath() << endl;
+}
+
+void riisValve::keepState() {
+  state_.clear();
+  state_.add("kind", kind_);
+  state_.add("law", coeffs_.subDict("opening").get<word>("law"));
+  state_.add("opening", opening_);
+  if (law_ == Law::pressure) {
+    state_.add("time", switchState_.time);
+    state_.add("rate", switchState_.rate);
+    state_.add("progress", switchState_.progress);
+    state_.add("phase", label(switchState_.phase));
+    if (!std::isnan(switchState_.pressure_difference))
+      state_.add("pressureDifference", switchState_.pressure_difference);
+    if (!std::isnan(switchState_.flow)) state_.add("flow", switchState_.flow);
+    if (!std::isnan(switchState_.since)) state_.add("since", switchState_.since);
+  }
+  dictionary parameters;
+  int64_t n = 0;
+  check(riis_valve_n_parameters(valve_.get(), &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter;
+    check(riis_valve_parameter(valve_.get(), i, &parameter, sizeof parameter));
+    if (!strcmp(parameter.name, "opening")) continue;
+    scalarList values(label(parameter.n_values));
+    check(riis_valve_get(valve_.get(), parameter.name, values.size(), values.data()));
+    parameters.add(parameter.name, values);
+  }
+  state_.add("parameters", parameters);
+}
+
+// The mean pressure over the sensor's cells on all ranks.
+scalar riisValve::meanPressure(const Sensor &sensor) const {
+  const volScalarField &p = mesh_.lookupObject<volScalarField>(pName_);
+  scalar sum = 0;
+  for (const label cell : sensor.cells) sum += mesh_.V()[cell] * p[cell];
+  reduce(sum, sumOp<scalar>());
+  return (p.dimensions() == dimPressure ? 1 : rho_.value()) * sum / sensor.volume;
+}
+
+// The volume that leaves through the patch in a second.
+scalar riisValve::flow() const {
+  const surfaceScalarField &phi = mesh_.lookupObject<surfaceScalarField>(phiName_);
+  scalar sum = 0;
+  for (const scalar flux : phi.boundaryField()[flowPatch_]) sum += flux;
+  return returnReduce(sum, sumOp<scalar>());
+}
+
+// Advances the law to the end of the step. Pressures and flow are those of its beginning, the last that the solver has.
+scalar riisValve::openingAt(scalar time, Ostream &report) {
+  scalar opening = constant_;
+  if (law_ == Law::times) check(riis_opening_from_times(&times_, time, &opening, nullptr));
+  if (law_ == Law::table) check(riis_opening_from_table(&table_, time, &opening, nullptr));
+  if (law_ == Law::pressure) {
+    const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow();
+    check(riis_opening_switch_advance(&switch_, &switchState_, time, difference, volume, &switchState_));
+    opening = switchState_.opening;
+    report << ", pressure difference " << difference << " Pa, flow " << volume << " m3/s";
+  }
+  return opening;
+}
+
+// Moves the valve to the end of the step, marks the cells and computes K, once in a step. Outer correctors find K as it is.
+void riisValve::mark() {
+  const Time &time = mesh_.time();
+  if (mesh_.changing()) {
+    const vectorField &centres = mesh_.cellCentres();
+    const double *xyz = centres.empty() ? nullptr : centres[0].cdata();
+    check(riis_mesh_update(cells_.get(), centres.size(), xyz, xyz + 1, xyz + 2, 3));
+    if (law_ == Law::pressure) {
+      upstream_ = sensor(coeffs_.subDict("opening").subDict("upstream"));
+      downstream_ = sensor(coeffs_.subDict("opening").subDict("downstream"));
+    }
+  }
+
+  OStringStream report;
+  check(riis_valve_set_scalar(before_.get(), "opening", opening_));
+  opening_ = openingAt(time.value(), report);
+  check(riis_valve_set_scalar(valve_.get(), "opening", opening_));
+
+  const auto start = std::chrono::steady_clock::now();
+  if (withVelocity_) {
+    check(
+        riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), time.deltaTValue(), nullptr, nullptr));
+  } else {
+    check(riis_surface_update(surface_.get(), valve_.get(), nullptr));
+  }
+  check(riis_mark_nodes(surface_.get(), cells_.get(), &markOptions_, result_.get()));
+  K_.primitiveFieldRef() = 0;
+  if (withVelocity_) KU_->primitiveFieldRef() = Zero;
+  const label nCells = mesh_.nCells();
+  double *momentum = withVelocity_ && nCells > 0 ? KU_->primitiveFieldRef()[0].data() : nullptr;
+  check(riis_mark_result_add_resistance(result_.get(), &resistance_, nCells, K_.primitiveFieldRef().data(), momentum));
+  int64_t marked = 0;
+  check(riis_mark_result_marked(result_.get(), &marked, nullptr, nullptr, nullptr, nullptr));
+  const std::chrono::duration<scalar> seconds = std::chrono::steady_clock::now() - start;
+
+  const label all = returnReduce(label(marked), sumOp<label>());
+  if (all == 0) {
+    riis_surface_info info;
+    check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+    FatalErrorInFunction << "valve " << name_ << " at time " << time.timeName()
+                         << ": no cell centre lies within the half thickness " << info.half_thickness
+                         << " of a leaflet. The valve lies in the box ("
+                         << vector(info.lower[0], info.lower[1], info.lower[2]) << ' '
+                         << vector(info.upper[0], info.upper[1], info.upper[2]) << "), the mesh in ("
+                         << mesh_.bounds().min() << ' ' << mesh_.bounds().max() << "): look at placement"
+                         << exit(FatalError);
+  }
+  K_.correctBoundaryConditions();
+  if (withVelocity_) KU_->correctBoundaryConditions();
+  keepState();
+  const dimensionedScalar integral = gSum(K_.primitiveField() * mesh_.V().field());
+  const scalar slowest = returnReduce(seconds.count(), maxOp<scalar>());
+  Info << "riis " << name_ << ": opening " << opening_ << ", " << all << " cells marked, integral of K "
+       << integral.value() << " kg/s, " << slowest << " s in the library" << report.str().c_str() << endl;
+  if (writeLeaflets_ && time.writeTime() && Pstream::master()) writeLeaflets();
+}
+
+// Writes the leaflets for ParaView, with their velocity.
+void riisValve::writeLeaflets() const {
+  const fileName folder = mesh_.time().globalPath() / "postProcessing" / name_ / mesh_.time().timeName();
+  mkDir(folder);
+  OFstream os(folder / "leaflets.vtk");
+  os.precision(9);
+  int64_t nVertices = 0, nTriangles = 0;
+  const double *xyz = nullptr, *velocity = nullptr;
+  const int64_t *corners = nullptr;
+  check(riis_surface_vertices(surface_.get(), &nVertices, &xyz));
+  check(riis_surface_vertex_velocities(surface_.get(), &nVertices, &velocity));
+  check(riis_surface_triangles(surface_.get(), &nTriangles, &corners, nullptr, nullptr, nullptr));
+  os << "# vtk DataFile Version 3.0" << nl << "leaflets of " << name_ << nl << "ASCII" << nl << "DATASET POLYDATA" << nl
+     << "POINTS " << label(nVertices) << " double" << nl;
+  for (int64_t i = 0; i < nVertices; ++i) os << xyz[3 * i] << ' ' << xyz[3 * i + 1] << ' ' << xyz[3 * i + 2] << nl;
+  os << "POLYGONS " << label(nTriangles) << ' ' << label(4 * nTriangles) << nl;
+  for (int64_t i = 0; i < nTriangles; ++i) {
+    os << "3 " << label(corners[3 * i]) << ' ' << label(corners[3 * i + 1]) << ' ' << label(corners[3 * i + 2]) << nl;
+  }
+  if (velocity) {
+    os << "POINT_DATA " << label(nVertices) << nl << "VECTORS velocity double" << nl;
+    for (int64_t i = 0; i < nVertices; ++i)
+      os << velocity[3 * i] << ' ' << velocity[3 * i + 1] << ' ' << velocity[3 * i + 2] << nl;
+  }
+  if (!os.good()) FatalErrorInFunction << "cannot write " << os.name() << exit(FatalError);
+}
+
+void riisValve::addSup(fvMatrix<vector> &eqn, const label) {
+  if (eqn.dimensions() != dimForce / dimDensity) {
+    FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of "
+                         << eqn.psi().name() << " has the dimensions " << eqn.dimensions()
+                         << ". riisValve is for equations divided by a constant "
+                         << "density, with the dimensions " << dimForce / dimDensity << exit(FatalError);
+  }
+  if (timeIndex_ != mesh_.time().timeIndex()) {
+    mark();
+    timeIndex_ = mesh_.time().timeIndex();
+  }
+  eqn -= fvm::Sp(K_ / rho_, eqn.psi());
+  if (withVelocity_) eqn += KU_() / rho_;
+}
+
+void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const label) {
+  FatalErrorInFunction
+      << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of " << eqn.psi().name()
+      << " is multiplied by a density. riisValve is for equations divided by a constant density, such as those of "
+      << "pimpleFoam" << exit(FatalError);
+}
+
+bool riisValve::read(const dictionary &dict) {
+  dict_ = dict;
+  coeffs_ = dict.optionalSubDict(modelType_ + "Coeffs");
+  active_ = dict_.getOrDefault<Switch>("active", true);
+  const Law before = law_;
+  readAll();
+  if (law_ != before) {
+    FatalIOErrorInFunction(dict) << "the law of valve " << name_ << " changed during the run: start again from time "
+                                 << mesh_.time().timeName() << exit(FatalIOError);
+  }
+  return true;
+}
+
+}  // namespace fv
+}  // namespace Foam
