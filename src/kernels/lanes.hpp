@@ -109,19 +109,23 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
+  // Gathers one number from each of the places of a register.
+  static RIIS_INLINE Register gather_register(const Scalar *const *f, int64_t offset) {
+    if constexpr (per_register == 8)
+      return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
+                      f[4][offset], f[5][offset], f[6][offset], f[7][offset]};
+    else if constexpr (per_register == 4)
+      return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset]};
+    else {
+      Register r;
+      for (int j = 0; j < per_register; ++j) r[j] = f[j][offset];
+      return r;
+    }
+  }
   // Gathers one number from each of n places.
   static RIIS_INLINE Lanes gather(const Scalar *const *from, int64_t offset) {
     Lanes lanes;
-    for (int i = 0; i < n_registers; ++i) {
-      const Scalar *const *f = from + i * per_register;
-      if constexpr (per_register == 8)
-        lanes.part[i] = Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
-                                 f[4][offset], f[5][offset], f[6][offset], f[7][offset]};
-      else if constexpr (per_register == 4)
-        lanes.part[i] = Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset]};
-      else
-        for (int j = 0; j < per_register; ++j) lanes.part[i][j] = f[j][offset];
-    }
+    for (int i = 0; i < n_registers; ++i) lanes.part[i] = gather_register(from + i * per_register, offset);
     return lanes;
   }
   RIIS_INLINE void store(Scalar *to) const {

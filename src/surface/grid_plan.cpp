@@ -176,6 +176,50 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
+// Positions, ascending, and for each step between two of them the number that times the square of a width bounds the error of a
+// segment of that width there, as a share of the allowed error.
+struct Needs {
+  Vector<double> at, need;
+};
+
+// Takes as few positions as keep the error of each segment at most `most` of the allowed one, from the first to the last.
+Vector<double> segments(const Needs &needs, double most) {
+  Vector<double> made{needs.at.front()};
+  for (std::size_t i = 0; i < needs.need.size();) {
+    const double from = needs.at[i];
+    double largest = needs.need[i];
+    for (++i; i < needs.need.size(); ++i) {
+      const double width = needs.at[i + 1] - from;
+      largest = std::max(largest, needs.need[i]);
+      if (!(width * width * largest <= most)) break;
+    }
+    made.push_back(needs.at[i]);
+  }
+  return made;
+}
+
+// Does the same with equal errors, as far as the positions allow.
+Vector<double> balanced_segments(const Needs &needs, double most) {
+  Vector<double> made = segments(needs, most);
+  double low = 0, high = most;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + high);
+    Vector<double> tried = segments(needs, middle);
+    const bool is_enough = tried.size() <= made.size();
+    (is_enough ? high : low) = middle;
+    if (is_enough) made = std::move(tried);
+  }
+  return made;
+}
+
+// Errors of wide segments are bounded a little less closely than those of narrow ones, which the needs come from.
+constexpr double most_of_allowed = 0.9;
+// Needs are found on so many steps for each of the largest number of segments that a curve has, and on no more than the most.
+constexpr int steps_per_segment = 4;
+constexpr std::size_t least_steps = 64, most_steps = 4096;
+// Needs come from every so many states. Lines are checked at all of them.
+constexpr std::size_t states_per_need = 4;
+
 // Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
 Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_large) {
   Vector<double> made;
@@ -194,16 +238,18 @@ Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_l
 
 class Planner {
  public:
-  Planner(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness)
-      : states_(states), set_(states.front()), max_error_(max_error), tightness_(tightness) {}
+  Planner(const Vector<PatchSet> &states, double max_error, double of_curves, const Vector<double> &tightness)
+      : states_(states), set_(states.front()), max_error_(max_error), of_curves_(of_curves), tightness_(tightness) {}
 
   GridPlan plan() {
     for (const PatchSet &state : states_) check_precision(state, max_error_);
     plan_.shares.resize(set_.curves.size());
     plan_.patches.resize(set_.patches.size());
-    for (std::size_t i = 0; i < set_.patches.size(); ++i) {
+    for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
+    plan_families();
+    for (std::size_t i = 0; i < set_.patches.size(); ++i) {
       if (plan_.patches[i].has_arcs)
         plan_arcs(i);
       else
@@ -224,9 +270,129 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
+  // The curves at opposite sides of Coons patches, and at the opposite sides of their neighbours: a patch has few lines if its
+  // curves have the same vertices. A curve runs with the first of its family or against it.
+  struct Family {
+    Vector<std::size_t> curves;
+    Vector<bool> runs_against;
+  };
+
+  Vector<Family> families() const {
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    struct Opposite {
+      std::size_t curve;
+      bool runs_against;
+    };
+    Vector<Vector<Opposite>> opposites(set_.curves.size());
+    Vector<bool> is_side(set_.curves.size(), false);
+    for (std::size_t i = 0; i < set_.patches.size(); ++i) {
+      if (plan_.patches[i].has_arcs) continue;
+      const Patch &patch = set_.patches[i];
+      const auto join = [&](const Side &a, const Side &b) {
+        is_side[a.curve] = is_side[b.curve] = true;
+        if (is_collapsed(a) || is_collapsed(b)) return;
+        opposites[a.curve].push_back({b.curve, a.reversed != b.reversed});
+        opposites[b.curve].push_back({a.curve, a.reversed != b.reversed});
+      };
+      join(patch.v0, patch.v1);
+      join(patch.u0, patch.u1);
+    }
+    Vector<Family> made;
+    Vector<std::size_t> family_of(set_.curves.size(), none);
+    for (std::size_t first = 0; first < set_.curves.size(); ++first) {
+      if (!is_side[first] || family_of[first] != none) continue;
+      family_of[first] = made.size();
+      Family family{{first}, {false}};
+      for (std::size_t k = 0; k < family.curves.size(); ++k)
+        for (const Opposite &opposite : opposites[family.curves[k]])
+          if (family_of[opposite.curve] == none) {
+            family_of[opposite.curve] = made.size();
+            family.runs_against.push_back(family.runs_against[k] != opposite.runs_against);
+            family.curves.push_back(opposite.curve);
+          }
+      made.push_back(std::move(family));
+    }
+    return made;
+  }
+
+  bool is_collapsed(const Side &side) const {
+    return std::none_of(states_.begin(), states_.end(),
+                        [&](const PatchSet &set) { return set.curve_of(side).length() > 0; });
+  }
+
+  static Vector<double> turned(Vector<double> shares) {
+    std::reverse(shares.begin(), shares.end());
+    for (double &share : shares) share = 1 - share;
+    return shares;
+  }
+
+  // Gives each curve the shares of its family's lines that it needs. `vertices` adds to them.
+  void plan_families() {
+    first_shares_.assign(set_.curves.size(), {0, 1});
+    for (const Family &family : families()) {
+      Vector<Needs> needs;
+      std::size_t n_steps = least_steps;
+      for (const std::size_t curve : family.curves)
+        n_steps = std::max(n_steps, steps_per_segment * rough_number_of_segments(curve));
+      if (n_steps > most_steps) continue;  // a tolerance so small that vertices are halved from the ends
+      while ((n_steps & (n_steps - 1)) != 0) n_steps += n_steps & -n_steps;
+      for (std::size_t k = 0; k < family.curves.size(); ++k)
+        needs.push_back(needs_of(family.curves[k], family.runs_against[k], n_steps));
+      Needs all = needs.front();
+      for (const Needs &of_curve : needs)
+        for (std::size_t i = 0; i < n_steps; ++i) all.need[i] = std::max(all.need[i], of_curve.need[i]);
+      const Vector<double> lines = balanced_segments(all, most_of_allowed);
+      for (std::size_t k = 0; k < family.curves.size(); ++k) {
+        Vector<double> own = segments(between_lines(needs[k], lines), most_of_allowed);
+        first_shares_[family.curves[k]] = family.runs_against[k] ? turned(std::move(own)) : std::move(own);
+      }
+    }
+  }
+
+  // Returns the number of segments of a curve that bends everywhere as its control points allow.
+  std::size_t rough_number_of_segments(std::size_t curve) const {
+    double most = 1;
+    for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
+      const Curve &here = states_[i].curves[curve];
+      double bend = 0;
+      for (const Bezier &piece : here.pieces()) bend = std::max(bend, flatness(piece));
+      const double of_state = static_cast<double>(here.pieces().size()) * std::sqrt(bend / allowed(curve));
+      most = std::max(most, of_state < 1e6 ? of_state : 1e6);
+    }
+    return static_cast<std::size_t>(std::ceil(most));
+  }
+
+  double allowed(std::size_t curve) const { return of_curves_ * max_error_ * tightness_[curve]; }
+
+  // Finds what a curve needs, by the shares of the first curve of its family.
+  Needs needs_of(std::size_t curve, bool runs_against, std::size_t n_steps) const {
+    Needs made;
+    for (std::size_t i = 0; i <= n_steps; ++i) made.at.push_back(static_cast<double>(i) / static_cast<double>(n_steps));
+    made.need.assign(n_steps, 0);
+    for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
+      CurvePoints points(states_[i].curves[curve], runs_against, made.at);
+      for (std::size_t k = 0; k < n_steps; ++k) {
+        const double width = made.at[k + 1] - made.at[k];
+        made.need[k] = std::max(made.need[k], points.chord_error(k, k + 1, 0) / (width * width * allowed(curve)));
+      }
+    }
+    return made;
+  }
+
+  // Returns the needs on wider steps.
+  static Needs between_lines(const Needs &needs, const Vector<double> &lines) {
+    Needs made{lines, Vector<double>(lines.size() - 1, 0)};
+    std::size_t step = 0;
+    for (std::size_t k = 0; k < needs.need.size(); ++k) {
+      while (needs.at[k] >= lines[step + 1]) ++step;
+      made.need[step] = std::max(made.need[step], needs.need[k]);
+    }
+    return made;
+  }
+
   Vector<double> vertices(const Patch &patch, const Side &side) const {
-    const double enough = curve_share * max_error_ * tightness(side);
-    Vector<double> shares{0, 1};
+    const double enough = allowed(side.curve);
+    Vector<double> shares = first_shares_[side.curve];
     for (int round = 0;; ++round) {
       Vector<bool> is_too_large(shares.size() - 1, false);
       for (const PatchSet &state : states_) {
@@ -243,14 +409,9 @@ class Planner {
 
   // Returns the shares by the patch's parameter. A side that is always collapsed has lines at its ends only.
   Vector<double> shares_along(const Side &side) const {
-    const bool is_collapsed = std::none_of(states_.begin(), states_.end(),
-                                           [&](const PatchSet &set) { return set.curve_of(side).length() > 0; });
-    if (is_collapsed) return {0, 1};
-    Vector<double> shares = plan_.shares[side.curve];
-    if (!side.reversed) return shares;
-    std::reverse(shares.begin(), shares.end());
-    for (double &share : shares) share = 1 - share;
-    return shares;
+    if (is_collapsed(side)) return {0, 1};
+    const Vector<double> &shares = plan_.shares[side.curve];
+    return side.reversed ? turned(shares) : shares;
   }
 
   // The shares are binary fractions, so they are equal to the last bit or far apart.
@@ -281,9 +442,7 @@ class Planner {
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);
-    plan.u = {0};
-    plan.u.insert(plan.u.end(), plan.joints.begin(), plan.joints.end());
-    plan.u.push_back(1);
+    plan.u = first_arc_lines(patch, plan.joints);
     for (int round = 0;; ++round) {
       const Vector<int> wanted = parts_wanted(patch, plan);
       Vector<bool> is_too_large;
@@ -304,11 +463,52 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
+  // Returns few lines that should be enough, some of them at the joints.
+  Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
+    const Patch &first = set_.patches[patch];
+    Vector<double> ends{0};
+    ends.insert(ends.end(), joints.begin(), joints.end());
+    ends.push_back(1);
+    const std::size_t n_steps =
+        std::max(least_steps, steps_per_segment * std::max(rough_number_of_segments(first.v0.curve),
+                                                           rough_number_of_segments(first.v1.curve)));
+    if (n_steps > most_steps) return ends;
+    PatchPlan fine;
+    fine.joints = joints;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+      for (std::size_t k = 0; k < n_steps; ++k)
+        fine.u.push_back(ends[i] + static_cast<double>(k) / static_cast<double>(n_steps) * (ends[i + 1] - ends[i]));
+    fine.u.push_back(1);
+    fine.n_parts.assign(fine.u.size() - 1, 1);
+    Vector<double> need(fine.n_parts.size(), 0);
+    const double of_curves = of_arc_curves(first), of_offset = offset_share * max_error_;
+    for (std::size_t s = 0; s < states_.size(); s += states_per_need) {
+      const Vector<ColumnErrors> errors = PlannedArcs(states_[s], states_[s].patches[patch], fine, max_error_).errors();
+      for (std::size_t k = 0; k < need.size(); ++k) {
+        const double width = fine.u[k + 1] - fine.u[k];
+        const double of_allowed =
+            std::max(std::max(errors[k].base, errors[k].edge) / of_curves, errors[k].offset(1) / of_offset);
+        need[k] = std::max(need[k], of_allowed / (width * width));
+      }
+    }
+    Vector<double> lines{0};
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const auto from = static_cast<std::ptrdiff_t>(i * n_steps), to = from + static_cast<std::ptrdiff_t>(n_steps);
+      const Needs between{{fine.u.begin() + from, fine.u.begin() + to + 1}, {need.begin() + from, need.begin() + to}};
+      const Vector<double> chosen = balanced_segments(between, most_of_allowed);
+      lines.insert(lines.end(), chosen.begin() + 1, chosen.end());
+    }
+    return lines;
+  }
+
+  double of_arc_curves(const Patch &patch) const {
+    return (arc_curve_share + merge_share) * max_error_ * std::min(tightness(patch.v0), tightness(patch.v1));
+  }
+
   // Returns for each two lines the least number of parts that is enough at every opening; more than most_parts if none is.
   Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
-    const double of_curves =
-        (arc_curve_share + merge_share) * max_error_ * std::min(tightness(first.v0), tightness(first.v1));
+    const double of_curves = of_arc_curves(first);
     const double of_offset = offset_share * max_error_;
     plan.n_parts.assign(plan.u.size() - 1, most_parts);
     Vector<int> wanted(plan.u.size() - 1, 1);
@@ -333,8 +533,9 @@ class Planner {
 
   const Vector<PatchSet> &states_;
   const PatchSet &set_;
-  double max_error_;
+  double max_error_, of_curves_;
   const Vector<double> &tightness_;
+  Vector<Vector<double>> first_shares_;  // of each curve
   GridPlan plan_;
   double n_triangles_ = 0;
 };
@@ -422,8 +623,9 @@ PatchSet Build::counted(const PatchSet &set) const {
   return made;
 }
 
-GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness) {
-  return Planner(states, max_error, tightness).plan();
+GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
+                    const Vector<double> &tightness) {
+  return Planner(states, max_error, of_curves, tightness).plan();
 }
 
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,

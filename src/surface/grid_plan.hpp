@@ -44,10 +44,11 @@ struct GridPlan {
   std::size_t n_rows = 1;  // of patches of arcs
 };
 
-// Makes the plan for patches that are counted by one build, at each of the openings. Keeps each curve within its share of
-// max_error times its tightness. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
+// Makes the plan for patches that are counted by one build, at each of the openings. Keeps each curve of a Coons patch
+// within max_error times of_curves times its tightness, and curves of other patches within their share. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
 // RIIS_INVALID_PARAMETER if no lines are enough.
-GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, const Vector<double> &tightness);
+GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
+                    const Vector<double> &tightness);
 
 // Makes one grid for each patch on the plan's lines, as the other make_grids does on its own lines. Bounds errors no
 // closer than max_error needs.

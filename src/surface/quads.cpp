@@ -62,6 +62,11 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
+  // Most quads are not subdivided, and their twist alone is small enough.
+  if (level == 0) {
+    const double at_equal_uv = quad_flatness(quad);
+    if (at_equal_uv <= left) return {0, grid.error(i, j) + at_equal_uv};
+  }
   double error = split_error_at(quad, level, left);
   if (!(error <= left)) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -74,8 +79,6 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
 }
 
 }  // namespace
-
-double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
 double split_error(const Quad &q) {
   const double at_equal_uv = quad_flatness(q);

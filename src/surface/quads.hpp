@@ -21,7 +21,7 @@ struct Quad {
 
 // Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. No
 // point of the quad is farther from the two triangles' point at the same (u,v).
-double quad_flatness(const Quad &quad);
+inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
 // Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad. If both are
 // graphs over a plane along both diagonals, it is at most half the component of the twist across that plane

@@ -91,18 +91,20 @@ void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
   Vector<Bounds> blocks;
   resize(blocks, (n + triangles_per_block - 1) / triangles_per_block);
   const Kernels &simd = kernels(best_instruction_set());
-  parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &block, int) {
-    Bounds &of_block = view(blocks)[block.begin / triangles_per_block];
+  const double *const xyz = set.xyz.data();
+  parallel_for_ranges(n, triangles_per_block, n_threads, [&, xyz](const Range &block, int) {
+    Bounds of_block;
     for (std::int64_t first = block.begin; first < block.end; first += triangles_at_once) {
       const std::int64_t end = std::min(block.end, first + triangles_at_once);
       double *to = corners.data() + 9 * first;
       const std::int64_t *id = set.vertex_id.data() + 3 * first;
-      for (std::int64_t i = 3 * first; i < 3 * end; ++i, ++id, to += 3)
-        std::memcpy(to, set.xyz.data() + 3 * *id, 3 * sizeof *to);
+      const std::int64_t *const last_id = id + 3 * (end - first);
+      for (; id != last_id; ++id, to += 3) std::memcpy(to, xyz + 3 * *id, 3 * sizeof *to);
       double lower[3], upper[3];
       simd.bound_corners(corners.data() + 9 * first, end - first, lower, upper);
       of_block.add(Bounds{{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}});
     }
+    view(blocks)[block.begin / triangles_per_block] = of_block;
   });
   of_all = {};
   for (const Bounds &block : blocks) of_all.add(block);

@@ -161,9 +161,7 @@ class PieceBuilder {
       const double v = grid_.v[j];
       const Vec3 *const points = grid_.points.data() + j * n_u;
       for (std::size_t i = 0; i < n_u; ++i, xyz += 3, uv += 2) {
-        const Vec3 placed = place(placement, place(image, points[i]));
-        xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
-        uv[0] = u[i], uv[1] = v;
+        put(place(placement, place(image, points[i])), u[i], v, xyz, uv);
       }
     }
     if (!piece_.seam && !motion_) {
@@ -183,8 +181,10 @@ class PieceBuilder {
   void add_vertex(Vec3 p, double u, double v) {
     const std::int64_t at = piece_.first_vertex + n_vertices_++;
     const PatchImage &image = piece_.seam && piece_.seam->has(u, v) ? *piece_.twin : *piece_.image;
-    const Vec3 placed = place(how_.placement, place(image, p));
-    double *xyz = set_.xyz.data() + 3 * at, *uv = set_.uv.data() + 2 * at;
+    put(place(how_.placement, place(image, p)), u, v, set_.xyz.data() + 3 * at, set_.uv.data() + 2 * at);
+  }
+
+  static void put(Vec3 placed, double u, double v, double *xyz, double *uv) {
     xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
     uv[0] = u, uv[1] = v;
   }
@@ -197,15 +197,29 @@ class PieceBuilder {
     const auto displacement = [&](std::size_t di, std::size_t dj) {
       return grid_.displacements[(j + dj) * grid_.u.size() + i + di];
     };
+    const double u0 = grid_.u[i], u1 = grid_.u[i + 1], v0 = grid_.v[j], v1 = grid_.v[j + 1];
+    const PatchImage image = *piece_.image;
+    const Placement placement = how_.placement;
+    const bool is_simple = !motion_ && !piece_.seam;
+    const std::int64_t first = piece_.first_vertex + n_vertices_;
+    double *xyz = set_.xyz.data() + 3 * first, *uv = set_.uv.data() + 2 * first;
+    const double step = 1.0 / n;  // a power of two
     for (int row = 0; row <= n; ++row) {
-      for (int column = 0; column <= n; ++column) {
-        const double s = static_cast<double>(column) / n, t = static_cast<double>(row) / n;
-        add_velocity(quad.at(s, t), [&] {
+      const double t = row * step, v = (1 - t) * v0 + t * v1;
+      for (int column = 0; column <= n; ++column, xyz += 3, uv += 2) {
+        const double s = column * step, u = (1 - s) * u0 + s * u1;
+        const Vec3 p = quad.at(s, t);
+        if (is_simple) {
+          put(place(placement, place(image, p)), u, v, xyz, uv);
+          continue;
+        }
+        add_velocity(p, [&] {
           return Quad{displacement(0, 0), displacement(1, 0), displacement(1, 1), displacement(0, 1)}.at(s, t);
         });
-        add_vertex(quad.at(s, t), (1 - s) * grid_.u[i] + s * grid_.u[i + 1], (1 - t) * grid_.v[j] + t * grid_.v[j + 1]);
+        add_vertex(p, u, v);
       }
     }
+    if (is_simple) n_vertices_ += std::int64_t{1} * (n + 1) * (n + 1);
   }
 
   // Adds the quads of a quad that is subdivided to a level, whose vertices begin with `first`.
@@ -545,7 +559,8 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   Vector<double> tightness(middle.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
-    TriangulationPlan plan{plan_grids(states, planned_error, tightness), counting, planned_error, {}, {}};
+    TriangulationPlan plan{
+        plan_grids(states, planned_error, planned_curve_share, tightness), counting, planned_error, {}, {}};
     for (const PatchSet &state : states) raise_levels(state, planned_error, plan);
     const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};
     TriangleSet triangles;
