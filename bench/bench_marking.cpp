@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "compare_adjacencies.hpp"
 #include "contest.hpp"
 #include "cylinder.hpp"
 #include "memory.hpp"
@@ -240,7 +241,8 @@ int main(int argc, char **argv) {
   Contest contest;
   Bars bars;
   nlohmann::json counts;
-  const bool is_right = compare_with_others(contest, bars, about_n_nodes, counts);
+  const bool has_same_rows = compare_adjacencies(contest, bars, about_n_nodes, counts);
+  const bool is_right = compare_with_others(contest, bars, about_n_nodes, counts) && has_same_rows;
   compare_sizes(contest, about_n_nodes, counts);
   for (const RatioBar &ratio : ratio_bars) bars.add(contest, ratio);
   contest.print();

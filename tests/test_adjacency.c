@@ -5,6 +5,7 @@
 
 #include "test_support.h"
 
+#include "cell_edges.h"
 #include "handles.h"
 #include "searches.h"
 
@@ -89,19 +90,6 @@ static int same_rows(const riis_adjacency *a, const riis_adjacency *b) {
 }
 
 /* --- Cells ----------------------------------------------------------------------------------------------------------- */
-
-/* Tells whether two corners of a cell share an edge, by the places of the unit shapes' corners rather than by a table. A corner
- * of a prism or a hexahedron has a place in the base and an end. Corners share an edge if they have the same place at both ends,
- * or if their places at one end follow each other round the base. */
-static int on_an_edge(int n_corners, int a, int b) {
-  const int n_base = n_corners == 8 || n_corners == 5 ? 4 : 3;
-  const int base_a = a % n_base, base_b = b % n_base, floor_a = a / n_base, floor_b = b / n_base;
-  if (a == b) return 0;
-  if (n_corners == 4 || n_corners == 5) /* the apex is joined to all */
-    if (floor_a != floor_b) return 1;
-  if (floor_a != floor_b) return base_a == base_b;
-  return (base_a + 1) % n_base == base_b || (base_b + 1) % n_base == base_a;
-}
 
 typedef struct cell_list {
   int64_t n_nodes, n_cells;

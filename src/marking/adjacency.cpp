@@ -2,13 +2,12 @@
 #include "marking/adjacency.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <limits>
-#include <memory>
 
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
+#include "marking/cells.hpp"
+#include "marking/incidence.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -28,6 +27,7 @@ template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;
   resize(made.offsets, n_nodes + 1);
+  view(made.offsets)[0] = 0;
   const auto neighbors_of = [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
     neighbors.clear();
     append(i, neighbors);
@@ -63,118 +63,49 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
   return made;
 }
 
-// The items (cells or faces) that each node is in, in no particular order.
-struct ItemsOfNodes {
-  std::vector<std::int64_t> offsets, items;
-};
+// Lists for incidence.hpp of the faces between two cells: the cells are the nodes. An entry is a face.
+struct InnerFaces {
+  static constexpr std::int64_t most_neighbors = 1;
 
-// nodes_of(item, visit) calls visit for each node of an item.
-template <class NodesOf>
-ItemsOfNodes items_of_nodes(std::int64_t n_nodes, std::int64_t n_items, int n_threads, const NodesOf &nodes_of) {
-  const auto n = static_cast<std::size_t>(n_nodes);
-  const auto next = std::make_unique<std::atomic<std::int64_t>[]>(n + 1);
-  for (std::size_t i = 0; i <= n; ++i) next[i].store(0, std::memory_order_relaxed);
-  parallel_for_ranges(n_items, rows_per_block, n_threads, [&](const Range &range, int) {
-    for (std::int64_t item = range.begin; item < range.end; ++item) {
-      nodes_of(item, [&](std::int64_t node) { next.get()[node].fetch_add(1, std::memory_order_relaxed); });
+  IntegerArray owner, neighbor;
+  std::int64_t stride, base;
+  std::int64_t n_nodes, n_items;
+
+  template <class Visit>
+  void for_each_entry(const Range &range, const Visit &visit) const {
+    for (std::int64_t face = range.begin; face < range.end; ++face) {
+      const std::int64_t other = neighbor[face * stride] - base;
+      if (other < 0) continue;
+      visit(owner[face * stride] - base, face);
+      visit(other, face);
     }
-  });
-  ItemsOfNodes made;
-  made.offsets.resize(n + 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    made.offsets[i + 1] = made.offsets[i] + next[i].load(std::memory_order_relaxed);
-    next[i].store(made.offsets[i], std::memory_order_relaxed);
   }
-  resize(made.items, made.offsets[n]);
-  parallel_for_ranges(n_items, rows_per_block, n_threads, [&](const Range &range, int) {
-    for (std::int64_t item = range.begin; item < range.end; ++item) {
-      nodes_of(item, [&](std::int64_t node) {
-        const std::int64_t at = next.get()[node].fetch_add(1, std::memory_order_relaxed);
-        view(made.items)[at] = item;
-      });
-    }
-  });
-  return made;
-}
-
-// A cell's edges, as pairs of positions in its list of nodes. The number of nodes decides the shape.
-struct CellShape {
-  int n_edges;
-  std::array<std::array<std::uint8_t, 2>, 12> edges;
+  template <class Visit>
+  void for_each_neighbor(std::int64_t face, std::int64_t node, const Visit &visit) const {
+    const std::int64_t a = owner[face * stride] - base, b = neighbor[face * stride] - base;
+    visit(a == node ? b : a);
+  }
+  void prefetch(std::int64_t) const {}
 };
-constexpr CellShape tetrahedron{6, {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}}};
-constexpr CellShape pyramid{8, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}}};
-constexpr CellShape prism{9, {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}}};
-constexpr CellShape hexahedron{
-    12, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}};
 
-const CellShape *shape_of(std::int64_t n_nodes) {
-  switch (n_nodes) {
-    case 4:
-      return &tetrahedron;
-    case 5:
-      return &pyramid;
-    case 6:
-      return &prism;
-    case 8:
-      return &hexahedron;
+template <class Id>
+OwnAdjacency adjacency_from_cells_with(const riis_cells &given, int n_threads, const NarrowLimits &limits) {
+  const Cells<Id> cells(given, n_threads);
+  const auto made_of = [&](const auto &lists) {
+    return adjacency_of_lists(lists, cells.n_listed(), n_threads, limits);
+  };
+  if (given.offsets) return made_of(CellsOfAnyShape<Id>(cells));
+  switch (given.nodes_per_cell) {
+    case tetrahedron.n_nodes:
+      return made_of(CellsOfOneShape<Id, tetrahedron>(cells));
+    case pyramid.n_nodes:
+      return made_of(CellsOfOneShape<Id, pyramid>(cells));
+    case prism.n_nodes:
+      return made_of(CellsOfOneShape<Id, prism>(cells));
     default:
-      return nullptr;
+      return made_of(CellsOfOneShape<Id, hexahedron>(cells));
   }
 }
-
-// The caller's cells, checked.
-class Cells {
- public:
-  explicit Cells(const riis_cells &cells) : cells_(cells), base_(cells.index_base) {
-    check_count("cells.n_nodes", cells.n_nodes, 0);
-    check_count("cells.n_cells", cells.n_cells, 0);
-    check_bits("cells.id_bits", cells.id_bits);
-    check_base("cells.index_base", cells.index_base);
-    if (cells.n_cells > 0) require(cells.node_ids, "cells.node_ids");
-    nodes_ = {cells.node_ids, cells.id_bits == 64};
-    if (cells.offsets) {
-      offsets_ = {cells.offsets, cells.id_bits == 64};
-      first_offset_ = offsets_[0];
-      if (first_offset_ != 0 && first_offset_ != base_)
-        fail(RIIS_INVALID_MESH, "cells.offsets begins with ", first_offset_,
-             "; it must begin with 0 or with index_base, ", base_);
-    } else if (!shape_of(cells.nodes_per_cell))
-      fail(RIIS_INVALID_ARGUMENT, "cells.nodes_per_cell is ", cells.nodes_per_cell, "; it must be 4, 5, 6 or 8");
-    // All offsets are checked before any node: only then is it known where the nodes end.
-    if (offsets_.data)
-      for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_size(cell);
-    for (std::int64_t cell = 0; cell < cells.n_cells; ++cell) check_nodes(cell);
-  }
-
-  std::int64_t begin(std::int64_t cell) const {
-    return offsets_.data ? offsets_[cell] - first_offset_ : cell * cells_.nodes_per_cell;
-  }
-  std::int64_t size(std::int64_t cell) const { return begin(cell + 1) - begin(cell); }
-  std::int64_t node(std::int64_t cell, std::int64_t k) const { return nodes_[begin(cell) + k] - base_; }
-
- private:
-  // Checks the numbers as they are given: subtracting unchecked numbers may overflow.
-  void check_size(std::int64_t cell) const {
-    const std::int64_t from = offsets_[cell], to = offsets_[cell + 1];
-    if (to < from || !shape_of(to - from))
-      fail(RIIS_INVALID_MESH, "the nodes of cell ", cell, " are given from ", from, " to ", to,
-           "; there are cells of 4, 5, 6 and 8 nodes");
-  }
-
-  void check_nodes(std::int64_t cell) const {
-    for (std::int64_t k = 0; k < size(cell); ++k) {
-      const std::int64_t given = nodes_[begin(cell) + k];
-      if (given < base_ || given >= cells_.n_nodes + base_)
-        fail(RIIS_INVALID_MESH, "node ", k, " of cell ", cell, " is ", given, "; there are nodes ", base_, " to ",
-             cells_.n_nodes - 1 + base_);
-    }
-  }
-
-  const riis_cells &cells_;
-  std::int64_t base_, first_offset_ = 0;
-  IntegerArray nodes_, offsets_;
-};
 
 }  // namespace
 
@@ -227,24 +158,14 @@ riis_csr OwnAdjacency::csr() const {
           0};
 }
 
-OwnAdjacency adjacency_from_cells(const riis_cells &given, int n_threads) {
-  const Cells cells(given);
-  const ItemsOfNodes cells_of =
-      items_of_nodes(given.n_nodes, given.n_cells, n_threads, [&](std::int64_t cell, const auto &visit) {
-        for (std::int64_t k = 0; k < cells.size(cell); ++k) visit(cells.node(cell, k));
-      });
-  return rows_of(given.n_nodes, n_threads, [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
-    for (std::int64_t k = view(cells_of.offsets)[i]; k < view(cells_of.offsets)[i + 1]; ++k) {
-      const std::int64_t cell = view(cells_of.items)[k];
-      const CellShape &shape = *shape_of(cells.size(cell));
-      for (int e = 0; e < shape.n_edges; ++e) {
-        const auto &edge = view(shape.edges)[e];
-        const std::int64_t a = cells.node(cell, edge[0]), b = cells.node(cell, edge[1]);
-        if (a == i && b != i) neighbors.push_back(b);
-        if (b == i && a != i) neighbors.push_back(a);
-      }
-    }
-  });
+OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads, const NarrowLimits &limits) {
+  check_count("cells.n_nodes", cells.n_nodes, 0);
+  check_count("cells.n_cells", cells.n_cells, 0);
+  check_bits("cells.id_bits", cells.id_bits);
+  check_base("cells.index_base", cells.index_base);
+  if (cells.n_cells > 0) require(cells.node_ids, "cells.node_ids");
+  return cells.id_bits == 64 ? adjacency_from_cells_with<std::int64_t>(cells, n_threads, limits)
+                             : adjacency_from_cells_with<std::int32_t>(cells, n_threads, limits);
 }
 
 OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
@@ -261,8 +182,7 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  const auto end_of = [&](const IntegerArray &ends, std::int64_t face) { return ends[face * faces.stride] - base; };
-  // Checks the numbers as they are given, as for cells.
+  // Checks the numbers as they are given: subtracting unchecked numbers may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)
@@ -276,19 +196,8 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
     check("owner", face, owner, base);
     check("neighbor", face, neighbor, base - 1);
   }
-  const ItemsOfNodes faces_of =
-      items_of_nodes(faces.n_cells, faces.n_faces, n_threads, [&](std::int64_t face, const auto &visit) {
-        if (end_of(neighbor, face) < 0) return;
-        visit(end_of(owner, face));
-        visit(end_of(neighbor, face));
-      });
-  return rows_of(faces.n_cells, n_threads, [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
-    for (std::int64_t k = view(faces_of.offsets)[i]; k < view(faces_of.offsets)[i + 1]; ++k) {
-      const std::int64_t face = view(faces_of.items)[k];
-      const std::int64_t a = end_of(owner, face), b = end_of(neighbor, face);
-      if (a != b) neighbors.push_back(a == i ? b : a);
-    }
-  });
+  return adjacency_of_lists(InnerFaces{owner, neighbor, faces.stride, base, faces.n_cells, faces.n_faces},
+                            2 * faces.n_faces, n_threads, {});
 }
 
 OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads) {

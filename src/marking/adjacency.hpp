@@ -6,9 +6,10 @@
 #include <riis/riis.h>
 
 #include <cstdint>
-#include <vector>
+#include <limits>
 
 #include "base/integer_array.hpp"
+#include "base/unfilled.hpp"
 
 namespace riis {
 
@@ -41,14 +42,20 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes);
 
 // Rows that the library owns.
 struct OwnAdjacency {
-  std::vector<std::int64_t> offsets;
-  std::vector<std::int32_t> columns_32;  // for fewer than 2^31 nodes
-  std::vector<std::int64_t> columns_64;  // otherwise
+  UnfilledVector<std::int64_t> offsets;
+  UnfilledVector<std::int32_t> columns_32;  // for fewer than 2^31 nodes
+  UnfilledVector<std::int64_t> columns_64;  // otherwise
 
   riis_csr csr() const;
 };
 
-OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads);
+// Up to these numbers, 32 bits hold what is counted: the nodes of all cells, and the columns. A test lowers them.
+struct NarrowLimits {
+  std::int64_t n_entries = std::numeric_limits<std::uint32_t>::max();
+  std::int64_t n_nodes = std::numeric_limits<std::int32_t>::max();
+};
+
+OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads, const NarrowLimits &limits = {});
 OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads);
 OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads);
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cost of riis_adjacency_create_from_cells beside the loop that it was (plain_adjacency.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include "contest.hpp"
+
+namespace bench {
+
+// Adds bars on times and on peak memory for the tetrahedra of a cylinder, numbered in lines and at random. Returns false if the
+// rows differ. Call this before other threads run: memory is measured in processes that this one forks.
+bool compare_adjacencies(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts);
+
+}  // namespace bench

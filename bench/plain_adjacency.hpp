@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop that riis_adjacency_create_from_cells was before it counted into 32-bit entries: its competitor.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace bench {
+
+struct PlainRows {
+  std::vector<std::int64_t> offsets;
+  std::vector<std::int32_t> columns;
+};
+
+// Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be right, and there must be fewer
+// than 2^31 nodes.
+PlainRows plain_adjacency(const riis_cells &cells, int n_threads);
+
+}  // namespace bench
