@@ -15,37 +15,38 @@ module flow_files
 
 contains
 
-  !> Opens the table of steps, and goes on with one that is there.
+  !> Opens the table of steps: a new one, or at its end after a restart.
   subroutine open_table(name, unit)
     character(len=*), intent(in) :: name
     integer, intent(out) :: unit
     character(len=200) :: message
-    logical :: old
     integer :: stat
-    inquire (file=name, exist=old)
-    if (step_number == 0) old = .false.
-    if (old) open (newunit=unit, file=name, position='append', action='write', iostat=stat, iomsg=message)
-    if (.not. old) open (newunit=unit, file=name, status='replace', action='write', iostat=stat, iomsg=message)
+    open (newunit=unit, file=name, position='append', action='write', iostat=stat, iomsg=message, &
+      status=merge('replace', 'unknown', step_number == 0))
     if (stat /= 0) call refuse(trim(message))
-    if (.not. old) write (unit, '(a)') 'step,time_s,dt_s,opening,p_ventricle_Pa,p_upstream_Pa,p_downstream_Pa,' // &
+    inquire (unit=unit, size=stat)
+    if (stat == 0) write (unit, '(a)') 'step,time_s,dt_s,opening,p_ventricle_Pa,p_upstream_Pa,p_downstream_Pa,' // &
       'flow_m3_per_s,jet_m_per_s,force_x_N,force_y_N,force_z_N,divergence_per_s,in_less_out_m3_per_s,iterations,marked'
   end subroutine open_table
 
   !> Writes a frame of the movie: velocity and pressure in the cells beside x = 0, velocity in the layer at z = height, and the
-  !! cuts of the leaflets by both planes. Walls are NaN.
+  !! leaflets' triangles. Walls are NaN.
   subroutine write_frame(name, fluid, valve, height)
     character(len=*), intent(in) :: name
     type(flow), intent(in) :: fluid
     type(leaflets), intent(in) :: valve
     real(dp), intent(in) :: height
+    real(dp), pointer :: xyz(:, :)
+    integer(int64), pointer :: corner(:, :)
     integer :: unit, layer
     open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
     layer = product(fluid%n(1:2)) * floor((height - fluid%corner(3)) / fluid%h)
     write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening, valve%eps], real32)
     call write_slice(unit, fluid, fluid%cell(fluid%n(1) / 2 + 1::fluid%n(1)), .true.)
     call write_slice(unit, fluid, fluid%cell(layer + 1:layer + product(fluid%n(1:2))), .false.)
-    call write_cut(unit, valve, 1, 0._dp)
-    call write_cut(unit, valve, 3, height)
+    call valve%surface%vertices(xyz)
+    call valve%surface%triangles(corner)
+    write (unit) size(corner, 2), real(xyz(:, reshape(corner, [size(corner)]) + 1), real32)
     close (unit)
   end subroutine write_frame
 
@@ -64,32 +65,6 @@ contains
       write (unit) values(:, c)
     end do
   end subroutine write_slice
-
-  ! The segments in which the leaflets' triangles cut a plane across an axis: their number, and two points of each.
-  subroutine write_cut(unit, valve, axis, position)
-    integer, intent(in) :: unit, axis
-    type(leaflets), intent(in) :: valve
-    real(dp), intent(in) :: position
-    real(dp), pointer :: xyz(:, :)
-    integer(int64), pointer :: corner(:, :)
-    real(real32), allocatable :: ends(:, :)
-    real(dp) :: a(3), b(3)
-    integer :: i, side, n
-    call valve%surface%vertices(xyz)
-    call valve%surface%triangles(corner)
-    allocate (ends(3, 2 * size(corner, 2)))
-    n = 0
-    do i = 1, size(corner, 2)
-      do side = 1, 3
-        a = xyz(:, corner(side, i) + 1)
-        b = xyz(:, corner(mod(side, 3) + 1, i) + 1)
-        if ((a(axis) < position) .eqv. (b(axis) < position)) cycle ! two sides of a triangle cross the plane, or none
-        n = n + 1
-        ends(:, n) = real(a + (b - a) * (position - a(axis)) / (b(axis) - a(axis)), real32)
-      end do
-    end do
-    write (unit) int(n / 2, int32), ends(:, :n)
-  end subroutine write_cut
 
   ! Gives what makes a run this run: grid, valve, its parameters and its placement, as "name value" in lines of a file.
   subroutine get_identity(fluid, valve, lines)

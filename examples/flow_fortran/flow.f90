@@ -71,7 +71,7 @@ program flow_through_valve
     valve%seconds, ', ', 100 * valve%seconds / seconds, ' %; markings: ', valve%markings, ', ', &
     1000 * valve%seconds / max(1, valve%markings), ' ms each'
   call valve%finish()
-  call fluid%finish()
+  call fluid%equation%finish()
 
 contains
 

@@ -38,6 +38,18 @@ def read_table(path):
     return dict(zip(names, np.array(rows, float).T))
 
 
+def cut(triangles, axis, position):
+    """Returns the segments in which triangles (n, 3, 3) cut a plane across an axis: an array (n, 2, 3)."""
+    above = triangles[:, :, axis] >= position
+    triangles = triangles[above.any(axis=1) & ~above.all(axis=1)]
+    above = triangles[:, :, axis] >= position
+    start, end = triangles, np.roll(triangles, -1, axis=1)
+    crosses = above != np.roll(above, -1, axis=1)  # two sides of each triangle
+    start, end = start[crosses], end[crosses]
+    share = (position - start[:, axis]) / (end[:, axis] - start[:, axis])
+    return (start + share[:, None] * (end - start)).reshape(-1, 2, 3)
+
+
 class Frame:
     """Two slices of the flow, with the cut of the leaflets."""
 
@@ -50,10 +62,11 @@ class Frame:
         self.long_axis = self.take("<f4", 3 * ny * nz).reshape(3, nz, ny)
         self.pressure = self.take("<f4", ny * nz).reshape(nz, ny) / MMHG
         self.section = self.take("<f4", 3 * nx * ny).reshape(3, ny, nx)
-        self.long_cut = self.take("<f4", 6 * self.take("<i4", 1)[0]).reshape(-1, 2, 3)
-        self.section_cut = self.take("<f4", 6 * self.take("<i4", 1)[0]).reshape(-1, 2, 3)
+        triangles = self.take("<f4", 9 * self.take("<i4", 1)[0]).reshape(-1, 3, 3).astype(float)
         if self.offset != len(data):
             stop(f"{path} has {len(data)} bytes; {self.offset} were expected")
+        self.long_cut = cut(triangles, 0, 0.0)
+        self.section_cut = cut(triangles, 2, self.height)
         to_cm = 100
         self.x = to_cm * (x + h * np.arange(nx + 1))
         self.y = to_cm * (y + h * np.arange(ny + 1))

@@ -58,7 +58,6 @@ contains
     logical, intent(out) :: failed                             ! no convergence
     integer(int64) :: cg, multigrid
     integer :: ierr
-    integer, parameter :: most_iterations = 200
     call HYPRE_StructMatrixSetBoxValues(this%matrix, [1, 1, 1], this%n, 4, [0, 1, 2, 3], coefficient, ierr)
     call HYPRE_StructMatrixAssemble(this%matrix, ierr)
     call HYPRE_StructVectorSetBoxValues(this%right, [1, 1, 1], this%n, b, ierr)
@@ -74,7 +73,7 @@ contains
     call HYPRE_StructPCGCreate(MPI_COMM_SELF, cg, ierr)
     call HYPRE_StructPCGSetTwoNorm(cg, 1, ierr)
     call HYPRE_StructPCGSetTol(cg, tolerance, ierr)
-    call HYPRE_StructPCGSetMaxIter(cg, most_iterations, ierr)
+    call HYPRE_StructPCGSetMaxIter(cg, 200, ierr)
     call HYPRE_StructPCGSetPrecond(cg, pfmg, multigrid, ierr)
     call HYPRE_StructPCGSetup(cg, this%matrix, this%right, this%left, ierr)
     call HYPRE_StructPCGSolve(cg, this%matrix, this%right, this%left, ierr)

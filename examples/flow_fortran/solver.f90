@@ -31,7 +31,7 @@ module flow_solver
     real(dp), allocatable, private :: A(:, :), p_before(:), coefficient(:, :), x(:), predicted(:)
     type(pressure_equation) :: equation
   contains
-    procedure :: start, step, time_step, divergence, flow_in, flow_out, mean_pressure, centre, finish
+    procedure :: start, step, time_step, divergence, flow_in, flow_out, mean_pressure, centre
   end type flow
 
   abstract interface
@@ -50,62 +50,55 @@ contains
     integer, intent(in) :: n(3)
     real(dp), intent(in) :: h, corner(3)
     procedure(lumen_function) :: lumen
-    integer :: all, c, i, j, k, last(3), m, pass, f
+    integer :: all, area, c, f, first, i, j, k, q, s(3)
+    s = [1, n(1) + 5, (n(1) + 5) * (n(2) + 5)]    ! numbers run from -1 to n + 3 in each direction
+    all = s(3) * (n(3) + 5)
+    area = n(1) * n(2)
     this%n = n
     this%h = h
     this%corner = corner
-    this%stride = [1, n(1) + 5, (n(1) + 5) * (n(2) + 5)]
-    all = this%stride(3) * (n(3) + 5)             ! numbers run from -1 to n + 3 in each direction
-    allocate (this%solid(all), this%closed(all, 3), this%v(all, 3), this%p(all), this%A(all, 3), this%cell(product(n)))
-    allocate (this%coefficient(0:3, product(n)), this%b(product(n)), this%x(product(n)), this%inlet(0), this%outlet(0))
+    this%stride = s
+    allocate (this%cell(product(n)), this%solid(all), this%closed(all, 3), this%v(all, 3), this%p(all), this%A(all, 3))
+    allocate (this%coefficient(0:3, product(n)), this%b(product(n)), this%x(product(n)))
     this%solid = .true.
     this%closed = .true.
     this%v = 0
     this%p = 0
     this%A = 0
-    m = 0
-    do k = 1, n(3); do j = 1, n(2); do i = 1, n(1)
-      m = m + 1
-      this%cell(m) = number(this, i, j, k)
-      this%solid(this%cell(m)) = .not. lumen(this%centre(this%cell(m)))
-    end do; end do; end do
-    do i = 1, 2                                   ! beyond its ends the lumen goes on
-      do k = this%stride(3) + 1, 2 * this%stride(3)
-        this%solid(k + (1 - i) * this%stride(3)) = this%solid(k + this%stride(3))
-        this%solid(k + (n(3) + i) * this%stride(3)) = this%solid(k + n(3) * this%stride(3))
+    this%cell = [(((1 + dot_product([i, j, k] + 1, s), i = 1, n(1)), j = 1, n(2)), k = 1, n(3))]
+    do q = 1, size(this%cell)
+      this%solid(this%cell(q)) = .not. lumen(this%centre(this%cell(q)))
+    end do
+    do k = 1, 2                                   ! beyond its ends the lumen goes on
+      this%solid(this%cell(:area) - k * s(3)) = this%solid(this%cell(:area))
+      this%solid(this%cell(product(n) - area + 1:) + k * s(3)) = this%solid(this%cell(product(n) - area + 1:))
+    end do
+    do c = 1, 3
+      this%closed(1 + s(c):, c) = this%solid(1 + s(c):) .or. this%solid(:all - s(c))
+    end do
+    this%inlet = pack(this%cell(:area), .not. this%closed(this%cell(:area), 3))
+    this%outlet = pack(this%cell(product(n) - area + 1:), .not. this%solid(this%cell(product(n) - area + 1:))) + s(3)
+    f = count(.not. this%closed(this%cell, :)) + size(this%outlet) - merge(size(this%inlet), 0, this%imposed_inlet)
+    allocate (this%face(2, f), this%xyz(3, f), this%K(f), this%K_u(3, f), this%predicted(f))
+    f = 0
+    do c = 1, 3
+      first = merge(area + 1, 1, c == 3 .and. this%imposed_inlet)
+      do q = first, size(this%cell)
+        if (this%closed(this%cell(q), c)) cycle
+        f = f + 1
+        this%face(:, f) = [this%cell(q), c]
       end do
     end do
-    do pass = 1, 2                                ! counts, then stores
-      f = 0
-      do c = 1, 3
-        last = n
-        last(c) = n(c) + 1
-        do k = 0, n(3) + 2; do j = 0, n(2) + 2; do i = 0, n(1) + 2
-          m = number(this, i, j, k)
-          this%closed(m, c) = this%solid(m) .or. this%solid(m - this%stride(c))
-          if (this%closed(m, c) .or. any([i, j, k] < 1 .or. [i, j, k] > last)) cycle
-          if (pass == 1 .and. c == 3 .and. k == 1) this%inlet = [this%inlet, m]
-          if (pass == 1 .and. c == 3 .and. k == last(3)) this%outlet = [this%outlet, m]
-          if (this%imposed_inlet .and. c == 3 .and. k == 1) cycle
-          f = f + 1
-          if (pass == 1) cycle
-          this%face(:, f) = [m, c]
-          this%xyz(:, f) = this%centre(m)
-          this%xyz(c, f) = this%xyz(c, f) - h / 2
-        end do; end do; end do
-      end do
-      if (pass == 1) allocate (this%face(2, f), this%xyz(3, f), this%K(f), this%K_u(3, f), this%predicted(f))
+    this%face(1, f + 1:) = this%outlet
+    this%face(2, f + 1:) = 3
+    do f = 1, size(this%face, 2)
+      this%xyz(:, f) = this%centre(this%face(1, f))
+      this%xyz(this%face(2, f), f) = this%xyz(this%face(2, f), f) - h / 2
     end do
     this%K = 0
     this%K_u = 0
     call this%equation%start(n)
   end subroutine start
-
-  pure integer function number(this, i, j, k)
-    class(flow), intent(in) :: this
-    integer, intent(in) :: i, j, k
-    number = 1 + dot_product([i, j, k] + 1, this%stride)
-  end function number
 
   !> Returns the centre of cell m.
   pure function centre(this, m) result(x)
@@ -280,9 +273,4 @@ contains
     end associate
   end function mean_pressure
 
-  !> Frees HYPRE's memory; Fortran frees the rest.
-  subroutine finish(this)
-    class(flow), intent(inout) :: this
-    call this%equation%finish()
-  end subroutine finish
 end module flow_solver

@@ -45,7 +45,7 @@ contains
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
       translation=this%place, n_threads=1, status=status) ! so few triangles and nodes need no more threads
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
-    if (status == RIIS_OK) call this%faces%prepare(status=status)
+    if (status == RIIS_OK) call this%faces%prepare(n_threads=1, status=status)
     call check(status)
     allocate (this%marked(0))
     call system_clock(end)

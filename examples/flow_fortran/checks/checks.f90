@@ -139,7 +139,7 @@ contains
       order = log([error(i - 1) / error(i), flow_error(i - 1) / flow_error(i)]) / log(2._dp)
       if (i == 1) print '(i14, f13.3, a7, f9.3, a7)', n, 100 * error(i), '-', 100 * flow_error(i), '-'
       if (i > 1) print '(i14, f13.3, f7.2, f9.3, f7.2)', n, 100 * error(i), order(1), 100 * flow_error(i), order(2)
-      call fluid%finish()
+      call fluid%equation%finish()
     end do
     call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
   end subroutine check_duct
@@ -166,7 +166,7 @@ contains
       drop = drop_of(fluid) - before
       worst = max(worst, abs(drop / (R / eps * u) - 1))
       print '(f9.2, f11.2, f16.2, f7.4)', 1e3_dp * dt, drop / 1000, R / eps * u / 1000, drop / (R / eps * u)
-      call fluid%finish()
+      call fluid%equation%finish()
     end do
     call demand(worst < 0.05_dp, 'each is within 5 % of (R/eps) u')
   end subroutine check_drop
@@ -196,7 +196,7 @@ contains
       worst = max(worst, abs(drop / expected - 1))
       print '(i8, f12.3, 2f10.4)', i, i * dt, drop, expected
     end do
-    call fluid%finish()
+    call fluid%equation%finish()
     call demand(worst < 0.05_dp, 'the drop builds up as expected, within 5 %')
   end subroutine check_slow_drop
 
@@ -248,7 +248,7 @@ contains
         call fluid%step(dt, 0._dp, 0._dp)
       end do
       u(with) = fluid%flow_out() / (64 * h**2)
-      call fluid%finish()
+      call fluid%equation%finish()
       fluid = flow()
       valve%moves_flow = with == 1
       call start_root(fluid, valve, 24, 1.5_dp, 1e4_dp, 1._dp)
@@ -294,20 +294,22 @@ contains
   subroutine finish_root(fluid, valve)
     type(flow), intent(inout) :: fluid
     type(leaflets), intent(inout) :: valve
-    call fluid%finish()
+    call fluid%equation%finish()
     call valve%finish()
     deallocate (valve%marked)
   end subroutine finish_root
 
   ! (f) What R and eps do: the drop of a plate anywhere between faces, and the leak of the closed aortic valve.
   subroutine study()
-    real(dp), parameter :: h = 1e-3_dp, u = 0.1_dp, cells_of_eps(6) = [0.75_dp, 1._dp, 1.25_dp, 1.5_dp, 2._dp, 3._dp]
+    real(dp), parameter :: h = 1e-3_dp, u = 0.1_dp, &
+      cells_of_eps(8) = [0.35_dp, 0.5_dp, 0.75_dp, 1._dp, 1.25_dp, 1.5_dp, 2._dp, 3._dp]
     real(dp), parameter :: dp_closed = 80 * 133.322_dp
     integer, parameter :: sizes(3) = [24, 40, 56]
     type(flow), target :: fluid
     type(leaflets) :: valve
+    type(riis_surface_info) :: info
     real(dp) :: drop(0:9), eps, R, ideal
-    integer :: i, j, k
+    integer :: i, iterations, j, k
     print '(a)', 'Drop of a plate in one step, over (R/eps) u: least and largest of 10 places between two faces'
     print '(a)', '  eps/h     least   largest'
     do i = 1, size(cells_of_eps)
@@ -319,12 +321,13 @@ contains
         call put_plate(fluid, (12 + j / 10._dp) * h, 1e4_dp, eps, 0._dp, .true.)
         call fluid%step(1e-3_dp, u, 0._dp)
         drop(j) = drop_of(fluid) / (1e4_dp / eps * u)
-        call fluid%finish()
+        call fluid%equation%finish()
       end do
       print '(f7.2, 2f10.4)', cells_of_eps(i), minval(drop), maxval(drop)
     end do
-    print '(/a)', 'Leak of the closed aortic valve at 80 mmHg. Ideal: dp eps/R through the area of the root, 4.91 cm^2'
-    print '(a)', '  cells  eps/h  eps, mm       R  leak, ml/s  ideal  ratio  iterations'
+    print '(/a)', 'Leak of the closed aortic valve at 80 mmHg, and the most iterations of a step'
+    print '(a)', 'Ideal is dp eps/R through the area of the leaflets'
+    print '(a)', '  cells  eps/h  eps, mm       R  leak, ml/s    ideal   ratio  iterations'
     do k = 1, size(sizes)
       do i = 1, size(cells_of_eps)
         do j = 3, 5
@@ -333,12 +336,15 @@ contains
           fluid = flow()
           call start_root(fluid, valve, sizes(k), cells_of_eps(i), R, 0._dp)
           call valve%move(0._dp, 1e-3_dp, fluid)
+          iterations = 0
           do step_number = 1, 20
-            call fluid%step(1e-3_dp, 0._dp, dp_closed)
+            call fluid%step(fluid%time_step(1e-3_dp), 0._dp, dp_closed)
+            iterations = max(iterations, fluid%equation%iterations)
           end do
-          ideal = dp_closed * valve%eps / R * pi * 0.0125_dp**2
-          print '(i7, f7.2, f9.3, es8.0, f12.2, f7.2, f7.2, i12)', sizes(k), cells_of_eps(i), valve%eps * 1000, R, &
-            -1e6_dp * fluid%flow_out(), 1e6_dp * ideal, -fluid%flow_out() / ideal, fluid%equation%iterations
+          call valve%surface%get_info(info)
+          ideal = dp_closed * valve%eps / R * info%area
+          print '(i7, f7.2, f9.3, es8.0, f12.2, f9.2, f8.2, i12)', sizes(k), cells_of_eps(i), valve%eps * 1000, R, &
+            -1e6_dp * fluid%flow_out(), 1e6_dp * ideal, -fluid%flow_out() / ideal, iterations
           call finish_root(fluid, valve)
         end do
       end do
