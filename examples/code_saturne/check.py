@@ -118,8 +118,8 @@ def compare_ranks(report, text, one, many):
     resistances = sum(one["resistances"][i] == many["resistances"][i] for i in range(steps))
     report.check(ids == steps, f"{text}: the same cells are marked in {ids} of {steps} time steps")
     both = sum(one["centres"][i] == many["centres"][i] and one["resistances"][i] != many["resistances"][i] for i in range(steps))
-    report.check(both == 0, f"{text}: K has the same bits in {resistances} of {steps} time steps, the centres in {centres}; "
-                            f"in {both} only the centres")
+    report.check(both == 0, f"{text}: all centres have the same bits in {centres} of {steps} time steps, all K in {resistances}; "
+                            f"the centres without K in {both}")
     return f"{ids} of {steps}"
 
 

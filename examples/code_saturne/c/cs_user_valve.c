@@ -7,7 +7,7 @@
 #include "settings.h"
 
 #include <riis/riis.h>
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 BEGIN_C_DECLS
@@ -163,7 +163,9 @@ static void advance_law(void)
   cs_parall_sum(2, CS_DOUBLE, downstream);
   const double drop = upstream[1] / upstream[0] - downstream[1] / downstream[0];
   const double flow = upstream[2] / 0.004; /* the slab is so long */
-  check(riis_opening_switch_advance(&law, &state, cs_glob_time_step->t_cur, drop, flow, &state));
+  /* Not t_cur: after a restart code_saturne's own sum of its time steps has other last bits. */
+  const double time = cs_glob_time_step->nt_cur * cs_glob_time_step->dt_ref;
+  check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }
 
 /* Refuses a valve that left the mesh: its cells would not be marked, and the flow would pass as if it were not there. The
@@ -185,7 +187,7 @@ static void advance_valve(void)
   if (valve == NULL) create_valve();
   if (setting("VALVE_OPENING") < 0) advance_law();
   check(riis_valve_set_scalar(valve, "opening", state.opening));
-  check(riis_surface_update_moving(surface, valve, valve_before, cs_glob_time_step->dt[0], NULL, NULL));
+  check(riis_surface_update_moving(surface, valve, valve_before, cs_glob_time_step->dt_ref, NULL, NULL));
   check(riis_valve_set_scalar(valve_before, "opening", state.opening));
   check_place();
 
