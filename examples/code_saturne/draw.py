@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.tri import Triangulation
 
-DT = 0.002  # s
+DT = 0.002  # s, RUN_DT of settings.c
 
 
 def leaflets_cut(opening):
@@ -74,13 +74,14 @@ def draw_flow(study, out, history):
         axis.quiver(x[::2], z[::2], rows[::2, 2], rows[::2, 4], color="white", scale=8, width=0.004)
         for ends in leaflets_cut(opening[step - 1]):
             axis.plot(1e3 * ends[:, 0], 1e3 * ends[:, 1], color="red", linewidth=2.5)
-        axis.set_title(f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa", fontsize=11)
+        title = f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa"
+        axis.set_title(title, fontsize=11)
         axis.set_aspect("equal")
         axis.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm: the ventricle is below, the aorta above")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.7)
-    figure.suptitle("The aortic root in code_saturne. Red: the leaflets; the cut runs through the middle of the right cusp, and along the "
-                    "seam of the two others")
+    figure.suptitle("The aortic root in code_saturne. Red: the leaflets; the cut runs through the middle of the right cusp, and "
+                    "along the seam of the two others")
     figure.savefig(os.path.join(out, "flow.png"), dpi=110)
     plt.close(figure)
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_example.sh SOURCE_DIR BUILD_DIR WORK_DIR CMAKE PYTHON
-# Runs the closed valve of examples/code_saturne on 1 and 2 ranks with the riis of a build tree, and checks the drop and the marks.
+# Runs the closed valve of examples/code_saturne on 1 and 2 ranks with the riis of a build tree. It checks the drop and the marks.
 # Then it shows that bad input stops the solver with a message that names the time step, and that check.py refuses bad records.
 set -euo pipefail
 source=$1 build=$2 work=$3 cmake=$4 python=$5

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A heart valve in code_saturne 6.0 by a momentum source, in Fortran. Momentum gains -K (u - u_surface): -K is the implicit part of
-! the source, K u_surface the explicit part. The pressure equation of code_saturne does not take this source into account, so the
-! pressure drop builds up over several time steps. The head losses of ../c do not have this delay.
+! A heart valve in code_saturne 6.0 by a momentum source, in Fortran. Momentum gains -K (u - u_surface): -K is the implicit part
+! of the source, K u_surface the explicit part. The pressure equation of code_saturne does not take this source into account. So
+! the pressure drop builds up over several time steps, and stays too small. The head losses of ../c do better.
 module valve_in_root
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_null_char, c_ptr
   use riis
