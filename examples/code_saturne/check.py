@@ -101,7 +101,7 @@ def runs_on_ranks(study, case, first):
 
 
 def cost_row(solver, ranks, history, equal, drop, reference):
-    """Returns a row of the table of costs. The first step is left out: it makes the surface and warms the solver."""
+    """Returns a row of the table of costs. The first step is left out: it makes the surface, and the solver's lists."""
     library, total = mean(history["seconds_riis"][1:]), mean(history["seconds"][1:])
     return [solver, ranks, int(history["cells"][0]), len(history["step"]), f"{1e3 * library:.2f} ms", f"{total:.3f} s",
             f"{100 * library / total:.2f} %", equal, drop, reference]
@@ -118,8 +118,8 @@ def compare_ranks(report, text, one, many):
     resistances = sum(one["resistances"][i] == many["resistances"][i] for i in range(steps))
     report.check(ids == steps, f"{text}: the same cells are marked in {ids} of {steps} time steps")
     both = sum(one["centres"][i] == many["centres"][i] and one["resistances"][i] != many["resistances"][i] for i in range(steps))
-    report.check(both == 0, f"{text}: K has the same bits in {resistances} of {steps} time steps, the centres in {centres}; "
-                            f"in {both} only the centres")
+    report.check(both == 0, f"{text}: all centres have the same bits in {centres} of {steps} time steps, all K in {resistances}; "
+                            f"the centres without K in {both}")
     return f"{ids} of {steps}"
 
 
@@ -146,8 +146,8 @@ def check_closed(report, study):
         one = first[case] = read_history(study, case, "closed_1")
         cells = read_cells(study, case, "closed_1", steps)
         report.check(abs(one["drop"][-1] / target - 1) <= tolerance,
-                     f"{language}: the drop is {one['drop'][-1]:.2f} Pa after {len(one['step'])} time steps, {target:.2f} Pa by the "
-                     f"solver's own zone, {100 * (one['drop'][-1] / target - 1):+.3f} % (limit {100 * tolerance:g} %)")
+                     f"{language}: the drop is {one['drop'][-1]:.2f} Pa after {len(one['step'])} time steps, {target:.2f} Pa "
+                     f"by the solver's own zone, {100 * (one['drop'][-1] / target - 1):+.3f} % (limit {100 * tolerance:g} %)")
         for ranks in runs_on_ranks(study, case, "closed"):
             history = read_history(study, case, f"closed_{ranks}")
             equal = "-"
@@ -160,11 +160,13 @@ def check_closed(report, study):
     rows.append(cost_row("the solver's own zone", 1, reference, "-", f"{target:.1f}", f"{flat:.0f} (flat)"))
     report.check(first["c"]["resistances"][0] == first["fortran"]["resistances"][0],
                  "C and Fortran: the same cells are marked, and K has the same bits")
-    # The leaflets are larger than the tube's section, so the flow through them is slower. The integral of K is R/eps times their area.
+    # The leaflets are larger than the tube's section, so the flow through them is slower. The integral of K is R/eps times
+    # their area.
     ratio, one = RESISTANCE / HALF_THICKNESS, first["c"]
     curved = ratio * one["flow"][-1] / (one["integral"][-1] / ratio)
-    report.check(abs(target / curved - 1) < 0.2, f"the solver's own zone: the drop is {target:.1f} Pa; R/eps times the flow over the "
-                 f"area of the leaflets is {curved:.1f} Pa (limit 20 %), R/eps u of a flat valve {flat:.0f} Pa")
+    report.check(abs(target / curved - 1) < 0.2,
+                 f"the solver's own zone: the drop is {target:.1f} Pa; R/eps times the flow over the area of the leaflets is "
+                 f"{curved:.1f} Pa (limit 20 %), R/eps u of a flat valve {flat:.0f} Pa")
     chosen = [i for i in (1, 2, 3, 5, 10, 20, 30, 40, 60, 80, 100) if i <= len(first["fortran"]["step"])]
     report.table("The drop over the time steps after a sudden start, in Pa", ["time step"] + [str(i) for i in chosen],
                  [[name] + [f"{history['drop'][i - 1]:.0f}" if i <= len(history["drop"]) else "" for i in chosen]
@@ -180,8 +182,9 @@ def check_open(report, study):
     scale = closed["drop"][-1] * 0.2 / INFLOW
     difference = with_valve["drop"][-1] - without["drop"][-1]
     report.check(abs(difference) < 0.05 * scale,
-                 f"the open valve: the drop at 20 cm/s is {with_valve['drop'][-1]:.2f} Pa, without a valve {without['drop'][-1]:.2f} Pa; "
-                 f"the difference is {100 * difference / scale:.2f} % of what the closed valve would have, {scale:.0f} Pa (limit 5 %)")
+                 f"the open valve: the drop at 20 cm/s is {with_valve['drop'][-1]:.2f} Pa, without a valve "
+                 f"{without['drop'][-1]:.2f} Pa; the difference is {100 * difference / scale:.2f} % of what the closed valve "
+                 f"would have, {scale:.0f} Pa (limit 5 %)")
 
 
 def check_beat(report, study):
@@ -194,8 +197,8 @@ def check_beat(report, study):
         report.check(beat["opening"][0] == 0 and top > 0.99 and beat["opening"][-1] < 0.01,
                      f"{language}: the pressures open the valve to {top:.3f} and close it to {beat['opening'][-1]:.3f}")
         forward, backward = max(beat["flow"]), abs(beat["flow"][-1])
-        report.check(backward < 0.5 * forward, f"{language}: the flow is up to {1e6 * forward:.0f} ml/s, and -{1e6 * backward:.0f} ml/s "
-                                               f"through the valve that closed")
+        report.check(backward < 0.5 * forward, f"{language}: the flow is up to {1e6 * forward:.0f} ml/s, and "
+                                               f"-{1e6 * backward:.0f} ml/s through the valve that closed")
         rows.append(cost_row(language, 1, beat, "-", "", ""))
         for ranks in runs_on_ranks(study, case, "beat"):
             history = read_history(study, case, f"beat_{ranks}")
@@ -207,8 +210,9 @@ def check_beat(report, study):
     n = min(len(beat["drop"]), len(still["drop"]))
     differences = [abs(beat["drop"][i] - still["drop"][i]) for i in range(n)]
     i = differences.index(max(differences))
-    report.check(max(differences) > 1, f"without u_surface the drop differs by up to {differences[i]:.0f} Pa: at {beat['time'][i]:.3f} s, "
-                                       f"opening {beat['opening'][i]:.2f}, it is {beat['drop'][i]:.0f} Pa with it, {still['drop'][i]:.0f} Pa without")
+    report.check(max(differences) > 1,
+                 f"without u_surface the drop differs by up to {differences[i]:.0f} Pa: at {beat['time'][i]:.3f} s, opening "
+                 f"{beat['opening'][i]:.2f}, it is {beat['drop'][i]:.0f} Pa with it, {still['drop'][i]:.0f} Pa without")
     report.table("The beat", COST_HEAD[:-2], [row[:-2] for row in rows])
 
 

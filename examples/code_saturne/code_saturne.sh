@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run code_saturne, which reads this file, and of the test example_code_saturne. A study of code_saturne has one case
-# for each language: c, fortran, and reference, which has a head-loss zone of the solver's own. Each run of a case has a name.
+# The steps of ./run code_saturne, which reads this file, and of the test example_code_saturne. A study of code_saturne has one
+# case for each language, c and fortran, and one with a head-loss zone of the solver's own, reference. Each run has a name.
 
 # saturne_environment WORK PREFIX: prepares for runs in the folder WORK with the riis that is installed in PREFIX.
 saturne_environment() {
@@ -43,8 +43,8 @@ saturne_run() {
   (cd "$saturne_work/STUDY/$case/DATA" && env "$@" timeout "${saturne_limit:-1800}" code_saturne run -n "$ranks" --id "$name")
 }
 
-# saturne_closed RANKS STEPS...: the closed valve in a flow of 5 cm/s with so many ranks, in C and Fortran for so many steps. After
-# the first of them the solver's own head-loss zone has the same cells and the same K.
+# saturne_closed STEPS FORTRAN_STEPS RANKS...: the closed valve in a flow of 5 cm/s, in C and in Fortran, with each number of
+# ranks. Then the solver's own head-loss zone has the same cells and the same K.
 saturne_closed() {
   local ranks steps=$1 fortran_steps=$2 cells=$saturne_work/STUDY/c/RESU/closed_1
   shift 2
@@ -129,6 +129,7 @@ code_saturne_example() {
     step "open valve, and none" saturne_open
     step "a beat, on 1, 2 and 4 ranks, continued in the middle, and without a valve (the longest)" saturne_beat
   fi
-  "$python" -B examples/code_saturne/check.py "$folder/STUDY" "${parts[@]}" --out out/code_saturne | tee out/code_saturne/checks.md
+  "$python" -B examples/code_saturne/check.py "$folder/STUDY" "${parts[@]}" --out out/code_saturne |
+    tee out/code_saturne/checks.md
   say "left: out/code_saturne/checks.md, with the tables, and out/code_saturne/*.png"
 }

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.tri import Triangulation
 
-DT = 0.002  # s
+DT = 0.002  # s, RUN_DT of settings.c
 
 
 def leaflets_cut(opening):
@@ -61,7 +61,7 @@ def draw_flow(study, out, history):
     half = next(i for i in range(len(opening)) if opening[i] > 0.4)
     closing = next(i for i in range(top, len(opening)) if opening[i] < 0.4) if opening[-1] < 0.4 else len(opening) - 1
     chosen = [nearest(step + 1) for step in (half - 18, half, jet, closing, len(opening) - 1)]
-    figure, axes = plt.subplots(1, len(chosen), figsize=(3.2 * len(chosen), 7), sharey=True, constrained_layout=True)
+    figure, axes = plt.subplots(1, len(chosen), figsize=(3.2 * len(chosen), 6.2), sharey=True, constrained_layout=True)
     for axis, step in zip(axes, chosen):
         rows = np.concatenate([np.loadtxt(path, delimiter=",", ndmin=2) for path in
                                glob.glob(os.path.join(study, "c", "RESU", "beat", f"slice_{step:05d}.*.csv"))])
@@ -69,17 +69,19 @@ def draw_flow(study, out, history):
         mesh = Triangulation(x, z)
         sides = np.hypot(x[mesh.triangles] - np.roll(x[mesh.triangles], 1, axis=1),
                          z[mesh.triangles] - np.roll(z[mesh.triangles], 1, axis=1)).max(axis=1)
-        mesh.set_mask(sides > 4)  # gaps outside the curved wall
+        mesh.set_mask(sides > 6.5)  # gaps outside the curved wall
         colours = axis.tripcolor(mesh, np.minimum(speed, 0.8), shading="gouraud", vmin=0, vmax=0.8, cmap="viridis")
         axis.quiver(x[::2], z[::2], rows[::2, 2], rows[::2, 4], color="white", scale=8, width=0.004)
         for ends in leaflets_cut(opening[step - 1]):
             axis.plot(1e3 * ends[:, 0], 1e3 * ends[:, 1], color="red", linewidth=2.5)
-        axis.set_title(f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa", fontsize=11)
+        title = f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa"
+        axis.set_title(title, fontsize=11)
         axis.set_aspect("equal")
         axis.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm: the ventricle is below, the aorta above")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.7)
-    figure.suptitle("The aortic root in code_saturne, cut through the middle of one cusp (red: the leaflets)")
+    figure.suptitle("The aortic root in code_saturne. Red: the leaflets; the cut runs through the middle of the right cusp, and "
+                    "along the seam of the two others")
     figure.savefig(os.path.join(out, "flow.png"), dpi=110)
     plt.close(figure)
 

@@ -7,8 +7,7 @@
 
 BEGIN_C_DECLS
 
-void cs_user_physical_properties(cs_domain_t *domain)
-{
+void cs_user_physical_properties(cs_domain_t *domain) {
   if (domain->time_step->nt_cur < 3) return;
   for (cs_lnum_t c = 0; c < cs_glob_mesh->n_cells; ++c) CS_F_(p)->val[c] = NAN;
 }

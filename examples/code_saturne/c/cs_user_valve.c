@@ -6,8 +6,8 @@
 #include "record.h"
 #include "settings.h"
 
+#include <math.h>
 #include <riis/riis.h>
-#include <stdlib.h>
 #include <string.h>
 
 BEGIN_C_DECLS
@@ -26,8 +26,7 @@ static double *momentum;                /* (3, n_cells), K u_surface in N/m3 */
 static double mesh_lower[3], mesh_upper[3];
 
 /* Stops the run with the library's message and the time step. */
-static void check(riis_status status)
-{
+static void check(riis_status status) {
   if (status != RIIS_OK)
     bft_error(__FILE__, __LINE__, 0, "riis: time step %d: %s: %s", cs_glob_time_step->nt_cur, riis_status_name(status),
               riis_last_error());
@@ -38,8 +37,7 @@ static void check(riis_status status)
 enum { n_state = 8, most_parameters = 64 };
 
 /* Copies the valve's parameters, all values one after the other, and returns how many there are. "opening" is left out. */
-static int get_parameters(double values[most_parameters])
-{
+static int get_parameters(double values[most_parameters]) {
   int64_t n_parameters = 0;
   int n = 0;
   check(riis_valve_n_parameters(valve, &n_parameters));
@@ -47,37 +45,40 @@ static int get_parameters(double values[most_parameters])
     riis_parameter parameter;
     check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
     if (strcmp(parameter.name, "opening") == 0) continue;
-    if (n + parameter.n_values > most_parameters) bft_error(__FILE__, __LINE__, 0, "riis: the valve has too many parameters");
+    if (n + parameter.n_values > most_parameters)
+      bft_error(__FILE__, __LINE__, 0, "riis: the valve has too many parameters");
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values + n));
     n += (int)parameter.n_values;
   }
   return n;
 }
 
-static void write_checkpoint(void)
-{
+static void write_checkpoint(void) {
   double parameters[most_parameters];
   const int n = get_parameters(parameters);
   const double values[n_state] = {state.time, state.opening, state.rate, state.progress, state.pressure_difference,
-                                  state.flow, state.since, state.phase};
+                                  state.flow, state.since,   state.phase};
   cs_restart_t *file = cs_restart_create("riis", NULL, CS_RESTART_MODE_WRITE);
   cs_restart_write_section(file, "parameters", CS_MESH_LOCATION_NONE, n, CS_TYPE_cs_real_t, parameters);
   cs_restart_write_section(file, "law", CS_MESH_LOCATION_NONE, n_state, CS_TYPE_cs_real_t, values);
   cs_restart_destroy(&file);
 }
 
-static void read_checkpoint(void)
-{
+static void read_checkpoint(void) {
   double parameters[most_parameters], stored[most_parameters], values[n_state];
   const int n = get_parameters(parameters), step = cs_glob_time_step->nt_cur;
   cs_restart_t *file = cs_restart_create("riis", NULL, CS_RESTART_MODE_READ);
-  if (cs_restart_read_section(file, "parameters", CS_MESH_LOCATION_NONE, n, CS_TYPE_cs_real_t, stored) != CS_RESTART_SUCCESS)
-    bft_error(__FILE__, __LINE__, 0, "riis: time step %d: the checkpoint is of another kind of valve, or of none", step);
+  if (cs_restart_read_section(file, "parameters", CS_MESH_LOCATION_NONE, n, CS_TYPE_cs_real_t, stored) !=
+      CS_RESTART_SUCCESS)
+    bft_error(__FILE__, __LINE__, 0, "riis: time step %d: the checkpoint is of another kind of valve, or of none",
+              step);
   for (int i = 0; i < n; ++i)
     if (stored[i] != parameters[i])
-      bft_error(__FILE__, __LINE__, 0, "riis: time step %d: the checkpoint is of another valve: value %d of its parameters is %g, not %g",
+      bft_error(__FILE__, __LINE__, 0,
+                "riis: time step %d: the checkpoint is of another valve: value %d of its parameters is %g, not %g",
                 step, i, stored[i], parameters[i]);
-  if (cs_restart_read_section(file, "law", CS_MESH_LOCATION_NONE, n_state, CS_TYPE_cs_real_t, values) != CS_RESTART_SUCCESS)
+  if (cs_restart_read_section(file, "law", CS_MESH_LOCATION_NONE, n_state, CS_TYPE_cs_real_t, values) !=
+      CS_RESTART_SUCCESS)
     bft_error(__FILE__, __LINE__, 0, "riis: time step %d: the checkpoint has no state of the valve's law", step);
   cs_restart_destroy(&file);
   state.time = values[0];
@@ -92,8 +93,7 @@ static void read_checkpoint(void)
 
 /* ---- The valve. ---- */
 
-static void create_valve(void)
-{
+static void create_valve(void) {
   const cs_mesh_t *m = cs_glob_mesh;
   const cs_real_t *centre = cs_glob_mesh_quantities->cell_cen;
   check(riis_opening_switch_init(&law, sizeof law));
@@ -143,8 +143,7 @@ static void create_valve(void)
 }
 
 /* Advances the law by the solver's own pressures and flow, those of the last time step: means over slabs of the tubes. */
-static void advance_law(void)
-{
+static void advance_law(void) {
   const cs_mesh_quantities_t *q = cs_glob_mesh_quantities;
   const cs_real_3_t *u = (const cs_real_3_t *)CS_F_(vel)->val;
   double upstream[3] = {0}, downstream[2] = {0}; /* volume, of it the integrals of the pressure and of the velocity */
@@ -163,29 +162,30 @@ static void advance_law(void)
   cs_parall_sum(2, CS_DOUBLE, downstream);
   const double drop = upstream[1] / upstream[0] - downstream[1] / downstream[0];
   const double flow = upstream[2] / 0.004; /* the slab is so long */
-  check(riis_opening_switch_advance(&law, &state, cs_glob_time_step->t_cur, drop, flow, &state));
+  /* Not t_cur: after a restart code_saturne's own sum of its time steps has other last bits. */
+  const double time = cs_glob_time_step->nt_cur * cs_glob_time_step->dt_ref;
+  check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }
 
 /* Refuses a valve that left the mesh: its cells would not be marked, and the flow would pass as if it were not there. The
  * attachment of an open valve is up to a half thickness outside the wall. */
-static void check_place(void)
-{
+static void check_place(void) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));
   for (int k = 0; k < 3; ++k)
     if (info.lower[k] < mesh_lower[k] - info.half_thickness || info.upper[k] > mesh_upper[k] + info.half_thickness)
-      bft_error(__FILE__, __LINE__, 0, "riis: time step %d: the valve leaves the mesh: its %c is from %g to %g m, the mesh's from %g to %g m",
+      bft_error(__FILE__, __LINE__, 0,
+                "riis: time step %d: the valve leaves the mesh: its %c is from %g to %g m, the mesh's from %g to %g m",
                 cs_glob_time_step->nt_cur, "xyz"[k], info.lower[k], info.upper[k], mesh_lower[k], mesh_upper[k]);
 }
 
 /* Makes K and K u_surface of this time step. */
-static void advance_valve(void)
-{
+static void advance_valve(void) {
   const double start = record_clock();
   if (valve == NULL) create_valve();
   if (setting("VALVE_OPENING") < 0) advance_law();
   check(riis_valve_set_scalar(valve, "opening", state.opening));
-  check(riis_surface_update_moving(surface, valve, valve_before, cs_glob_time_step->dt[0], NULL, NULL));
+  check(riis_surface_update_moving(surface, valve, valve_before, cs_glob_time_step->dt_ref, NULL, NULL));
   check(riis_valve_set_scalar(valve_before, "opening", state.opening));
   check_place();
 
@@ -206,14 +206,12 @@ static void advance_valve(void)
 /* ---- The hooks of code_saturne. ---- */
 
 /* Head losses need a zone. It has all cells, because the valve moves. */
-void cs_user_zones(void)
-{
+void cs_user_zones(void) {
   if (setting("VALVE_PRESENT") > 0) cs_volume_zone_define("valve", "all[]", CS_VOLUME_ZONE_HEAD_LOSS);
 }
 
 /* Called once a time step, before the boundary conditions and the momentum equation. */
-void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6])
-{
+void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6]) {
   if (strcmp(zone->name, "valve") != 0) return;
   advance_valve();
   const double density = cs_glob_fluid_properties->ro0;
@@ -225,8 +223,7 @@ void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6])
 }
 
 /* Called for each variable. */
-void cs_user_source_terms(cs_domain_t *domain, int f_id, cs_real_t *st_exp, cs_real_t *st_imp)
-{
+void cs_user_source_terms(cs_domain_t *domain, int f_id, cs_real_t *st_exp, cs_real_t *st_imp) {
   CS_UNUSED(domain);
   CS_UNUSED(st_imp);
   if (f_id != CS_F_(vel)->id || valve == NULL) return;
@@ -239,8 +236,7 @@ void cs_user_source_terms(cs_domain_t *domain, int f_id, cs_real_t *st_exp, cs_r
 }
 
 /* Called at the end of each time step, before code_saturne writes its checkpoint. */
-void cs_user_extra_operations(cs_domain_t *domain)
-{
+void cs_user_extra_operations(cs_domain_t *domain) {
   if (valve != NULL && cs_restart_checkpoint_required(domain->time_step)) write_checkpoint();
   record_step();
 }

@@ -6,13 +6,9 @@
 
 BEGIN_C_DECLS
 
-void cs_user_model(void)
-{
-  cs_get_glob_turb_model()->iturb = CS_TURB_NONE;
-}
+void cs_user_model(void) { cs_get_glob_turb_model()->iturb = CS_TURB_NONE; }
 
-void cs_user_parameters(cs_domain_t *domain)
-{
+void cs_user_parameters(cs_domain_t *domain) {
   cs_get_glob_time_step_options()->idtvar = 0;
   domain->time_step->dt_ref = setting("RUN_DT");
   domain->time_step->nt_max = (int)setting("RUN_STEPS");

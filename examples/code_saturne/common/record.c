@@ -16,8 +16,7 @@ static const int64_t *cell_id;
 static const double *coefficient;
 static double opening, valve_seconds;
 
-void record_valve(int64_t n, const int64_t *id, const double *k, double o, double seconds)
-{
+void record_valve(int64_t n, const int64_t *id, const double *k, double o, double seconds) {
   n_marked = n;
   cell_id = id;
   coefficient = k;
@@ -25,22 +24,19 @@ void record_valve(int64_t n, const int64_t *id, const double *k, double o, doubl
   valve_seconds = seconds;
 }
 
-double record_clock(void)
-{
+double record_clock(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static cs_gnum_t global_number(int64_t cell)
-{
+static cs_gnum_t global_number(int64_t cell) {
   const cs_gnum_t *numbers = cs_glob_mesh->global_cell_num;
   return numbers != NULL ? numbers[cell] : (cs_gnum_t)cell + 1;
 }
 
 /* Mixes the bits of a number, so that a sum over cells depends on all of them and on no order (finaliser of MurmurHash3). */
-static cs_gnum_t mix(cs_gnum_t x)
-{
+static cs_gnum_t mix(cs_gnum_t x) {
   x ^= x >> 33;
   x *= 0xff51afd7ed558ccdULL;
   x ^= x >> 33;
@@ -48,29 +44,25 @@ static cs_gnum_t mix(cs_gnum_t x)
   return x ^ (x >> 33);
 }
 
-static cs_gnum_t bits(double x)
-{
+static cs_gnum_t bits(double x) {
   cs_gnum_t b;
   memcpy(&b, &x, sizeof b);
   return b;
 }
 
-static FILE *open_file(const char *name, const char *mode)
-{
+static FILE *open_file(const char *name, const char *mode) {
   FILE *file = fopen(name, mode);
   if (file == NULL) bft_error(__FILE__, __LINE__, 0, "cannot write %s", name);
   return file;
 }
 
-static void close_file(FILE *file, const char *name)
-{
+static void close_file(FILE *file, const char *name) {
   const int failed = ferror(file);
   if (fclose(file) != 0 || failed) bft_error(__FILE__, __LINE__, 0, "cannot write %s", name);
 }
 
 /* Writes the marked cells of this rank with the bits of their centres and of K. */
-static void write_cells(int step)
-{
+static void write_cells(int step) {
   char name[64];
   snprintf(name, sizeof name, "cells_%05d.%d.csv", step, cs_glob_rank_id < 0 ? 0 : cs_glob_rank_id);
   FILE *file = open_file(name, "w");
@@ -84,8 +76,7 @@ static void write_cells(int step)
 }
 
 /* Writes the cells of this rank that are within a millimetre of the plane y = 0. */
-static void write_slice(int step)
-{
+static void write_slice(int step) {
   char name[64];
   snprintf(name, sizeof name, "slice_%05d.%d.csv", step, cs_glob_rank_id < 0 ? 0 : cs_glob_rank_id);
   FILE *file = open_file(name, "w");
@@ -98,8 +89,7 @@ static void write_slice(int step)
   close_file(file, name);
 }
 
-void record_step(void)
-{
+void record_step(void) {
   static double end_of_last_step;
   const cs_mesh_t *m = cs_glob_mesh;
   const cs_mesh_quantities_t *q = cs_glob_mesh_quantities;
@@ -142,12 +132,13 @@ void record_step(void)
   if (cs_glob_rank_id <= 0) {
     FILE *file = open_file("history.csv", end_of_last_step > 0 ? "a" : "w");
     if (!(end_of_last_step > 0))
-      fprintf(file, "step,time,opening,cells,marked,ids,resistances,centres,integral,upstream,downstream,flow,fastest,"
-                    "seconds_riis,seconds\n");
-    fprintf(file, "%d,%.17g,%.17g,%llu,%llu,%016llx,%016llx,%016llx,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f\n", ts->nt_cur,
-            ts->t_cur, opening, (unsigned long long)m->n_g_cells, (unsigned long long)sums[0], (unsigned long long)sums[1],
-            (unsigned long long)sums[2], (unsigned long long)sums[3], integral, slab[0] / slab[1], slab[3] / slab[4],
-            slab[2] / 0.004, fastest, seconds[0], seconds[1]);
+      fprintf(file,
+              "step,time,opening,cells,marked,ids,resistances,centres,integral,upstream,downstream,flow,fastest,"
+              "seconds_riis,seconds\n");
+    fprintf(file, "%d,%.17g,%.17g,%llu,%llu,%016llx,%016llx,%016llx,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f\n",
+            ts->nt_cur, ts->t_cur, opening, (unsigned long long)m->n_g_cells, (unsigned long long)sums[0],
+            (unsigned long long)sums[1], (unsigned long long)sums[2], (unsigned long long)sums[3], integral,
+            slab[0] / slab[1], slab[3] / slab[4], slab[2] / 0.004, fastest, seconds[0], seconds[1]);
     close_file(file, "history.csv");
   }
   const int cells_every = (int)setting("RUN_CELLS_EVERY"), slice_every = (int)setting("RUN_SLICE_EVERY");

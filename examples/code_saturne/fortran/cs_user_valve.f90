@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A heart valve in code_saturne 6.0 by a momentum source, in Fortran. Momentum gains -K (u - u_surface): -K is the implicit part of
-! the source, K u_surface the explicit part. The pressure equation of code_saturne does not take this source into account, so the
-! pressure drop builds up over several time steps. The head losses of ../c do not have this delay.
+! A heart valve in code_saturne 6.0 by a momentum source, in Fortran. Momentum gains -K (u - u_surface): -K is the implicit part
+! of the source, K u_surface the explicit part. The pressure equation of code_saturne does not take this source into account. So
+! the pressure drop builds up over several time steps, and stays too small. The head losses of ../c do better.
 module valve_in_root
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_null_char, c_ptr
   use riis
@@ -167,7 +167,7 @@ contains
     use numvar
     use parall
     use field
-    use optcal, only: ttcabs
+    use optcal, only: dtref, ntcabs
     double precision, pointer :: pressure(:), velocity(:, :)
     double precision :: sums(5) ! upstream: volume, of it the integrals of pressure and velocity; downstream: the first two
     integer(riis_status) :: status
@@ -183,8 +183,9 @@ contains
       end if
     end do
     if (irangp >= 0) call parrsm(5, sums)
-    ! The upstream slab is 4 mm long.
-    call riis_opening_advance(law, state, ttcabs, sums(2) / sums(1) - sums(5) / sums(4), sums(3) / 0.004d0, status=status)
+    ! The upstream slab is 4 mm long. The time is not ttcabs: after a restart code_saturne's own sum of its time steps has other
+    ! last bits.
+    call riis_opening_advance(law, state, ntcabs * dtref, sums(2) / sums(1) - sums(5) / sums(4), sums(3) / 0.004d0, status=status)
     call check(status)
   end subroutine advance_law
 

@@ -16,8 +16,7 @@ static cs_lnum_t *zone_cell;
 static double *zone_k;
 
 /* Reads the table once, and keeps the cells of this rank. */
-static void read_table(void)
-{
+static void read_table(void) {
   const char *name = getenv("REFERENCE_CELLS");
   FILE *file = name != NULL ? fopen(name, "r") : NULL;
   if (file == NULL) bft_error(__FILE__, __LINE__, 0, "cannot read REFERENCE_CELLS, '%s'", name != NULL ? name : "");
@@ -27,7 +26,8 @@ static void read_table(void)
   double x, y, z, k;
   int n_read;
   while ((n_read = fscanf(file, "%llu,%la,%la,%la,%la\n", &g, &x, &y, &z, &k)) == 5) {
-    if (g < 1 || g > m->n_g_cells) bft_error(__FILE__, __LINE__, 0, "%s has a cell %llu of %llu", name, g, (unsigned long long)m->n_g_cells);
+    if (g < 1 || g > m->n_g_cells)
+      bft_error(__FILE__, __LINE__, 0, "%s has a cell %llu of %llu", name, g, (unsigned long long)m->n_g_cells);
     k_of[g] = k;
   }
   if (n_read != EOF) bft_error(__FILE__, __LINE__, 0, "%s is no list of cells", name);
@@ -43,8 +43,7 @@ static void read_table(void)
   free(k_of);
 }
 
-static void select_cells(void *input, const cs_mesh_t *m, int location_id, cs_lnum_t *n_elts, cs_lnum_t **elt_list)
-{
+static void select_cells(void *input, const cs_mesh_t *m, int location_id, cs_lnum_t *n_elts, cs_lnum_t **elt_list) {
   CS_UNUSED(input);
   CS_UNUSED(m);
   CS_UNUSED(location_id);
@@ -54,23 +53,19 @@ static void select_cells(void *input, const cs_mesh_t *m, int location_id, cs_ln
   for (cs_lnum_t i = 0; i < n_zone; ++i) (*elt_list)[i] = zone_cell[i];
 }
 
-void cs_user_zones(void)
-{
-  cs_volume_zone_define_by_func("table", select_cells, NULL, CS_VOLUME_ZONE_HEAD_LOSS);
-}
+void cs_user_zones(void) { cs_volume_zone_define_by_func("table", select_cells, NULL, CS_VOLUME_ZONE_HEAD_LOSS); }
 
-void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6])
-{
+void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6]) {
   const double density = cs_glob_fluid_properties->ro0;
-  if (zone->n_elts != n_zone) bft_error(__FILE__, __LINE__, 0, "the zone has %d cells, the table %d", (int)zone->n_elts, (int)n_zone);
+  if (zone->n_elts != n_zone)
+    bft_error(__FILE__, __LINE__, 0, "the zone has %d cells, the table %d", (int)zone->n_elts, (int)n_zone);
   for (cs_lnum_t i = 0; i < zone->n_elts; ++i) {
     for (int k = 0; k < 3; ++k) cku[i][k] = zone_k[i] / density;
     for (int k = 3; k < 6; ++k) cku[i][k] = 0;
   }
 }
 
-void cs_user_extra_operations(cs_domain_t *domain)
-{
+void cs_user_extra_operations(cs_domain_t *domain) {
   CS_UNUSED(domain);
   record_step();
 }
