@@ -20,6 +20,7 @@ const char *const footer = R"(Examples:
   riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
   riis-mark --valve prosthesis.json --check-crossing
   riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
+  riis-mark --export-uris uris --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4
 
 Marked mesh
   The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
@@ -114,6 +115,15 @@ Valve from patches
   2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
   way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
   beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
+
+Export to svMultiPhysics
+  --export-uris FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
+  NAME_close.dat, and normal.dat, the direction of flow. The folder must be new or empty. The block for the solver's input goes
+  to stdout; it needs --resistance. The solver plays a frame in each of its time steps, so --time-step must be its own. The
+  valve opens from 0 to 1 in --opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens
+  from the last key of its least opening to the first of its largest, and closes on the way back; --opening-span and
+  --closing-span name other times. The solver measures to the middles of triangles. With --largest-edge 0.15 half thicknesses
+  its sum of K is within 1 % of the exact one. Triangles without area in some frame are left out, and a line on stderr says so.
 
 Motion
   --surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the

@@ -138,7 +138,8 @@ void write_export(const Options &options, const UrisMotion &motion, UrisLeaflets
 std::string block_name(const Options &options) {
   if (!is_valve_file(options.valve)) return options.valve;
   std::string name = std::filesystem::path(options.valve).stem().string();
-  for (char &c : name) c = is_prefix(std::string(1, c)) ? c : '_';
+  // A comment of XML holds no two dashes in a row.
+  for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
   return name;
 }
 

@@ -28,6 +28,11 @@ void check(const riis::cli::Options &options) {
   EXPECT(options.series.times.size() <= 100000, "%zu times", options.series.times.size());
   for (std::size_t i = 1; i < options.series.times.size(); ++i)
     EXPECT(options.series.times[i] > options.series.times[i - 1], "time %zu is not above the one before", i);
+  const riis::cli::UrisOptions &uris = options.uris;
+  EXPECT(uris.folder.empty() || (uris.time_step && *uris.time_step > 0 && options.resistance),
+         "an export lacks options");
+  EXPECT(uris.folder.empty() || !options.series.cycle.empty() || (uris.opening_seconds && uris.closing_seconds),
+         "an export lacks a motion");
   riis_valve *handle = nullptr;
   EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",
          riis_last_error());
