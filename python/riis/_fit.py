@@ -13,6 +13,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import Error, InvalidArgumentError
+from riis._records import Parameter
 from riis._riis import Surface, Valve
 
 Reals = NDArray[numpy.float64]
@@ -166,6 +167,14 @@ class _Problem:
         return self.weights[:, None] * result
 
 
+def _default_bounds(parameter: Parameter, value: float) -> tuple[float, float]:
+    """Returns the bounds of the table. Those of lengths span many powers of ten, so they are narrowed to a factor of two."""
+    if parameter.unit != "length" or value == 0.0:
+        return parameter.minimum, parameter.maximum
+    low, high = sorted((0.5 * value, 2.0 * value))
+    return max(low, parameter.minimum), min(high, parameter.maximum)
+
+
 def _bounds_of(valve: Valve, free: Sequence[str], given: Mapping[str, tuple[float, float]]) -> Reals:
     table = valve.parameters
     bounds = []
@@ -174,7 +183,7 @@ def _bounds_of(valve: Valve, free: Sequence[str], given: Mapping[str, tuple[floa
             raise InvalidArgumentError(f"free: '{name}' is no parameter of a {valve.kind} valve; they are {', '.join(table)}")
         if table[name].n_values != 1:
             raise InvalidArgumentError(f"free: '{name}' has three values; placement fits a place and a rotation")
-        low, high = given.get(name, (table[name].minimum, table[name].maximum))
+        low, high = given.get(name, _default_bounds(table[name], valve[name]))
         if not table[name].minimum <= low < high <= table[name].maximum:
             raise InvalidArgumentError(
                 f"bounds: those of '{name}' are {low} and {high}; they must ascend within {table[name].minimum} and "
@@ -206,7 +215,8 @@ def fit(
     free       names of parameters with one value that are fitted; the others stay
     placement  which of rotation, translation and scale are fitted
     start      a dict of scale, rotation_axis, rotation_angle and translation to start from
-    bounds     a dict from names in free to (low, high); others have those of valve.parameters
+    bounds     a dict from names in free to (low, high); others have those of valve.parameters, lengths half to twice
+               the value to start from
     weights    (n,) float64 >= 0, of the squares of distances
     n_starts   1 starts from the given values; others from random values within the bounds, by seed
 
@@ -291,8 +301,11 @@ def _result(problem: _Problem, x: Reals, width: float, weights: Reals) -> FitRes
     jacobian = problem.jacobian(x) * numpy.sqrt(robust)[:, None]
     total = weights * robust
     variance = float(total @ distances**2) / max(1.0, float(numpy.count_nonzero(total > 0.5 * weights.max()) - problem.n))
-    u, s, v = numpy.linalg.svd(jacobian, full_matrices=False)
-    kept = s > 1e-6 * s.max()
+    assert problem.surface is not None
+    scale = problem.placed(x)[2]
+    variance = max(variance, (scale * problem.surface.info.error_bound) ** 2)  # triangles are no better than this
+    _, s, v = numpy.linalg.svd(jacobian, full_matrices=False)
+    kept = s > max(1e-6 * s.max(), 1e-12)
     covariance = (v[kept].T / s[kept] ** 2) @ v[kept] * variance
     blind = (v[~kept] ** 2).sum(axis=0) > 1e-6
     share = numpy.where(blind, numpy.inf, numpy.sqrt(numpy.diag(covariance)))

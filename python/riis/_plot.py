@@ -64,7 +64,7 @@ def plot(
         nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
         nodes.point_data["distance"] = numpy.array(marks.distance)
         plotter.add_mesh(
-            nodes, scalars="distance", cmap="viridis", point_size=5, render_points_as_spheres=True, opacity=0.5,
+            nodes, scalars="distance", cmap="viridis", clim=[0.0, surface.half_thickness], point_size=5, render_points_as_spheres=True, opacity=0.5,
             scalar_bar_args={"title": "distance"},
         )
     if screenshot is not None:
