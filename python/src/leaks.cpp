@@ -29,7 +29,7 @@ nb::object leaking_edges(nb::handle self) {
   std::int64_t n_edges = 0;
   const std::int64_t *node_id = nullptr;
   const double *length = nullptr, *distance = nullptr;
-  if (marks.handle) call_shortly(riis_mark_result_leaking_edges(marks.handle, &n_edges, &node_id, &length, &distance));
+  call_shortly(riis_mark_result_leaking_edges(marks.handle, &n_edges, &node_id, &length, &distance));
   const auto n = static_cast<std::size_t>(n_edges);
   return record("LeakingEdges")(view_of(node_id, {n, 2}, self, marks.n_edge_views), view_of(length, {n}, self, marks.n_edge_views),
                                 view_of(distance, {n}, self, marks.n_edge_views));

@@ -84,10 +84,8 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
                                  {"avx2", RIIS_INSTRUCTIONS_AVX2},
                                  {"avx512", RIIS_INSTRUCTIONS_AVX512}});
   options.fields = fields_of(wanted_fields);
-  const nb::object result_object =
-      into.is_none() ? nb::cast(new MarkResult(), nb::rv_policy::take_ownership) : nb::borrow(into);
+  const nb::object result_object = into.is_none() ? nb::type<MarkResult>()() : nb::borrow(into);
   MarkResult &result = object<MarkResult>(result_object, "into");
-  if (!result.handle) call_shortly(riis_mark_result_create(&result.handle));
   const Writing writing(result.usage, "into", result.usage.n_views + result.n_edge_views);
   call_to_write(result.usage,
                 [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, result.handle); });
@@ -244,7 +242,10 @@ void add_marking(nb::module_ &module) {
 
 MarkResult() is empty; riis.mark(..., into=result) fills it and reuses its memory. Arrays are views of that memory:
 read-only, without a copy, and kept alive. Marking into a result whose views are alive raises BufferError.)");
-  result.def(nb::init<>());
+  result.def("__init__", [](MarkResult *self) {
+    new (self) MarkResult();
+    call_shortly(riis_mark_result_create(&self->handle));
+  });
   add_lists(result);
   nb::class_<WithinLimit> within(module, "WithinLimit",
                                  "The nodes of a MarkResult within the distance limit of the marking, marked or not.");

@@ -186,6 +186,16 @@ nb::object columns(nb::handle self) {
   return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
 }
 
+// Returns the caller's array, or a new one of the caller's three.
+nb::object coordinates(Mesh &mesh) {
+  const Reading reading(mesh.usage, "mesh");
+  const std::vector<Array> &arrays = mesh.points.arrays;
+  if (arrays.size() == 1) return arrays[0].object();
+  nb::list columns;
+  for (const Array &array : arrays) columns.append(array.object());
+  return nb::module_::import_("numpy").attr("stack")(columns, nb::arg("axis") = 1);
+}
+
 std::string description(const Mesh &mesh) {
   if (mesh.usage.is_closed) return "<riis.Mesh, closed>";
   return text_of("<riis.Mesh, ", mesh.points.n, " nodes>");
@@ -267,6 +277,8 @@ adjacency         an Adjacency, or scipy's sparse rows (indptr, indices)
 offsets, columns  (n_nodes + 1,) and (n,), int32 or int64: the same as arrays. They must not change meanwhile
 n_all             columns are below this; from n_nodes on they are ghosts. 0: n_nodes
 index_base        of offsets and columns)")
+      .def_prop_ro("xyz", &coordinates, nb::sig("def xyz(self) -> " RIIS_COORDINATES),
+                   "(n, 3): the coordinates, the array that was given; a new array if there were three.")
       .def_prop_ro(
           "n_nodes",
           [](Mesh &self) {

@@ -302,6 +302,13 @@ The velocity, in mesh units over the unit of seconds, is the mean of the step.)"
           "(n_vertices, 3): each vertex's velocity. None if the last update gave none. A view.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,). Views.")
+      .def(
+          "to_pyvista",
+          [](nb::handle self) { return nb::object(nb::module_::import_("riis._plot").attr("surface_to_pyvista")(self)); },
+          nb::sig("def to_pyvista(self) -> typing.Any"),
+          R"(Copies the surface to a pyvista.PolyData, which needs PyVista.
+
+Cells have triangle_id, leaflet_id and patch_id; points have velocity if the last update gave velocities.)")
       .def("__repr__", &description);
   add_closest(surface);
   add_closing(surface);

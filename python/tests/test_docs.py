@@ -16,10 +16,10 @@ def test_the_programs_of_the_document_run(xyz):
     programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert len(programs) >= 2
     assert programs[0] in (ROOT / "README.md").read_text(encoding="utf-8")
-    names = {"xyz": xyz, "n_steps": 5, "dt": 0.125}
+    names = {"xyz": xyz, "n_steps": 6, "dt": 0.125}
     exec(programs[0], names)
     marks = riis.mark(names["surface"], riis.Mesh(xyz))
     assert numpy.array_equal(names["marks"].ids, marks.ids) and numpy.count_nonzero(names["K"]) > 100
     exec(programs[1], names)
-    # The last step goes from 0.5 s to 0.625 s, when the valve is open and at rest.
+    # The last step goes from 0.625 s to 0.75 s, when the valve is open and at rest.
     assert names["valve"]["opening"] == 1.0 and not names["K_u"].any() and names["K"].any()

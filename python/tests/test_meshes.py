@@ -84,3 +84,9 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
     mask = numpy.ones(n**3, bool)
     mask[20 * n * n : 21 * n * n] = False
     assert riis.find_passage(loose, grid, below, above, mask=mask).state == "none"
+
+
+def test_a_mesh_gives_its_coordinates(xyz):
+    assert riis.Mesh(xyz).xyz is xyz
+    columns = [numpy.ascontiguousarray(xyz[:, i]) for i in range(3)]
+    assert numpy.array_equal(riis.Mesh(*columns).xyz, xyz)
