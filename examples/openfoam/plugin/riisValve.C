@@ -86,10 +86,7 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
   readAll();
   restart();
 
-  check(riis_valve_set_scalar(valve_.get(), "opening", opening_));
-  riis_valve *before = nullptr;
-  check(riis_valve_copy(valve_.get(), &before));
-  before_.reset(before);
+  copyValve();
   const vectorField &centres = mesh_.cellCentres();
   const double *xyz = centres.empty() ? nullptr : centres[0].cdata();
   riis_mesh *cells = nullptr;
@@ -99,6 +96,13 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
   check(riis_mark_result_create(&result));
   result_.reset(result);
   keepState();
+}
+
+void riisValve::copyValve() {
+  check(riis_valve_set_scalar(valve_.get(), "opening", opening_));
+  riis_valve *before = nullptr;
+  check(riis_valve_copy(valve_.get(), &before));
+  before_.reset(before);
 }
 
 void riisValve::check(riis_status status) const {
@@ -505,6 +509,7 @@ void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const labe
 }
 
 bool riisValve::read(const dictionary &dict) {
+  if (dict == dict_) return true;
   dict_ = dict;
   coeffs_ = dict.optionalSubDict(modelType_ + "Coeffs");
   active_ = dict_.getOrDefault<Switch>("active", true);
@@ -514,6 +519,7 @@ bool riisValve::read(const dictionary &dict) {
     FatalIOErrorInFunction(dict) << "the law of valve " << name_ << " changed during the run: start again from time "
                                  << mesh_.time().timeName() << exit(FatalIOError);
   }
+  copyValve();
   return true;
 }
 
