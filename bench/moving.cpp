@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench moving: the cost of a valve's velocity, of the fields of the closest points and of the resistance, beside a plain
-// time step on the same nodes in the same run; the same for triangles that stay as the valve opens, and for the search for
-// crossings. Prints times and bars.
+// time step on the same nodes in the same run; the same for triangles that stay as the valve opens, coarse and fine, and for the
+// search for crossings. Prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 
@@ -115,6 +115,37 @@ class MovingSteps {
   double opening_ = 0.45;
 };
 
+// A tolerance for about ten times as many triangles as the default's.
+constexpr double fine = 0.0034;
+
+// The same motion on fine triangles, adapted and fixed, without a mesh.
+class FineSteps {
+ public:
+  explicit FineSteps(const char *kind) : valve_(opening_valve(kind)) {
+    move();
+    riis_surface_options options;
+    check(riis_surface_options_init(&options, sizeof options));
+    options.n_threads = 1;
+    options.tolerance = fine;
+    surface_ = make_surface(valve_.get(), &options);
+    options.triangulation = RIIS_TRIANGULATION_FIXED;
+    fixed_ = make_surface(valve_.get(), &options);
+  }
+  void move() {
+    step_ = (step_ + 1) % 100;
+    check(riis_valve_set_scalar(valve_.get(), "opening", 0.45 + 0.001 * (step_ < 50 ? step_ : 100 - step_)));
+  }
+  void update() { check(riis_surface_update(surface_.get(), valve_.get(), nullptr)); }
+  void update_fixed() { check(riis_surface_update(fixed_.get(), valve_.get(), nullptr)); }
+  double n_triangles() const { return n_triangles_of(surface_.get()); }
+  double n_fixed_triangles() const { return n_triangles_of(fixed_.get()); }
+
+ private:
+  Valve valve_;
+  Surface surface_, fixed_;
+  int step_ = 0;
+};
+
 void add(Contest &contest, const std::string &name, MovingSteps &steps, const Contest::Work &work) {
   contest.add(name, n_turns, work, [&steps] { steps.move(); });
 }
@@ -123,10 +154,15 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
   const char *kind = valve == 0 ? "aortic" : "mitral";
   const CylinderNodes nodes(cylinders[valve], about_n_nodes);
   MovingSteps steps(kind, nodes);
+  FineSteps fine_steps(kind);
   const auto name = [&](const char *what) { return std::string(kind) + ": " + what; };
   add(contest, name("update"), steps, [&] { steps.update(); });
   add(contest, name("moving update"), steps, [&] { steps.update_moving(); });
   add(contest, name("fixed update"), steps, [&] { steps.update_fixed(); });
+  contest.add(
+      name("fine update"), n_turns, [&] { fine_steps.update(); }, [&] { fine_steps.move(); });
+  contest.add(
+      name("fine fixed update"), n_turns, [&] { fine_steps.update_fixed(); }, [&] { fine_steps.move(); });
   add(contest, name("search for crossings"), steps, [&] { steps.find_crossings(); });
   contest.add(name("choice of fixed triangles"), 5, [&] { steps.choose(); });
   add(contest, name("step"), steps, [&] {
@@ -154,7 +190,10 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
     bars.add(name(above) + " / " + below, contest.ratio(name(above), name(below)), Wanted::at_most, bar);
   };
   ratio("moving update", "update", 1.7);
-  ratio("fixed update", "update", 0.5);
+  std::printf("Fixed triangles: %.0f. Fine: %.0f triangles, %.0f fixed ones.\n", steps.n_fixed_triangles(),
+              fine_steps.n_triangles(), fine_steps.n_fixed_triangles());
+  ratio("fixed update", "update", 1.0 / 3);
+  ratio("fine fixed update", "fine update", 1.0 / 3);
   ratio("search for crossings", "update", 3);
   bars.add(name("fixed triangles / most adapted ones"), steps.n_fixed_triangles() / steps.most_triangles(),
            Wanted::at_most, 1.5);
