@@ -112,7 +112,7 @@ int Clusters::n_nodes_of(std::int64_t leaf) const {
 void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
   clusters.frame = frame_of(nodes, n_threads, clusters.blocks);
   NodeSorter<std::uint32_t> sorter(items_of<std::uint32_t>(nodes, clusters.frame, n_threads), n_threads);
-  const std::vector<NodeItem<std::uint32_t>> &sorted = sorter.sort();
+  const NodeItems<std::uint32_t> &sorted = sorter.sort();
   fill(nodes, clusters, n_threads, [&](std::int64_t i) { return view(sorted)[i].node; });
 }
 

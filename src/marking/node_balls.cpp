@@ -54,7 +54,7 @@ void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls
   std::vector<Bounds> blocks;
   NodeSorter<std::int64_t> sorter(items_of<std::int64_t>(nodes, frame_of(nodes, n_threads, blocks), n_threads),
                                   n_threads);
-  const std::vector<NodeItem<std::int64_t>> &sorted = sorter.sort();
+  const NodeItems<std::int64_t> &sorted = sorter.sort();
   balls.order.resize(sorted.size());
   for_each(nodes.n, n_threads, [&](std::int64_t i) { view(balls.order)[i] = view(sorted)[i].node; });
 }

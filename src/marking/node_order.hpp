@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "base/array_view.hpp"
+#include "base/unfilled.hpp"
 #include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "kernels/kernels.hpp"
@@ -83,17 +85,20 @@ struct NodeItem {
   Node node;
 };
 
-// Sorts nodes so that near ones follow each other. Each pass sorts a part by counting along the longest axis of its box, then
-// cuts it at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
+template <class Node>
+using NodeItems = UnfilledVector<NodeItem<Node>>;
+
+// Sorts nodes so that near ones follow each other. Each pass counts a part's nodes in bins along the longest axis of its box. Then
+// it cuts the part at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
 template <class Node>
 class NodeSorter {
  public:
   typedef NodeItem<Node> Item;
 
-  NodeSorter(std::vector<Item> items, int n_threads)
+  NodeSorter(NodeItems<Node> items, int n_threads)
       : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
 
-  const std::vector<Item> &sort() {
+  const NodeItems<Node> &sort() {
     // While there are too few parts for the threads, all threads share each part. Then each thread takes whole parts.
     Item *at = items_.data(), *other = buffer_.data();
     std::vector<Part> parts{{0, view(items_).size()}}, next;
@@ -113,39 +118,68 @@ class NodeSorter {
   }
 
  private:
-  static constexpr int n_bins = 256;
+  static constexpr int n_bins = 256, most_parts = 4;
+  // Parts up to this size have fewer bins: clearing and summing more bins would take longer than the nodes.
+  static constexpr std::int64_t small_size = 1024;
+  static constexpr int n_small_bins = 64;
   typedef std::array<Node, n_bins> Counts;
   struct Part {
     std::int64_t begin, end;
     std::int64_t size() const { return end - begin; }
   };
   struct Bins {
-    int axis;
+    int n, axis;
     float from, per_unit;
 
-    explicit Bins(const NodeBox &box) : axis(box.longest_axis()), from(box.lower[axis]) {
+    Bins(const NodeBox &box, std::int64_t size)
+        : n(size <= small_size ? n_small_bins : n_bins), axis(box.longest_axis()), from(box.lower[axis]) {
       const float extent = box.upper[axis] - from;
-      per_unit = extent > 0 ? n_bins / extent : 0;
+      per_unit = extent > 0 ? static_cast<float>(n) / extent : 0;
       if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
     }
     int operator()(const Item &item) const {
       const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
-      return bin < n_bins ? bin : n_bins - 1;
+      return bin < n ? bin : n - 1;
     }
   };
 
-  // A part in blocks that threads share, each with its box and counts. OneBlock is a part in one block, for one thread.
+  // Bins whose items go to the same place, one item after the other. A bin that a cut goes through is a stream of its own, and so
+  // are all bins between two such places. Fewer streams than bins are written faster.
+  struct Streams {
+    static constexpr int most = 2 * most_parts - 1;
+    std::array<std::uint8_t, n_bins> of_bin;
+    int n = 1;
+
+    // ends: where the cuts are, in ascending order, within a part with so many items in each bin.
+    Streams(const Counts &counts, int n_in_use, const std::array<std::int64_t, most_parts> &ends, int n_parts) {
+      std::int64_t begin = 0;
+      int next_cut = 0;
+      bool begins_stream = false;
+      for (int bin = 0; bin < n_in_use; ++bin) {
+        const std::int64_t end = begin + static_cast<std::int64_t>(view(counts)[bin]);
+        for (; next_cut + 1 < n_parts && view(ends)[next_cut] <= begin; ++next_cut) begins_stream = begin > 0;
+        bool is_cut = false;
+        for (; next_cut + 1 < n_parts && view(ends)[next_cut] < end; ++next_cut) is_cut = true;
+        if (begins_stream || (is_cut && bin > 0)) ++n;
+        view(of_bin)[bin] = static_cast<std::uint8_t>(n - 1);
+        begins_stream = is_cut;
+        begin = end;
+      }
+    }
+  };
+
+  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one block, for one thread.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
     std::vector<NodeBox> boxes;
-    std::vector<Counts> at;
+    std::vector<Counts> counts;
+    std::vector<std::array<Node, Streams::most>> at;
 
-    ManyBlocks(const Part &of, int threads)
-        : part(of),
-          n_threads(threads) {
+    ManyBlocks(const Part &of, int threads) : part(of), n_threads(threads) {
       const std::int64_t n_blocks = (of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block;
       resize(boxes, n_blocks);
+      resize(counts, n_blocks);
       resize(at, n_blocks);
     }
     template <class Visit>
@@ -158,7 +192,8 @@ class NodeSorter {
   struct OneBlock {
     const Part &part;
     std::array<NodeBox, 1> boxes;
-    std::array<Counts, 1> at;
+    std::array<Counts, 1> counts;
+    std::array<std::array<Node, Streams::most>, 1> at;
 
     explicit OneBlock(const Part &of) : part(of) {}
     template <class Visit>
@@ -181,33 +216,81 @@ class NodeSorter {
     }
   }
 
-  // Sorts into bins along the longest axis. Within a bin items keep their order, whatever the number of blocks.
+  // The box of some items. Four numbers are compared at once: one at a time would take longer than the memory. The fourth is
+  // anything, and is not used.
+  static NodeBox box_of(const Item *items, const Part &part) {
+    typedef float Four __attribute__((vector_size(16)));
+    static_assert(sizeof(Item) >= sizeof(Four));
+    // There are two, because a comparison waits for the last comparison of the same bounds.
+    Four lower[2], upper[2];
+    for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
+    for (std::int64_t i = part.begin; i < part.end; i += 2)
+      for (std::int64_t k = 0; k < 2; ++k) {
+        Four x;
+        std::memcpy(&x, items + std::min(i + k, part.end - 1), sizeof x);
+        lower[k] = x < lower[k] ? x : lower[k];
+        upper[k] = x > upper[k] ? x : upper[k];
+      }
+    NodeBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::min(lower[0][axis], lower[1][axis]);
+      box.upper[axis] = std::max(upper[0][axis], upper[1][axis]);
+    }
+    return box;
+  }
+
+  // Counts items in bins. There are four tables, because an increment waits for the last one of the same bin, and neighbours are
+  // often in the same bin.
+  static void count(const Item *items, const Part &part, const Bins &bins, Counts &counts) {
+    constexpr int n_tables = 4;
+    std::array<std::array<Node, n_tables>, n_bins> tables;
+    std::fill(tables.begin(), tables.begin() + bins.n, std::array<Node, n_tables>{});
+    std::int64_t i = part.begin;
+    for (; i + n_tables <= part.end; i += n_tables)
+      for (int k = 0; k < n_tables; ++k) ++view(view(tables)[bins(items[i + k])])[k];
+    for (; i < part.end; ++i) ++view(tables)[bins(items[i])][0];
+    for (int bin = 0; bin < bins.n; ++bin) {
+      const auto &table = view(tables)[bin];
+      view(counts)[bin] = table[0] + table[1] + table[2] + table[3];
+    }
+  }
+
+  // Puts items so that those of each cut follow each other. In a stream they keep their order, whatever the number of blocks.
   template <class Blocks>
   static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
-    blocks.for_each([&](std::int64_t block, const Part &of_block) {
-      NodeBox box;
-      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) box.add(from[i].x);
-      view(blocks.boxes)[block] = box;
-    });
+    blocks.for_each(
+        [&](std::int64_t block, const Part &of_block) { view(blocks.boxes)[block] = box_of(from, of_block); });
     NodeBox box;
     for (const NodeBox &of_block : blocks.boxes) box.add(of_block);
-    const Bins bins(box);
-    blocks.for_each([&](std::int64_t block, const Part &of_block) {
-      Counts &counts = view(blocks.at)[block];
-      counts.fill(0);
-      for (std::int64_t i = of_block.begin; i < of_block.end; ++i) ++view(counts)[bins(from[i])];
-    });
+    const Bins bins(box, part.size());
+    blocks.for_each(
+        [&](std::int64_t block, const Part &of_block) { count(from, of_block, bins, view(blocks.counts)[block]); });
+    Counts sums = blocks.counts.front();
+    for (std::int64_t block = 1; block < view(blocks.counts).size(); ++block)
+      for (int bin = 0; bin < bins.n; ++bin) view(sums)[bin] += view(view(blocks.counts)[block])[bin];
+    std::array<std::int64_t, most_parts> ends;
+    int n_parts = 0;
+    for_each_cut(part, [&](const Part &cut) { view(ends)[n_parts++] = cut.end - part.begin; });
+    const Streams streams(sums, bins.n, ends, n_parts);
+    for (std::int64_t block = 0; block < view(blocks.counts).size(); ++block) {
+      auto &at = view(blocks.at)[block];
+      at.fill(0);
+      for (int bin = 0; bin < bins.n; ++bin)
+        view(at)[view(streams.of_bin)[bin]] += view(view(blocks.counts)[block])[bin];
+    }
     Node n = 0;
-    for (std::size_t bin = 0; bin < n_bins; ++bin)
-      for (Counts &counts : blocks.at) {
-        const Node count = counts[bin];
-        counts[bin] = n;
+    for (int stream = 0; stream < streams.n; ++stream)
+      for (auto &at : blocks.at) {
+        const Node count = view(at)[stream];
+        view(at)[stream] = n;
         n += count;
       }
     blocks.for_each([&](std::int64_t block, const Part &of_block) {
-      Counts &next = view(blocks.at)[block];
+      std::array<Item *, Streams::most> next;
+      for (int stream = 0; stream < streams.n; ++stream)
+        view(next)[stream] = to + part.begin + view(view(blocks.at)[block])[stream];
       for (std::int64_t i = of_block.begin; i < of_block.end; ++i)
-        to[part.begin + view(next)[bins(from[i])]++] = from[i];
+        *view(next)[view(streams.of_bin)[bins(from[i])]]++ = from[i];
     });
   }
 
@@ -222,13 +305,13 @@ class NodeSorter {
     for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
   }
 
-  std::vector<Item> items_, buffer_;
+  NodeItems<Node> items_, buffer_;
   int n_threads_;
 };
 
 template <class Node>
-std::vector<NodeItem<Node>> items_of(const StridedPoints &nodes, const NodeFrame &frame, int n_threads) {
-  std::vector<NodeItem<Node>> items;
+NodeItems<Node> items_of(const StridedPoints &nodes, const NodeFrame &frame, int n_threads) {
+  NodeItems<Node> items;
   resize(items, nodes.n);
   parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
