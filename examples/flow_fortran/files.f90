@@ -74,19 +74,18 @@ contains
     type(riis_parameter_info) :: info
     real(dp), allocatable :: values(:)
     integer :: i
-    allocate (lines(6 + valve%valve%n_parameters()))
+    allocate (lines(5 + valve%valve%n_parameters()))
     write (lines(1), '(a, 3i6)') 'cells', fluid%n
     write (lines(2), '(2a)') 'valve ', trim(valve%kind)
     write (lines(3), '(a, es24.16)') 'resistance', valve%R
     write (lines(4), '(a, es24.16)') 'half_thickness', valve%eps
     write (lines(5), '(a, 3es24.16)') 'place', valve%place
-    write (lines(6), '(a, l2)') 'surface_velocity', valve%moves_flow
-    do i = 1, size(lines) - 6
+    do i = 1, size(lines) - 5
       call valve%valve%parameter(i, info)
       values = info%default_values
       call valve%valve%get(info%name, values)
       if (info%name == 'opening') values = 0      ! that is a part of the state
-      write (lines(6 + i), '(a, 3es24.16)') info%name, values
+      write (lines(5 + i), '(a, 3es24.16)') info%name, values
     end do
   end subroutine get_identity
 

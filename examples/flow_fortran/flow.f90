@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> A heartbeat of the aortic valve in its root. Options are words NAME=VALUE, which README.md lists.
 program flow_through_valve
-  use, intrinsic :: iso_fortran_env, only: int64, output_unit
+  use, intrinsic :: iso_fortran_env, only: output_unit
   use riis
   use flow_solver, only: dp, flow
   use flow_valve, only: leaflets, check
   use flow_root, only: in_root
   use flow_circulation, only: circulation, mmHg, ml, period
   use flow_files, only: open_table, write_frame, write_restart, read_restart
-  use flow_stop, only: refuse, step_number, step_time
+  use flow_stop, only: clocks, refuse, step_number, step_time
   implicit none
   real(dp), parameter :: width = 0.033_dp, length = 0.0396_dp, bottom = -0.018_dp ! [m] the box around the root
   real(dp), parameter :: z_up = -0.014_dp, z_down = 0.006_dp, z_jet = 0.0015_dp   ! [m] where pressures and the jet are seen
@@ -19,8 +19,7 @@ program flow_through_valve
     filter_seconds=0.002d0, dwell_seconds=0.05d0) ! opens by the pressure difference, closes as the flow reverses
   type(riis_opening_switch_state) :: state
   integer :: table, frame, status
-  real(dp) :: dt, flow_rate, p_up, p_down, force(3), jet, seconds
-  integer(int64) :: begin, now, rate
+  real(dp) :: dt, flow_rate, p_up, p_down, force(3), jet, begin(2), seconds(2)
   character(len=20) :: number
   ! The options.
   integer :: cells = 40, steps = huge(0), frames = 100, save(2) = 0
@@ -31,7 +30,7 @@ program flow_through_valve
   namelist /options/ cells, steps, frames, save, end_time, longest_step, eps_in_cells, resistance, place, surface_velocity, &
     kind, out, restart
 
-  call system_clock(begin, rate)
+  begin = clocks()
   call read_options()
   fluid%tolerance = 1e-6_dp
   call fluid%start([cells, cells, nint(cells * length / width)], width / cells, [-width / 2, -width / 2, bottom], in_root)
@@ -65,11 +64,12 @@ program flow_through_valve
     call tell()
   end do
 
-  call system_clock(now)
-  seconds = real(now - begin, dp) / rate
-  print '(a, i0, 2(a, f0.1), a, f0.2, a, i0, a, f0.2, a)', 'steps: ', step_number, '; seconds: ', seconds, ', of these in riis: ', &
-    valve%seconds, ', ', 100 * valve%seconds / seconds, ' %; markings: ', valve%markings, ', ', &
-    1000 * valve%seconds / max(1, valve%markings), ' ms each'
+  seconds = clocks() - begin
+  print '(a, i0, a, i0, a, f0.2, a)', 'steps: ', step_number, '; markings: ', valve%markings, ', ', &
+    1e3_dp * valve%seconds(2) / max(1, valve%markings), ' ms of a processor each'
+  print '(2(a, f0.1, a, f0.1, a, f0.2))', 'seconds: ', seconds(1), ', in riis ', valve%seconds(1), ', % ', &
+    100 * valve%seconds(1) / seconds(1), '; of processors: ', seconds(2), ', in riis ', valve%seconds(2), ', % ', &
+    100 * valve%seconds(2) / seconds(2)
   call valve%finish()
   call fluid%equation%finish()
 

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The step and the time that a message names, and the one way out after an error.
+!> The step and the time that a message names, the one way out after an error, and clocks.
 module flow_stop
-  use, intrinsic :: iso_fortran_env, only: dp => real64, error_unit
+  use, intrinsic :: iso_fortran_env, only: dp => real64, error_unit, int64
   implicit none
   private
-  public :: refuse
+  public :: refuse, clocks
   integer, public :: step_number = 0
   real(dp), public :: step_time = 0
 
@@ -16,4 +16,13 @@ contains
     write (error_unit, '(a, i0, a, f0.6, 2a)') 'flow: step ', step_number, ', ', step_time, ' s: ', text
     stop 1, quiet=.true.
   end subroutine refuse
+
+  !> Returns the seconds of the wall clock and of the processors.
+  function clocks() result(seconds)
+    real(dp) :: seconds(2)
+    integer(int64) :: ticks, rate
+    call system_clock(ticks, rate)
+    seconds(1) = real(ticks, dp) / rate
+    call cpu_time(seconds(2))
+  end function clocks
 end module flow_stop
