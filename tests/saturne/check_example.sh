@@ -44,11 +44,20 @@ refused() {
 
 for case in c fortran; do
   refused "$case" valve_outside "riis: time step 1: the valve leaves the mesh: its z is from" VALVE_Z=0.03
-  refused "$case" another_valve "riis: time step $([[ $case == c ]] && echo 9 || echo 21): the checkpoint is of another kind of valve" \
-    RUN_STEPS=30 VALVE_KIND=bileaflet RUN_RESTART="$study/$case/RESU/closed_1/checkpoint"
+  step=$([[ $case == c ]] && echo 9 || echo 21) # the first one after the checkpoint
+  refused "$case" another_kind "riis: time step $step: the checkpoint is of another kind of valve" RUN_STEPS=30 \
+    VALVE_KIND=bileaflet RUN_RESTART="$study/$case/RESU/closed_1/checkpoint"
   cp "$here/cs_user_physical_properties.c" "$study/$case/SRC"
   refused "$case" pressures_of_nan "riis: time step 3: RIIS_INVALID_ARGUMENT: pressure_difference is nan"
   rm "$study/$case/SRC/cs_user_physical_properties.c"
+done
+# A valve of the same kind whose cusps are 0.1 mm lower.
+sed -i 's/^  if (cs_restart_present())/  check(riis_valve_set_scalar(valve, "leaflet_height", 1.19));\n&/' \
+  "$study/c/SRC/cs_user_valve.c"
+sed -i "s/^    if (isuite == 1)/    call valve%set('leaflet_height', 1.19d0)\n&/" "$study/fortran/SRC/cs_user_valve.f90"
+for case in c fortran; do
+  refused "$case" lower_valve ": the checkpoint is of another valve" RUN_STEPS=30 \
+    RUN_RESTART="$study/$case/RESU/closed_1/checkpoint"
 done
 refused c bad_setting "VALVE_HALF_THICKNESS is '2 mm', but must be a number from" VALVE_HALF_THICKNESS="2 mm"
 refused reference no_table "cannot read REFERENCE_CELLS, 'nowhere'" REFERENCE_CELLS=nowhere

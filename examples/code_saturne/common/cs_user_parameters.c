@@ -15,7 +15,7 @@ void cs_user_parameters(cs_domain_t *domain) {
   cs_fluid_properties_t *fluid = cs_get_glob_fluid_properties();
   fluid->ro0 = 1060;
   fluid->viscl0 = 0.004;
-  fluid->p0 = 0; /* the pressures of the boundary conditions are relative */
+  fluid->p0 = 0; /* the pressures of this study are relative */
   if (setting("RUN_CHECKPOINT") > 0) cs_restart_checkpoint_set_next_ts((int)setting("RUN_CHECKPOINT"));
 }
 
