@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run uris: reads exports of riis-mark back, marks the nodes of a cylinder by the rule of svMultiPhysics, the distance to the
-// nearest middle of a triangle, and compares with the library's distances to the same triangles. Prints rows of the table of docs/export.md.
+// ./run uris: reads exports of riis-mark back and marks the nodes of a cylinder by the rule of svMultiPhysics: the distance is
+// that to the nearest middle of a triangle. Compares with the library's distances to the same triangles, and prints rows of the
+// table of docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
 //   argv[3..] what riis-mark --export-uris printed
@@ -31,7 +32,7 @@ namespace {
 using namespace bench;
 
 constexpr double pi = 3.14159265358979323846;
-// About the bileaflet valve, open or closed.
+// Holds the bileaflet valve, open or closed.
 constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 
 [[noreturn]] void give_up(const std::string &text) {

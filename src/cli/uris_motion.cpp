@@ -71,11 +71,11 @@ Spans spans_of_cycle(const Options &options, const OpeningTable &table) {
 
 std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {
   const double length = span.stop - span.start;
-  // A step that divides the span is not lost to rounding.
   if (step > length * (1 + 1e-9)) {
     throw Refusal{exit_wrong_usage,
                   "--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length)};
   }
+  // A step that divides the span makes no short step by rounding.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
     throw Refusal{exit_wrong_usage, "--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) +

@@ -35,8 +35,8 @@ double uris_number(const char *block, const char *element);
 /* Frame k of a motion, (3, n_nodes). */
 const double *uris_frame(const uris_face *face, const double *motion, int k);
 
-/* The solver's signed distance of a point, in frame k of the opening: to the nearest middle of a triangle. The sign is that of the
- * nearest triangle's face, and in a closed valve also that of the direction of flow. */
+/* The solver's signed distance of a point, in frame k of the opening: to the nearest middle of a triangle. The sign is that of
+ * the nearest triangle's face, and in a closed valve also that of the direction of flow. */
 double uris_distance(const uris_valve *valve, int k, int is_closed, const double point[3]);
 
 #endif
