@@ -56,7 +56,7 @@ with open("/proc/self/maps", encoding="utf-8") as maps:
     files = {line.split()[-1] for line in maps}
 loaded = sorted(file for file in files if any(name in file for name in ("embree", "tbb", "gomp")))
 print("\n".join(loaded))
-assert len(loaded) == 3 and all("/riis.libs/" in file for file in loaded), "not all are the wheel's own"
+assert len(loaded) >= 3 and all("/riis.libs/" in file for file in loaded), "not all are the wheel's own"
 PYTHON
 }
 
