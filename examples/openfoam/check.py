@@ -32,23 +32,22 @@ def flat_drop(case, flow):
 def marks(serial, *others):
     """The cells and K of runs on several ranks, by the global ids of the cells."""
     centres = foam.global_field(serial, "0", "C")
-    print(f"An opening valve, every step written, {len(centres):,} cells. Cells are compared by their global ids.")
-    print(f"  {'ranks':>5} {'steps':>5} {'marked':>13} {'same marks':>10} {'centres with other bits':>23} {'K with other bits':>17}"
-          f" {'of these with equal centres':>27} {'largest difference of K':>23}")
     times = foam.times(serial)
     require(len(times) > 3, f"{serial} has written more than three steps, not {times}")
-    for case in others:
+    print(f"An opening valve in {len(centres):,} cells, every step written. Cells are compared with those of 1 rank by their global ids."
+          "\nTimes are medians of a step: that of the library on the slowest rank, and the processor time of a whole step of a rank.")
+    print(f"  {'ranks':>5} {'steps':>5} {'marked':>13} {'library':>9} {'step':>7} {'same marks':>10} {'centres with':>13}"
+          f" {'K with':>10} {'these with':>13} {'largest':>10}")
+    print(f"  {'':>5} {'':>5} {'':>13} {'':>9} {'':>7} {'':>10} {'other bits':>13} {'other bits':>10} {'equal centres':>13}"
+          f" {'difference':>10}")
+    for case in (serial,) + others:
         n_ranks = len(foam.parts(case))
         require(foam.times(case) == times, f"{case} has the times {times}, not {foam.times(case)}")
         moved = (foam.global_field(case, "0", "C") != centres).any(axis=1)
         same, different, unexplained, largest, counts = True, 0, 0, 0.0, []
         for time in times:
             for name in (K_NAME, KU_NAME):
-                here, there = foam.global_field(serial, time, name), foam.global_field(case, time, name)
-                if here.ndim > 1:
-                    here, there = here.reshape(len(here), -1), there.reshape(len(there), -1)
-                else:
-                    here, there = here[:, None], there[:, None]
+                here, there = (foam.global_field(folder, time, name).reshape(len(centres), -1) for folder in (serial, case))
                 bits = (here != there).any(axis=1)
                 unexplained += int((bits & ~moved).sum())
                 if name == K_NAME:
@@ -57,8 +56,9 @@ def marks(serial, *others):
                     different += int(bits.sum())
                     largest = max(largest, float(numpy.abs(here - there).max() / here.max()))
         require(min(counts) > 100 and max(counts) != min(counts), f"the valve moves through cells: {counts} are marked")
-        print(f"  {n_ranks:>5} {len(times):>5} {min(counts):>6,}-{max(counts):<6,} {'yes' if same else 'no':>10} {moved.sum():>23,}"
-              f" {different:>17,} {unexplained:>27,} {largest:>23.1e}")
+        library, whole = numpy.nanmedian(foam.steps(case)[1:, 4:6], axis=0)
+        print(f"  {n_ranks:>5} {len(times):>5} {min(counts):>6,}-{max(counts):<6,} {1e3 * library:>6.2f} ms {1e3 * whole:>4.0f} ms"
+              f" {'yes' if same else 'no':>10} {moved.sum():>13,} {different:>10,} {unexplained:>13,} {largest:>10.1e}")
         require(same, f"{case} marks the cells that {serial} marks")
         require(unexplained == 0, f"cells whose centres have the same bits have the same K, not {unexplained} others")
         require(largest < 1e-9, f"K differs by at most 1e-9 of its largest value, not {largest:.1e}")
@@ -104,8 +104,8 @@ def drops(cases):
     cases = pathlib.Path(cases)
     closed, flow = drop(cases / "closed")
     flat, size = flat_drop(cases / "closed", flow)
-    print(f"A steady flow of {flow * 1e6:.2f} ml/s from rest, velocity 0.1 m/s at the inlet. The closed leaflets have {size * 1e4:.3f}"
-          " cm2.\nDrop in Pa between sections below and above the valve:")
+    print(f"A steady flow of {flow * 1e6:.2f} ml/s from rest, 0.1 m/s at the inlet. The closed leaflets have {size * 1e4:.3f} cm2."
+          "\nDrop in Pa between sections below and above the valve:")
     print(f"  {'':<34} {'1st step':>10} {'2nd step':>10} {'last step':>10} {'of riis':>9}")
     last = {}
     for name, text in (("closed", "closed valve, riis"), ("powerLaw", "OpenFOAM's powerLaw porosity"),
@@ -132,14 +132,14 @@ def sizes(*cases):
         log = case.parent.parent / case.name.replace("closed", "mesh") / "checkMesh.log"
         mesh = float(re.search(r"Total volume = ([0-9.e+-]+?)\.? ", log.read_text()).group(1))
         shares.append(values[-1] / flat_drop(case, flow)[0])
-        print(f"  {case.name.split('-')[1]:>9} {n:>9,} {int(foam.steps(case)[-1, 2]):>8,} {constant(case, 'halfThickness') / (mesh / n) ** (1 / 3):>8.2f}"
-              f" {shares[-1]:>20.3f}")
+        cells = constant(case, "halfThickness") / (mesh / n) ** (1 / 3)
+        print(f"  {case.name.split('-')[1]:>9} {n:>9,} {int(foam.steps(case)[-1, 2]):>8,} {cells:>8.2f} {shares[-1]:>20.3f}")
     require(all(a < b for a, b in zip(shares, shares[1:])) and shares[-1] < 1.05, "finer meshes come nearer to (R / eps) u")
 
 
 def beat(*cases):
     """The heartbeat with and without the leaflets' velocity."""
-    print(f"A heartbeat by pressure: the valve opens when the pressure difference exceeds 0, and closes when the flow reverses.")
+    print("A heartbeat by pressure: the valve opens when the pressure difference exceeds 0, and closes when the flow reverses.")
     print(f"  {'':<22} {'opens at':>9} {'closes at':>9} {'least K cells':>13} {'largest flow':>13} {'least flow':>11} {'out':>8}"
           f" {'back':>8} {'library':>9} {'step':>7} {'share':>6}")
     for case in cases:
@@ -149,7 +149,7 @@ def beat(*cases):
         dt = flow[1, 0] - flow[0, 0]
         rising, falling = numpy.diff(opening) > 0, numpy.diff(opening) < 0
         require(rising.any() and falling.any(), "the valve opens and closes")
-        require(opening.max() > 0.999 and opening[-1] == 0, f"the valve opens fully and ends closed, not {opening.max()}, {opening[-1]}")
+        require(opening.max() > 0.999 and opening[-1] == 0, f"it opens fully and ends closed, not {opening.max()}, {opening[-1]}")
         library, whole = numpy.nanmean(rows[1:, 4]), numpy.nanmean(rows[1:, 5])
         print(f"  {name:<22} {rows[:-1][rising][0, 0]:>7.3f} s {rows[:-1][falling][0, 0]:>7.3f} s {int(rows[:, 2].min()):>13,}"
               f" {q.max():>8.1f} ml/s {q.min():>6.1f} ml/s {q[q > 0].sum() * dt:>5.2f} ml {-q[q < 0].sum() * dt:>5.2f} ml"
