@@ -9,10 +9,12 @@ flow_build=build-flow
 
 # flow_available: tells whether HYPRE is there, or can be installed.
 flow_available() {
+  local as_root=()
   ! command -v dpkg-query >/dev/null && return
   [[ $(dpkg-query -W -f='${db:Status-Status}' libhypre-dev 2>/dev/null) == installed ]] && return
   [[ $(apt-cache policy libhypre-dev 2>/dev/null) == *Candidate:\ [0-9]* ]] && return
-  step "apt-get update" apt-get update
+  ((EUID == 0)) || as_root=(sudo)
+  step "apt-get update" "${as_root[@]}" apt-get update
   [[ $(apt-cache policy libhypre-dev 2>/dev/null) == *Candidate:\ [0-9]* ]]
 }
 
@@ -37,7 +39,8 @@ flow_restart() {
   mkdir -p "$again/frames"
   "$flow_build/solver/flow" "$@" save="$second" steps="$second" out="'$again'" restart="'$folder/restart_$first.bin'" &&
     cmp "$folder/restart_$second.bin" "$again/restart_$second.bin" &&
-    cmp <(awk -F , -v a="$first" -v b="$second" '$1 + 0 > a && $1 + 0 <= b' "$folder/beat.csv") <(sed 1d "$again/beat.csv")
+    cmp <(awk -F , -v a="$first" -v b="$second" '$1 + 0 > a && $1 + 0 <= b' "$folder/beat.csv") <(sed 1d "$again/beat.csv") &&
+    rm -rf "$again"
 }
 
 # flow_story FOLDER: says what the beat was, from its table.
