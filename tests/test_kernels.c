@@ -505,6 +505,73 @@ static void no_pair_that_matters_is_lost(void **state) {
   }
 }
 
+/* --- What goes into groups ------------------------------------------------------------------------------------------- */
+
+static void corners_are_bounded_and_framed(void **state) {
+  (void)state;
+  enum { most = 100, n_lanes = 16 };
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set)) continue;
+    for (int trial = 0; trial < 2000; ++trial) {
+      static double corners[9 * most];
+      const int64_t n = 1 + (int64_t)(random_bits(&rng) % most);
+      double lower[3], upper[3], least[3] = {INFINITY, INFINITY, INFINITY},
+                                 greatest[3] = {-INFINITY, -INFINITY, -INFINITY};
+      for (int64_t i = 0; i < 9 * n; ++i) {
+        corners[i] = random_between(&rng, -1, 1) * power_of_ten(-3, 3);
+        least[i % 3] = fmin(least[i % 3], corners[i]), greatest[i % 3] = fmax(greatest[i % 3], corners[i]);
+      }
+      kernels_bound_corners(set, n, corners, lower, upper);
+      for (int c = 0; c < 3; ++c) {
+        CHECK_SAME(lower[c], least[c]);
+        CHECK_SAME(upper[c], greatest[c]);
+      }
+      double in_frame[9 * n_lanes];
+      int32_t triangle[n_lanes];
+      const int in_group = 1 + (int)(random_bits(&rng) % n_lanes);
+      const double centre[3] = {0.1, -0.7, 3}, scale = 0.25;
+      for (int i = 0; i < in_group; ++i) triangle[i] = (int32_t)(random_bits(&rng) % (uint64_t)n);
+      kernels_frame_group(set, centre, scale, corners, triangle, in_group, in_frame);
+      for (int i = 0; i < n_lanes; ++i)
+        for (int c = 0; c < 9; ++c) {
+          const double x = corners[9 * triangle[i < in_group ? i : 0] + c];
+          CHECK_SAME(in_frame[n_lanes * c + i], scale * (x - centre[c % 3]));
+        }
+    }
+  }
+}
+
+/* Triangles with heights around the least: a triangle without area never passes, and one with a hundred times as much always does. */
+static void triangles_without_area_are_noticed(void **state) {
+  (void)state;
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set)) continue;
+    int n_flat = 0, n_high = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+      enum { most = 8 };
+      double vertices[9 * most];
+      int64_t id[3 * most];
+      const int n = 1 + (int)(random_bits(&rng) % most), which = (int)(random_bits(&rng) % (uint64_t)n);
+      const double height = power_of_ten(-14, -8), size = power_of_ten(-20, 20);
+      for (int i = 0; i < n; ++i) {
+        const double h = i == which ? height : 0.5, foot = random_between(&rng, 0, 1);
+        const double t[9] = {0, 0, 0, size, 0, 0, foot * size, h * size, 0};
+        memcpy(vertices + 9 * i, t, sizeof t);
+        for (int k = 0; k < 3; ++k) id[3 * i + k] = 3 * i + (k + trial) % 3;
+      }
+      const int have_area = kernels_have_area(set, vertices, id, n);
+      if (height <= 1e-12) {
+        ++n_flat;
+        assert_false(have_area);
+      } else if (height > 1e-10) {
+        ++n_high;
+        assert_true(have_area);
+      }
+    }
+    assert_true(n_flat > 1000 && n_high > 1000);
+  }
+}
+
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
 /* The code for processors without any of these instruction sets does the baseline's operations. */
@@ -576,6 +643,8 @@ int main(void) {
       cmocka_unit_test(single_precision_is_right_to_its_error),
       cmocka_unit_test(first_bounds_and_boxes_lose_nothing),
       cmocka_unit_test(no_pair_that_matters_is_lost),
+      cmocka_unit_test(corners_are_bounded_and_framed),
+      cmocka_unit_test(triangles_without_area_are_noticed),
       cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
   };
   rng = random_start("test_kernels");

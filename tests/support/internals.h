@@ -114,6 +114,14 @@ void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *tri
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 
+/* Bounds n triangles (9 doubles each). */
+void kernels_bound_corners(int set, int64_t n, const double *corners, double *lower, double *upper);
+/* Takes n of them, up to 16, to a frame: framed(16, 9). */
+void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
+                         int32_t n, double *framed);
+/* Returns 0 if one of n triangles, up to 8, may have no area. */
+int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n);
+
 /* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);

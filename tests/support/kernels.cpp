@@ -128,6 +128,21 @@ void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *tri
   }
 }
 
+void kernels_bound_corners(int set, int64_t n, const double *corners, double *lower, double *upper) {
+  of(set).bound_corners(corners, n, lower, upper);
+}
+
+void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
+                         int32_t n, double *framed) {
+  GroupCorners of_group;
+  of(set).frame_group({{centre[0], centre[1], centre[2]}, scale}, corners, triangle, n, of_group);
+  std::memcpy(framed, of_group.xyz, sizeof of_group.xyz);
+}
+
+int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n) {
+  return of(set).have_area(vertices, vertex_id, n);
+}
+
 kernel_group *kernels_group(int set, int n, const double *corners) {
   auto *group = new kernel_group{};
   group->bounds.n = n;
