@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench marking: the cost of a time step, of an adjacency and of their competitors, in one run. A step makes the surface of a valve that moved
-// and its scene, marks, and reads the list of marked nodes with distances and triangles (time_steps.hpp). Prints the measured
-// times and the bars. Fails if a competitor does not mark the same nodes.
+// ./run bench marking: the cost of a time step, of an adjacency and of their competitors, in one run. A step makes the surface of
+// a valve that moved and its scene, marks, and reads the list of marked nodes with distances and triangles (time_steps.hpp).
+// Prints the measured times and the bars. Fails if a competitor does not mark the same nodes or has other rows.
 //   argv[1]  a file for the times and bars as JSON, optional
 //   argv[2]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
