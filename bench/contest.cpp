@@ -83,13 +83,13 @@ void Bars::add(const std::string &name, double value, Wanted wanted, double bar)
   bars_.push_back({name, value, wanted, bar});
 }
 
-void Bars::add(const Contest &contest, const RatioBar &ratio, double scale) {
+void Bars::add(const Contest &contest, const RatioBar &ratio) {
   for (const char *contender : {ratio.above, ratio.below})
     if (const std::string why = contest.why_left_out(contender); !why.empty()) {
       left_out_.push_back(std::string("Left out: ") + ratio.name + " (" + why + ").");
       return;
     }
-  add(ratio.name, scale * contest.ratio(ratio.above, ratio.below), ratio.wanted, ratio.bar);
+  add(ratio.name, contest.ratio(ratio.above, ratio.below), ratio.wanted, ratio.bar);
 }
 
 void Bars::print() const {

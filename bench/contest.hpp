@@ -58,8 +58,7 @@ struct RatioBar {
 class Bars {
  public:
   void add(const std::string &name, double value, Wanted wanted, double bar);
-  // The ratio counts scale times.
-  void add(const Contest &contest, const RatioBar &ratio, double scale = 1);
+  void add(const Contest &contest, const RatioBar &ratio);
 
   void print() const;
   nlohmann::json json() const;

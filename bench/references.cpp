@@ -67,10 +67,52 @@ Triangles::Triangles(const riis_surface *surface) {
   leaflet_id.assign(leaflets, leaflets + n);
 }
 
+EveryTriangle::EveryTriangle(const Triangles &triangles) {
+  for (std::int64_t i = 0; i < triangles.n(); ++i) {
+    const double *corners = triangles.corners.data() + 9 * i;
+    const Point a = at(corners), ab = at(corners + 3) - a, ac = at(corners + 6) - a, bc = ac - ab;
+    const double ab_ab = dot(ab, ab), ab_ac = dot(ab, ac), ac_ac = dot(ac, ac);
+    triangles_.push_back({{a.x, a.y, a.z},
+                          {ab.x, ab.y, ab.z},
+                          {ac.x, ac.y, ac.z},
+                          ab_ab,
+                          ab_ac,
+                          ac_ac,
+                          1 / ab_ab,
+                          1 / ac_ac,
+                          1 / dot(bc, bc),
+                          1 / (ab_ab * ac_ac - ab_ac * ab_ac)});
+  }
+}
+
+// The regions are those of distance_sq above.
 double EveryTriangle::operator()(const double *p, double) const {
   double least = std::numeric_limits<double>::infinity();
-  const double *corners = triangles_.corners.data();
-  for (std::int64_t i = 0; i < triangles_.n(); ++i) least = std::min(least, distance_sq(at(p), corners + 9 * i));
+  for (const Prepared &t : triangles_) {
+    const Point ap = at(p) - at(t.a), ab = at(t.ab), ac = at(t.ac);
+    const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = d1 - t.ab_ab, d4 = d2 - t.ab_ac, d5 = d1 - t.ab_ac,
+                 d6 = d2 - t.ac_ac;
+    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+    double v = 0, w = 0;  // the closest point is a + v ab + w ac
+    if (d1 <= 0 && d2 <= 0) {
+    } else if (d3 >= 0 && d4 <= d3) {
+      v = 1;
+    } else if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+      v = d1 * t.by_ab;
+    } else if (d6 >= 0 && d5 <= d6) {
+      w = 1;
+    } else if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+      w = d2 * t.by_ac;
+    } else if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+      w = (d4 - d3) * t.by_bc;
+      v = 1 - w;
+    } else {
+      v = vb * t.by_area;
+      w = vc * t.by_area;
+    }
+    const Point d{ap.x - v * ab.x - w * ac.x, ap.y - v * ab.y - w * ac.y, ap.z - v * ab.z - w * ac.z};
+    least = std::min(least, dot(d, d));
+  }
   return std::sqrt(least);
 }
 

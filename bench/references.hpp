@@ -20,14 +20,20 @@ struct Triangles {
   std::int64_t n() const { return static_cast<std::int64_t>(leaflet_id.size()); }
 };
 
-// Computes the least distance to any triangle by measuring all of them (paper, 4.1).
+// Computes the least distance to any triangle by measuring all of them (paper, 4.1). What depends on a triangle alone, its edges
+// and their products, is computed once.
 class EveryTriangle {
  public:
-  explicit EveryTriangle(const Triangles &triangles) : triangles_(triangles) {}
+  explicit EveryTriangle(const Triangles &triangles);
   double operator()(const double *p, double limit) const;
 
  private:
-  const Triangles &triangles_;
+  struct Prepared {
+    double a[3], ab[3], ac[3];
+    double ab_ab, ab_ac, ac_ac;
+    double by_ab, by_ac, by_bc, by_area;  // inverses of the squares of the edges, and of the parallelogram's area
+  };
+  std::vector<Prepared> triangles_;
 };
 
 // Computes the same by an Embree point query with a radius. Each triangle is a primitive, and distances are in double precision.

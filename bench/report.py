@@ -281,7 +281,7 @@ def floor_values(data):
     fine_ratio = fine / least["step, 2 threads"]
     without = fine_ratio * (1 - share["fine"][-1]) / (1 - share["coarse"][-1])
     times = {
-        "filter_ms": filtered, "step_ms": step, "decided_ms": needed, "by_queries_ms": queries / 10, "by_cgal_ms": cgal / 45,
+        "filter_ms": filtered, "step_ms": step, "decided_ms": needed, "by_queries_ms": queries / 8, "by_cgal_ms": cgal / 17,
         "fine_ratio": fine_ratio, "ratio_without_surfaces": without,
     }  # fmt: skip
     return {name: f"{value:.1f}" for name, value in times.items()}
@@ -325,6 +325,7 @@ def marking_values(data):
         "marked_share": f"{100 * counts['marked'] / counts['nodes']:.1f}",
         "thick_share": f"{100 * counts['marked_with_0.3'] / counts['nodes']:.1f}",
         "pair_ns": f"{pair_ns(data):.2f}",
+        "marked_ns": grouped(round(1e6 * data.marking["times"]["step, 1 thread"]["least_ms"] / counts["marked"])),
         "are_a_million": counts["nodes"] > 9e5,
         "times_table": table(["what", "least, ms", "median, ms", "turns"], rows),
         "bars_table": table(["bar", "value", "wanted", ""], bars),

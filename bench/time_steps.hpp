@@ -28,19 +28,23 @@ struct StepOptions {
   double tolerance = 0.05;
   int n_threads = 1;
   std::int32_t instructions = RIIS_INSTRUCTIONS_AUTO;
+  std::int32_t triangulation = RIIS_TRIANGULATION_ADAPTED;  // if fixed, the aortic valve moves by its opening
 };
 
 // Marks by clusters. The mesh is borrowed.
 class TimeSteps {
  public:
   TimeSteps(const riis_mesh *mesh, const StepOptions &options)
-      : mesh_(mesh), is_mitral_(std::string(options.kind) == "mitral"), valve_(make_valve(options.kind)) {
+      : mesh_(mesh),
+        opens_(std::string(options.kind) == "mitral" || options.triangulation == RIIS_TRIANGULATION_FIXED),
+        valve_(make_valve(options.kind)) {
     move_to(0.5);
     riis_surface_options of_surface;
     check(riis_surface_options_init(&of_surface, sizeof of_surface));
     of_surface.tolerance = options.tolerance;
     of_surface.half_thickness = options.half_thickness;
     of_surface.n_threads = options.n_threads;
+    of_surface.triangulation = options.triangulation;
     surface_ = make_surface(valve_.get(), &of_surface);
     check(riis_mark_options_init(&marking_, sizeof marking_));
     marking_.search = RIIS_SEARCH_CLUSTERS;
@@ -48,9 +52,10 @@ class TimeSteps {
     marking_.instructions = options.instructions;
   }
 
-  // From position 0 to 1 the mitral valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees.
+  // From position 0 to 1 the valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees. A fixed triangulation
+  // serves all openings, and no other changes of the valve.
   void move_to(double position) {
-    if (is_mitral_)
+    if (opens_)
       check(riis_valve_set_scalar(valve_.get(), "opening", position));
     else
       check(riis_valve_set_scalar(valve_.get(), "leaflet_angle", 30 + 30 * position));
@@ -81,7 +86,7 @@ class TimeSteps {
 
  private:
   const riis_mesh *mesh_;
-  bool is_mitral_;
+  bool opens_;
   Valve valve_;
   Surface surface_;
   Result result_ = make_result();

@@ -151,7 +151,8 @@ class Page(unittest.TestCase):
         self.assertIn("- is missed: 2.00\n", text)
         self.assertIn("at 5.00 ns a pair of a node and a triangle", text.replace("\n", " "))
         self.assertIn("takes 400 ns here", text.replace("\n", " "))
-        self.assertIn("A ratio of 45 to CGAL would leave 1.4 ms. Fine triangles take 3.0 times as long", text.replace("\n", " "))
+        self.assertIn("A step on one thread takes 66,667 ns for each marked node.", text.replace("\n", " "))
+        self.assertIn("A ratio of 17 to CGAL leaves 3.7 ms. Fine triangles take 3.0 times as long", text.replace("\n", " "))
         self.assertNotIn("- is met", text)
         self.assertIn("Left out: CGAL (not found).", text)
 
