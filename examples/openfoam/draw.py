@@ -38,7 +38,7 @@ def beat(case, still, path):
         one.spines[["top", "right"]].set_visible(False)
     axes[0].set_title("A heartbeat of the aortic valve in OpenFOAM's pimpleFoam")
     figure.tight_layout()
-    figure.savefig(path, dpi=120)
+    figure.savefig(path, dpi=80)
     plt.close(figure)
 
 
@@ -88,5 +88,5 @@ def velocity(case, path):
     axes[0].set_ylabel("z, cm; blood flows upwards")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.9, extend="max")
     figure.suptitle("Speed in the plane x = 0; red: the leaflets there")
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=90)
     plt.close(figure)
