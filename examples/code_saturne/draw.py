@@ -105,7 +105,8 @@ def draw_beat(study, out, read_history):
     for axis in axes:
         axis.grid(alpha=0.3)
         axis.axhline(0, color="black", linewidth=0.6)
-    figure.suptitle("A beat: the solver's own pressures and flow open and close the valve")
+    figure.suptitle("A beat: the valve opens when the solver's pressure upstream is higher,\n"
+                    "and closes when its flow turns back. The resistance is mild, so the closed valve leaks.", fontsize=11)
     figure.savefig(os.path.join(out, "beat.png"), dpi=110)
     plt.close(figure)
 
@@ -122,6 +123,8 @@ def draw_closed(study, out, read_history):
     axis.set_ylabel("drop across the closed valve, Pa")
     axis.grid(alpha=0.3)
     axis.legend()
+    axis.set_title("The closed valve in a steady flow: head losses have their drop at once,\n"
+                   "a momentum source, which the pressure equation does not know, builds it up")
     figure.savefig(os.path.join(out, "closed.png"), dpi=110)
     plt.close(figure)
 

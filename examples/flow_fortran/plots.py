@@ -114,10 +114,15 @@ def draw_pressures(axes, table):
 def draw_beat(table, path):
     """All quantities over time, in one figure."""
     figure, axes = plt.subplots(5, 1, figsize=(8, 11), sharex=True, constrained_layout=True)
-    figure.suptitle("One heartbeat of the aortic valve (grey: the valve is closed)")
+    figure.suptitle("One heartbeat of the aortic valve, from rest (grey: the valve is closed).\n"
+                    "It opens within 40 ms when the ventricle has more pressure, and closes when the flow turns back.",
+                    fontsize=11)
     time = table["time_s"]
     draw_pressures(axes[0], table)
-    axes[0].legend(loc="upper right", framealpha=1)
+    axes[0].plot(time, (table["p_upstream_Pa"] - table["p_downstream_Pa"]) / MMHG, color="0.5", lw=1,
+                 label="upstream less downstream")
+    axes[0].set_ylim(top=1.4 * axes[0].get_ylim()[1])
+    axes[0].legend(loc="upper center", framealpha=1, fontsize=9, ncols=3)
     axes[1].plot(time, 1e6 * table["flow_m3_per_s"], color="k")
     axes[1].set_ylabel("flow into the aorta, ml/s")
     axes[2].plot(time, table["opening"], color=LEAFLET)
@@ -154,8 +159,9 @@ class Movie:
         across = self.figure.add_subplot(grid[0, 2])
         self.across = self.shade(across, first.x, first.y, self.speed_of(first.section), "viridis", fastest)
         across.set_title("speed across, at the dotted line", fontsize=11)
-        across.set_xlabel("cm", labelpad=0)
-        across.set_ylabel("cm")
+        across.set_xlabel("x, cm", labelpad=0)
+        across.set_ylabel("y, cm")
+        across.axvline(0, color="w", ls=":", lw=1)
         axes = (self.speed.axes, self.pressure.axes, across)
         self.leaflets = [one.add_collection(matplotlib.collections.LineCollection([], colors=LEAFLET, linewidths=2.5))
                          for one in axes]
@@ -195,7 +201,7 @@ class Movie:
         bar = self.figure.colorbar(mesh, ax=axes, orientation="horizontal", pad=0.08, fraction=0.04, aspect=30)
         bar.set_label(unit, labelpad=0)
         axes.set_title(title, fontsize=12)
-        axes.set_xlabel("cm", labelpad=0)
+        axes.set_xlabel("y, cm", labelpad=0)
         return mesh
 
     @staticmethod
