@@ -174,6 +174,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
       points[j] = {Floats::all(xyz[0][lane]), Floats::all(xyz[1][lane]), Floats::all(xyz[2][lane])};
     }
     distances_to_group(group, points, margin, of_points);
+    count_pairs(int64_t{n_together} * bounds.n);
     for (int j = 0; j < n_together; ++j) distances[i + j] = of_points[j];
   }
   float nearest[n];
