@@ -23,8 +23,9 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
 }
 
 // Computes the squares of the distances of n points to sixteen triangles, points together, so that a triangle's numbers
-// are loaded once. The results are written where they are needed: GCC copies them in pieces, for which later loads wait. Every result is the distance to a point of the triangle, to rounding. Inside means inside by a
-// margin; next to the edges, the nearest edge is as near, to that margin.
+// are loaded once. Every result is the distance to a point of the triangle, to rounding. Inside means inside by a
+// margin; next to the edges, the nearest edge is as near, to that margin. The results are written where they are needed:
+// GCC copies them in pieces, for which later loads wait.
 template <int n>
 RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
                                     Floats *distances) {
@@ -159,10 +160,15 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
   constexpr int n = 4, n_together = 2;
   int lanes[n];
   Floats distances[n];
+#pragma GCC unroll 2
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
       // The lanes that are left out here are never used.
-      for (int j = i; j < n; ++j) lanes[j] = -1, distances[j] = distances[0];
+#pragma GCC unroll 4
+      for (int j = i; j < n; ++j) {
+        lanes[j] = -1;
+        for (int r = 0; r < Floats::n_registers; ++r) distances[j].part[r] = distances[0].part[r];
+      }
       break;
     }
     Floats3 points[n_together];
