@@ -163,7 +163,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
 #pragma GCC unroll 2
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
-      // The lanes that are left out here are never used.
+      // The lanes that are left out here are never used. GCC would copy these numbers by memset and in pieces.
 #pragma GCC unroll 4
       for (int j = i; j < n; ++j) {
         lanes[j] = -1;

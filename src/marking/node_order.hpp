@@ -176,7 +176,8 @@ class NodeSorter {
     }
   };
 
-  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one block, for one thread.
+  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one
+  // block, for one thread.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
