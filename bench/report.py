@@ -27,7 +27,7 @@ class Data:
         self.machine = self.json("machine")
         self.searches, self.stages = self.benchmarks("searches"), self.benchmarks("stages")
         self.marking, self.peers, self.python_peers = self.json("marking"), self.json("peers"), self.json("peers_python")
-        self.accuracy = self.json("accuracy")
+        self.accuracy, self.roofline = self.json("accuracy"), self.json("roofline")
         with open(os.path.join(HERE, "paper_tables.json"), encoding="utf-8") as file:
             self.paper = json.load(file)
         with open(os.path.join(HERE, "design_steps.json"), encoding="utf-8") as file:
@@ -335,6 +335,66 @@ def marking_values(data):
     }
 
 
+# ---------------------------------------------------------------------------------------------------------------- roofline
+
+STEP_STAGES = (
+    ("update", "update of the surface", None),
+    ("regions", "regions, clusters and leaves: candidates", "floats"),
+    ("filter", "filter", "floats"),
+    ("decide", "decision", "doubles"),
+    ("rest", "the rest of the search: lists, the best of each node", None),
+    ("order", "putting in order and writing", None),
+)
+
+
+def peak_ns(peak, stage, unit, case):
+    """The least time that the machine needs for a stage's operations or for its bytes, whichever takes longer."""
+    by_memory = case["bytes"][stage] / peak["bytes"]
+    return max(by_memory, case["operations"][stage] / peak[unit]) if unit else by_memory
+
+
+def table_of_stages(data, case):
+    """A row for each stage, all per marked node, and their sum."""
+    peak, marked, rows, sums = data.roofline["peak"], case["marked"], [], [0.0] * 4
+    for stage, label, unit in STEP_STAGES:
+        values = [case["nanoseconds"][stage], case["operations"].get(stage, 0), case["bytes"][stage], peak_ns(peak, stage, unit, case)]
+        sums = [total + value for total, value in zip(sums, values)]
+        rows.append((label, values))
+    rows.append(("together", sums))
+    return table(
+        ["stage", "ns", "operations", "bytes", "ns at the peak", "of the peak"],
+        [
+            [label, number(ns / marked), number(operations / marked) if operations else "", number(size / marked), number(at_peak / marked), f"{100 * at_peak / ns:.0f} %"]
+            for label, (ns, operations, size, at_peak) in rows
+        ],
+    )  # fmt: skip
+
+
+def roofline_values(data):
+    if not data.roofline:
+        return None
+    roofline, cases = data.roofline, []
+    for name in ("coarse", "fine"):
+        case = roofline[name]
+        cases.append(
+            {
+                "triangles": grouped(case["triangles"]), "groups": grouped(case["groups"]), "leaves": grouped(case["leaves"]),
+                "groups_a_leaf": number(case["near_groups"] / case["leaves"]),
+                "filtered": number(case["filtered_pairs"] / case["marked"]), "decided": number(case["decided_pairs"] / case["marked"]),
+                "whole_ns": number(case["nanoseconds"]["whole"] / case["marked"]), "roofline_table": table_of_stages(data, case),
+            }
+        )  # fmt: skip
+    return {
+        "run": data.run_values("roofline"),
+        "cpu": data.machine["machine"]["CPU"] if data.machine else "an unknown machine",
+        "instructions": roofline["instructions"],
+        "nodes": grouped(roofline["nodes"]),
+        "marked": grouped(roofline["coarse"]["marked"]),
+        **{f"peak_{name}": number(value) for name, value in roofline["peak"].items()},
+        "cases": cases,
+    }
+
+
 # ------------------------------------------------------------------------------------------------------------------- peers
 
 BOUNDED = ("CGAL", "VTK, vtkStatic", "OpenVDB", "fcpw")
@@ -525,6 +585,7 @@ def values_of_page(data, plots):
         "once": once_values(data),
         "stages": stages_values(data),
         "marking": marking_values(data),
+        "roofline": roofline_values(data),
         "design": design_values(data),
         "accuracy": data.accuracy and accuracy_values(data.accuracy),
         "peers": peers_values(data, plots),
@@ -540,7 +601,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", default=os.path.join("out", "bench"), help="the folder of the JSON (%(default)s)")
     parser.add_argument("--page", default=os.path.join("docs", "performance.md"), help="the page to write (%(default)s)")
-    parser.add_argument("--print", choices=("search", "marking", "peers"), help="print that section in place of writing the page")
+    parser.add_argument("--print", choices=("search", "marking", "roofline", "peers"), help="print that section in place of writing the page")
     parser.add_argument("--figures", metavar="FOLDER", help="only draw the plots of the figures' page there, with plots.json for it")
     options = parser.parse_args(arguments)
     data = Data(options.data)
@@ -548,7 +609,7 @@ def main(arguments):
         write_figures(data, options.figures)
         return 0
     if options.print:
-        part = {"search": "searches", "marking": "marking", "peers": "peers"}[options.print]
+        part = {"search": "searches"}.get(options.print, options.print)
         print(template().fill(values_of_page(data, {}), only=part))
         return 0
     text = template().fill(values_of_page(data, images_for_page(data, os.path.dirname(options.page) or ".")))

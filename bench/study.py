@@ -25,7 +25,7 @@ GUARDED = (
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
 )
 # What others wrote, or is made anew, is not removed.
-OWN_JSON = ("searches", "stages", "marking", "accuracy", "peers", "peers_python")
+OWN_JSON = ("searches", "stages", "marking", "roofline", "accuracy", "peers", "peers_python")
 
 
 def processors():
@@ -141,6 +141,9 @@ class Study:
     def marking(self, full):
         self.run("marking", [self.program("riis_bench_marking"), "OUT", "1000" if full else "200"])
 
+    def roofline(self, full):
+        self.run("roofline", [self.program("riis_bench_roofline"), "OUT", "1000" if full else "200"])
+
     def accuracy(self, full):
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
@@ -189,7 +192,7 @@ class Study:
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=("short", "full", "search", "marking", "accuracy", "peers", "compare", "baseline", "figures"))
+    parser.add_argument("what", choices=("short", "full", "search", "marking", "roofline", "accuracy", "peers", "compare", "baseline", "figures"))
     parser.add_argument("file", nargs="?", help="the file of compare or baseline")
     parser.add_argument("--factor", default="1.3", help="compare fails if something is slower by more than this (%(default)s)")
     parser.add_argument("--build", default="build")
@@ -220,6 +223,8 @@ def main(arguments):
         study.stages(full)
     if options.what in ("short", "full", "marking"):
         study.marking(full)
+    if options.what in ("short", "full", "roofline"):
+        study.roofline(full)
     if options.what in ("short", "full", "accuracy"):
         study.accuracy(full)
     if options.what in ("short", "full", "peers"):

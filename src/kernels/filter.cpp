@@ -24,10 +24,11 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
 
 // Computes the squares of the distances of n points to sixteen triangles, points together, so that a triangle's numbers
 // are loaded once. Every result is the distance to a point of the triangle, to rounding. Inside means inside by a
-// margin; next to the edges, the nearest edge is as near, to that margin.
+// margin; next to the edges, the nearest edge is as near, to that margin. The results are written where they are needed:
+// GCC copies them in pieces, for which later loads wait.
 template <int n>
 RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
-                                    Floats (&distances)[n]) {
+                                    Floats *distances) {
   const Floats zero = Floats::all(0);
   Floats e[n], f[n], g[n], in_plane[n];
   const auto beyond = [&](Floats along, Floats end) RIIS_LAMBDA { return along - least(greatest(along, zero), end); };
@@ -159,22 +160,26 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
   constexpr int n = 4, n_together = 2;
   int lanes[n];
   Floats distances[n];
+#pragma GCC unroll 2
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
-      // The lanes that are left out here are never used.
-      for (int j = i; j < n; ++j) lanes[j] = -1, distances[j] = distances[0];
+      // The lanes that are left out here are never used. GCC would copy these numbers by memset and in pieces.
+#pragma GCC unroll 4
+      for (int j = i; j < n; ++j) {
+        lanes[j] = -1;
+        for (int r = 0; r < Floats::n_registers; ++r) distances[j].part[r] = distances[0].part[r];
+      }
       break;
     }
     Floats3 points[n_together];
-    Floats of_points[n_together];
     for (int j = 0; j < n_together; ++j) {
       const int lane = *rest ? __builtin_ctz(*rest) : lanes[i];
       lanes[i + j] = *rest ? lane : -1;
       *rest &= *rest - 1;
       points[j] = {Floats::all(xyz[0][lane]), Floats::all(xyz[1][lane]), Floats::all(xyz[2][lane])};
     }
-    distances_to_group(group, points, margin, of_points);
-    for (int j = 0; j < n_together; ++j) distances[i + j] = of_points[j];
+    distances_to_group(group, points, margin, distances + i);
+    count_pairs(int64_t{n_together} * bounds.n);
   }
   float nearest[n];
   least_lanes(distances, nearest);

@@ -12,6 +12,8 @@
 #endif
 #include <stdint.h>
 
+#include "kernels/count.hpp"
+
 namespace riis {
 namespace {
 
@@ -143,20 +145,23 @@ typedef Lanes<double, DoubleRegister, 8> Doubles;
   result r;                                                                     \
   for (int i = 0; i < Lanes<S, R, n>::n_registers; ++i) r.part[i] = expression; \
   return r
+#define RIIS_ARITHMETIC(result, expression) \
+  count_operations(n);                      \
+  RIIS_LANEWISE(result, expression)
 
 // clang-format off
-RIIS_LANES Lanes<S, R, n> operator+(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] + b.part[i]); }
-RIIS_LANES Lanes<S, R, n> operator-(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] - b.part[i]); }
-RIIS_LANES Lanes<S, R, n> operator*(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] * b.part[i]); }
-RIIS_LANES Lanes<S, R, n> operator/(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, a.part[i] / b.part[i]); }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator<(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_LANEWISE(M, a.part[i] < b.part[i]); }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator<=(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_LANEWISE(M, a.part[i] <= b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator+(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] + b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator-(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] - b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator*(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] * b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator/(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] / b.part[i]); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator<(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_ARITHMETIC(M, a.part[i] < b.part[i]); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator<=(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_ARITHMETIC(M, a.part[i] <= b.part[i]); }
 RIIS_LANES typename Lanes<S, R, n>::Mask operator>(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b < a; }
 RIIS_LANES typename Lanes<S, R, n>::Mask operator>=(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b <= a; }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator==(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_LANEWISE(M, a.part[i] == b.part[i]); }
-RIIS_LANES Lanes<S, R, n> least(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, least(a.part[i], b.part[i])); }
-RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, greatest(a.part[i], b.part[i])); }
-RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) { typedef Lanes<S, R, n> L; RIIS_LANEWISE(L, multiply_add(a.part[i], b.part[i], c.part[i])); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator==(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_ARITHMETIC(M, a.part[i] == b.part[i]); }
+RIIS_LANES Lanes<S, R, n> least(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, least(a.part[i], b.part[i])); }
+RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, greatest(a.part[i], b.part[i])); }
+RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, multiply_add(a.part[i], b.part[i], c.part[i])); }
 // clang-format on
 
 template <class Mask>
@@ -238,6 +243,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
 
 // Writes the least of the lanes of each of four Floats.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
+  count_operations(4 * (Floats::n - 1));
 #if defined(RIIS_SSE2)
   __m128 m[4];
   for (int i = 0; i < 4; ++i) {

@@ -5,7 +5,7 @@
 #include "kernels/kernels.hpp"
 
 // RIIS_INSTRUCTION_SET names the instruction set that this is being compiled for: baseline, avx2 or avx512; or portable,
-// the code for processors without any of them, which only tests link.
+// the code for processors without any of them, which only tests link; or counted, which only ./run bench roofline links.
 #define RIIS_JOIN(a, b) a##_##b
 #define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
 #define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)
@@ -14,8 +14,9 @@
 
 namespace riis {
 
-extern const FilterKernels filter_kernels_baseline, filter_kernels_avx2, filter_kernels_avx512, filter_kernels_portable;
+extern const FilterKernels filter_kernels_baseline, filter_kernels_avx2, filter_kernels_avx512, filter_kernels_portable,
+    filter_kernels_counted;
 extern const DecisionKernels decision_kernels_baseline, decision_kernels_avx2, decision_kernels_avx512,
-    decision_kernels_portable;
+    decision_kernels_portable, decision_kernels_counted;
 
 }  // namespace riis

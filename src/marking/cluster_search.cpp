@@ -26,12 +26,13 @@ struct Placing {
 
 class ClusterSearch {
  public:
-  ClusterSearch(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch, FoundNodes &found)
+  ClusterSearch(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
+                FoundNodes &found)
       : request_(request),
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
         clusters_(clusters),
-        kernels_(kernels(request.instructions)),
+        kernels_(kernels),
         found_(found),
         own_(scratch) {
     const Frame &frame = groups_.frame;
@@ -279,9 +280,9 @@ bool separates_in_single_precision(const SearchRequest &request, const Clusters 
          request.distance_limit * frame.scale <= large;
 }
 
-SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch,
-                             FoundNodes &found) {
-  ClusterSearch search(request, clusters, scratch, found);
+SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found) {
+  ClusterSearch search(request, clusters, kernels, scratch, found);
   search.find_near_clusters();
   search.search_near_clusters();
   return search.report();

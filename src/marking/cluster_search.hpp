@@ -54,8 +54,9 @@ struct ClusterScratch {
 // is then about a million times the surface's size, or the mesh is extremely small beside the surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
-// The clusters must belong to the request's mesh, and separates_in_single_precision must be true of them.
-SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, ClusterScratch &scratch,
-                             FoundNodes &found);
+// The clusters must belong to the request's mesh, and separates_in_single_precision must be true of them. The kernels are those
+// of the request's instructions; ./run bench roofline passes its own, which measure.
+SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

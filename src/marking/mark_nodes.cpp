@@ -44,7 +44,8 @@ Ran run_clusters(const SearchRequest &request, MarkResult &result) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
     if (separates_in_single_precision(request, clusters))
-      return {RIIS_SEARCH_CLUSTERS, search_clusters(request, clusters, result.cluster_scratch, result.found)};
+      return {RIIS_SEARCH_CLUSTERS,
+              search_clusters(request, clusters, kernels(request.instructions), result.cluster_scratch, result.found)};
   }
   return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, result.found)};
 }

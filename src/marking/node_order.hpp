@@ -123,6 +123,11 @@ class NodeSorter {
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64;
   typedef std::array<Node, n_bins> Counts;
+  // Items are counted and put four at a time, one from each quarter of a block. Each quarter has numbers of its own, because a
+  // number waits for its last change, and neighbours are often in the same bin and stream.
+  static constexpr int n_quarters = 4;
+  typedef std::array<Node, n_quarters> OfQuarters;
+  typedef std::array<OfQuarters, n_bins> QuarterCounts;
   struct Part {
     std::int64_t begin, end;
     std::int64_t size() const { return end - begin; }
@@ -152,29 +157,33 @@ class NodeSorter {
 
     // ends: where the cuts are, in ascending order, within a part with so many items in each bin.
     Streams(const Counts &counts, int n_in_use, const std::array<std::int64_t, most_parts> &ends, int n_parts) {
-      std::int64_t begin = 0;
-      int next_cut = 0;
-      bool begins_stream = false;
-      for (int bin = 0; bin < n_in_use; ++bin) {
-        const std::int64_t end = begin + static_cast<std::int64_t>(view(counts)[bin]);
-        for (; next_cut + 1 < n_parts && view(ends)[next_cut] <= begin; ++next_cut) begins_stream = begin > 0;
-        bool is_cut = false;
-        for (; next_cut + 1 < n_parts && view(ends)[next_cut] < end; ++next_cut) is_cut = true;
-        if (begins_stream || (is_cut && bin > 0)) ++n;
-        view(of_bin)[bin] = static_cast<std::uint8_t>(n - 1);
-        begins_stream = is_cut;
-        begin = end;
+      int first_of_stream = 0, bin = 0;
+      const auto begin_stream = [&](int at) {
+        if (at == first_of_stream || at == n_in_use) return;
+        std::fill(of_bin.begin() + first_of_stream, of_bin.begin() + at, static_cast<std::uint8_t>(n - 1));
+        first_of_stream = at;
+        ++n;
+      };
+      std::int64_t end = 0;  // of the items in the bins before
+      for (int cut = 0; cut + 1 < n_parts; ++cut) {
+        const std::int64_t at = view(ends)[cut];
+        for (; end + static_cast<std::int64_t>(view(counts)[bin]) <= at; ++bin)
+          end += static_cast<std::int64_t>(view(counts)[bin]);
+        if (bin >= first_of_stream) begin_stream(bin);
+        if (end < at) begin_stream(bin + 1);
       }
+      std::fill(of_bin.begin() + first_of_stream, of_bin.begin() + n_in_use, static_cast<std::uint8_t>(n - 1));
     }
   };
 
-  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one block, for one thread.
+  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one
+  // block, for one thread.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
     std::vector<NodeBox> boxes;
-    std::vector<Counts> counts;
-    std::vector<std::array<Node, Streams::most>> at;
+    std::vector<QuarterCounts> counts;
+    std::vector<std::array<OfQuarters, Streams::most>> at;
 
     ManyBlocks(const Part &of, int threads) : part(of), n_threads(threads) {
       const std::int64_t n_blocks = (of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block;
@@ -192,8 +201,8 @@ class NodeSorter {
   struct OneBlock {
     const Part &part;
     std::array<NodeBox, 1> boxes;
-    std::array<Counts, 1> counts;
-    std::array<std::array<Node, Streams::most>, 1> at;
+    std::array<QuarterCounts, 1> counts;
+    std::array<std::array<OfQuarters, Streams::most>, 1> at;
 
     explicit OneBlock(const Part &of) : part(of) {}
     template <class Visit>
@@ -239,20 +248,25 @@ class NodeSorter {
     return box;
   }
 
-  // Counts items in bins. There are four tables, because an increment waits for the last one of the same bin, and neighbours are
-  // often in the same bin.
-  static void count(const Item *items, const Part &part, const Bins &bins, Counts &counts) {
-    constexpr int n_tables = 4;
-    std::array<std::array<Node, n_tables>, n_bins> tables;
-    std::fill(tables.begin(), tables.begin() + bins.n, std::array<Node, n_tables>{});
-    std::int64_t i = part.begin;
-    for (; i + n_tables <= part.end; i += n_tables)
-      for (int k = 0; k < n_tables; ++k) ++view(view(tables)[bins(items[i + k])])[k];
-    for (; i < part.end; ++i) ++view(tables)[bins(items[i])][0];
-    for (int bin = 0; bin < bins.n; ++bin) {
-      const auto &table = view(tables)[bin];
-      view(counts)[bin] = table[0] + table[1] + table[2] + table[3];
-    }
+  // Calls visit(item, quarter) for all items of a part, each quarter's in their order.
+  template <class Visit>
+  static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
+    const std::int64_t size = part.size() / n_quarters;
+    const Item *item = items + part.begin;
+    for (const Item *const end = item + size; item != end; ++item)
+      for (int quarter = 0; quarter < n_quarters; ++quarter) visit(item[quarter * size], quarter);
+    for (const Item *rest = items + part.begin + n_quarters * size; rest != items + part.end; ++rest)
+      visit(*rest, n_quarters - 1);
+  }
+
+  static void count(const Item *items, const Part &part, const Bins &bins, QuarterCounts &counts) {
+    std::fill(counts.begin(), counts.begin() + bins.n, OfQuarters{});
+    for_each_by_quarters(items, part,
+                         [&](const Item &item, int quarter) { ++view(view(counts)[bins(item)])[quarter]; });
+  }
+
+  static void add(const OfQuarters &numbers, OfQuarters &to) {
+    for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
   // Puts items so that those of each cut follow each other. In a stream they keep their order, whatever the number of blocks.
@@ -265,32 +279,38 @@ class NodeSorter {
     const Bins bins(box, part.size());
     blocks.for_each(
         [&](std::int64_t block, const Part &of_block) { count(from, of_block, bins, view(blocks.counts)[block]); });
-    Counts sums = blocks.counts.front();
-    for (std::int64_t block = 1; block < view(blocks.counts).size(); ++block)
-      for (int bin = 0; bin < bins.n; ++bin) view(sums)[bin] += view(view(blocks.counts)[block])[bin];
+    Counts sums;
+    for (int bin = 0; bin < bins.n; ++bin) {
+      OfQuarters sum{};
+      for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
+      view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
+    }
     std::array<std::int64_t, most_parts> ends;
     int n_parts = 0;
     for_each_cut(part, [&](const Part &cut) { view(ends)[n_parts++] = cut.end - part.begin; });
     const Streams streams(sums, bins.n, ends, n_parts);
     for (std::int64_t block = 0; block < view(blocks.counts).size(); ++block) {
       auto &at = view(blocks.at)[block];
-      at.fill(0);
+      at.fill({});
       for (int bin = 0; bin < bins.n; ++bin)
-        view(at)[view(streams.of_bin)[bin]] += view(view(blocks.counts)[block])[bin];
+        add(view(view(blocks.counts)[block])[bin], view(at)[view(streams.of_bin)[bin]]);
     }
     Node n = 0;
     for (int stream = 0; stream < streams.n; ++stream)
-      for (auto &at : blocks.at) {
-        const Node count = view(at)[stream];
-        view(at)[stream] = n;
-        n += count;
-      }
+      for (auto &at : blocks.at)
+        for (Node &of_quarter : view(at)[stream]) {
+          const Node count = of_quarter;
+          of_quarter = n;
+          n += count;
+        }
     blocks.for_each([&](std::int64_t block, const Part &of_block) {
-      std::array<Item *, Streams::most> next;
+      std::array<std::array<Item *, n_quarters>, Streams::most> next;
       for (int stream = 0; stream < streams.n; ++stream)
-        view(next)[stream] = to + part.begin + view(view(blocks.at)[block])[stream];
-      for (std::int64_t i = of_block.begin; i < of_block.end; ++i)
-        *view(next)[view(streams.of_bin)[bins(from[i])]]++ = from[i];
+        for (int quarter = 0; quarter < n_quarters; ++quarter)
+          view(view(next)[stream])[quarter] = to + part.begin + view(view(view(blocks.at)[block])[stream])[quarter];
+      for_each_by_quarters(from, of_block, [&](const Item &item, int quarter) {
+        *view(view(next)[view(streams.of_bin)[bins(item)]])[quarter]++ = item;
+      });
     });
   }
 

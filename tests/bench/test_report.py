@@ -66,6 +66,18 @@ FILES = {
         ],
         "left_out": ["Left out: CGAL (not found)."],
     },
+    "roofline": {
+        "nodes": 1000, "instructions": "AVX9", "peak": {"floats": 20.0, "doubles": 10.0, "bytes": 5.0},
+        **dict.fromkeys(
+            ("coarse", "fine"),
+            {
+                "marked": 100, "triangles": 10, "groups": 4, "leaves": 8, "near_groups": 20, "filtered_pairs": 2750, "decided_pairs": 120,
+                "nanoseconds": {"update": 400, "regions": 200, "filter": 4000, "decide": 1000, "rest": 500, "order": 300, "sum": 6400, "whole": 6500},
+                "operations": {"regions": 100, "filter": 40000, "decide": 5000},
+                "bytes": {"update": 1000, "regions": 500, "filter": 1000, "decide": 1000, "rest": 250, "order": 750},
+            },
+        ),
+    },
     "peers": {
         valve: {
             "nodes": 100, "triangles": 10, "left_out": {"VTK": "built without VTK"},
@@ -126,7 +138,7 @@ class Page(unittest.TestCase):
 
     def test_nothing_measured_is_said(self):
         text = self.page(())
-        for command in ("./run bench search", "./run bench marking", "./run bench peers", "./run bench"):
+        for command in ("./run bench search", "./run bench marking", "./run bench roofline", "./run bench peers", "./run bench"):
             self.assertIn(f"`{command}` makes it", text)
 
     def test_machine_and_command(self):
@@ -155,6 +167,20 @@ class Page(unittest.TestCase):
         self.assertIn("A ratio of 17 to CGAL leaves 3.7 ms. Fine triangles take 3.0 times as long", text.replace("\n", " "))
         self.assertNotIn("- is met", text)
         self.assertIn("Left out: CGAL (not found).", text)
+
+    def test_rooflines(self):
+        text = self.page()
+        # 40,000 operations at 20 a nanosecond take longer than 1000 bytes at 5; decisions are compared with double precision.
+        self.assertEqual(text.count("| filter | 40.0 | 400 | 10.0 | 20.0 | 50 % |"), 2)
+        self.assertIn("| decision | 10.0 | 50.0 | 10.0 | 5.00 | 50 % |", text)
+        # 500 bytes take longer than 100 operations.
+        self.assertIn("| regions, clusters and leaves: candidates | 2.00 | 1.00 | 5.00 | 1.00 | 50 % |", text)
+        self.assertIn("| update of the surface | 4.00 |  | 10.0 | 2.00 | 50 % |", text)
+        self.assertIn("| together | 64.0 | 451 | 45.0 | 30.0 | 47 % |", text)
+        prose = " ".join(text.split())
+        self.assertIn("8 leaves are near some of them, each near 2.50. For each marked node the filter computes 27.5 distances", prose)
+        self.assertIn("and 1.20 are decided. A step without clocks inside takes 65.0 ns of the thread", prose)
+        self.assertIn("20.0 operations a nanosecond in single and 10.0 in double precision, on registers, and 5.00 bytes", prose)
 
     def test_peers(self):
         text = self.page()
