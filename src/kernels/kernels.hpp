@@ -84,16 +84,24 @@ struct PairArrays {
   int32_t *node, *triangle;
 };
 
-// Eight pairs of a point and a triangle, coordinate by coordinate, and the closest points. Lanes without a pair repeat another.
+// Eight pairs of a point, coordinate by coordinate, and a triangle. Lanes without a pair repeat another.
 constexpr int pairs_at_once = 8;
 struct alignas(64) PointsAndTriangles {
   double point[3][pairs_at_once];
-  double corners[9][pairs_at_once];  // x, y, z of the first corner, then of the second and the third
+  const double *corners[pairs_at_once];  // x, y, z of the first corner, then of the second and the third
 };
+// The closest points of these pairs, coordinate by coordinate.
 struct alignas(64) PointsOnTriangles {
   double distance_sq[pairs_at_once];
   double point[3][pairs_at_once], barycentric[3][pairs_at_once];
+  uint32_t at_border;  // a bit for each lane: whether one of its weights is 0
 };
+
+// Fields interpolate these numbers between the vertices of a triangle: the velocity, u and v, and three zeros.
+struct alignas(64) VertexNumbers {
+  double number[8];
+};
+constexpr int uv_in_numbers = 3;
 
 struct FilterKernels {
   // Writes a bit for each box within the reach of each candidate group. Returns false if no box is within any reach.
@@ -123,6 +131,12 @@ struct DecisionKernels {
                  double *distance_sq);
   // Finds the closest points themselves, with the bits of closest_point_on_triangle.
   void (*locate)(const PointsAndTriangles &pairs, PointsOnTriangles &located);
+  // Mixes the numbers of three vertices by the weights of each located point. `vertex` has the ids of each pair's vertices.
+  void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
+                          VertexNumbers *mixed);
+  // Finds the side of each point: +1, -1 or 0 by its height over the located point, along a normal given by coordinates.
+  void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
+                     const double (&normal)[3][pairs_at_once], int32_t *side);
 };
 
 struct Kernels : FilterKernels, DecisionKernels {};

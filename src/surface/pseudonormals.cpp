@@ -132,17 +132,14 @@ Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
   return {lower, upper};
 }
 
-Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &barycentric) {
-  const auto is_zero = [&](std::int64_t k) { return view(barycentric)[k] == 0.0; };
-  for (std::int64_t k = 0; k < 3; ++k) {
-    const std::int64_t next = (k + 1) % 3, previous = (k + 2) % 3;
-    if (is_zero(next) && is_zero(previous)) return {Kind::vertex, k};
-    if (is_zero(previous) && !is_zero(k) && !is_zero(next)) return {Kind::edge, k};
-  }
-  return {Kind::face, 0};
+Pseudonormals::Place Pseudonormals::place_of(Vec3 barycentric) {
+  // By the weights that are 0: the first counts 1, the second 2, the third 4.
+  static constexpr Place places[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
+                                      {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
+  return places[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];
 }
 
-Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
+Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 barycentric) const {
   const auto [kind, corner] = place_of(barycentric);
   if (kind == Kind::face) return {of_face(triangle), false};
   const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];
