@@ -203,18 +203,40 @@ void bound_corners(const double *corners, int64_t n, double *lower, double *uppe
     for (int c = 0; c < 9; ++c) add(c % 3, corners[9 * i + c], corners[9 * i + c]);
 }
 
-bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+// The corners of up to eight triangles, given by the ids of vertices. Lanes without a triangle repeat the first.
+struct Corners {
+  Doubles3 a, b, c;
+};
+RIIS_INLINE Corners corners_by_id(const double *vertices, const int64_t *vertex_id, int32_t n) {
   const double *of_lane[3][Doubles::n];
-  // Lanes without a triangle repeat the first.
   for (int lane = 0; lane < Doubles::n; ++lane)
     for (int k = 0; k < 3; ++k) of_lane[k][lane] = vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k];
   const auto vertex = [&](int k) RIIS_LAMBDA {
     return Doubles3{Doubles::gather(of_lane[k], 0), Doubles::gather(of_lane[k], 1), Doubles::gather(of_lane[k], 2)};
   };
-  const Doubles3 a = vertex(0), ab = vertex(1) - a, ac = vertex(2) - a, twice_area = cross(ab, ac);
+  return {vertex(0), vertex(1), vertex(2)};
+}
+
+bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+  const auto [a, b, c] = corners_by_id(vertices, vertex_id, n);
+  const Doubles3 ab = b - a, ac = c - a, twice_area = cross(ab, ac);
   const Doubles size = dot(ab, ab) + dot(ac, ac);
   return !any(
       opposite(both(dot(twice_area, twice_area) > Doubles::all(4e-23) * size * size, size > Doubles::all(1e-119))));
+}
+
+void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures) {
+  const auto [a, b, c] = corners_by_id(vertices, vertex_id, n);
+  const Doubles3 ab = b - a, ac = c - a, bc = c - b, twice_area = cross(ab, ac);
+  const Doubles one = Doubles::all(1), longest = root(greatest(greatest(dot(ab, ab), dot(bc, bc)), dot(ac, ac)));
+  const Doubles3 scaled = cross((one / longest) * ab, (one / longest) * ac);
+  const Doubles3 normal = (one / root(dot(scaled, scaled))) * scaled;
+  normal.x.store(measures.normal[0]);
+  normal.y.store(measures.normal[1]);
+  normal.z.store(measures.normal[2]);
+  root(dot(twice_area, twice_area)).store(measures.twice_area);
+  dot(ab, ac).store(measures.product_at_a);
+  dot(bc, a - b).store(measures.product_at_b);
 }
 
 void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
@@ -428,7 +450,7 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {bound_corners, have_area, frame_group,     make_group,
-                                                        decide,        locate,    mix_at_vertices, find_sides};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {
+    bound_corners, have_area, measure_triangles, frame_group, make_group, decide, locate, mix_at_vertices, find_sides};
 
 }  // namespace riis

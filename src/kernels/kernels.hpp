@@ -103,6 +103,11 @@ struct alignas(64) VertexNumbers {
 };
 constexpr int uv_in_numbers = 3;
 
+// Eight triangles: the unit normal, twice the area, and the products of the two edges at the first and at the second corner.
+struct alignas(64) TriangleMeasures {
+  double normal[3][pairs_at_once], twice_area[pairs_at_once], product_at_a[pairs_at_once], product_at_b[pairs_at_once];
+};
+
 struct FilterKernels {
   // Writes a bit for each box within the reach of each candidate group. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
@@ -120,6 +125,8 @@ struct DecisionKernels {
   // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area: if the square of twice its
   // area is at most 1e-23 of the square of 2 (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n);
+  // Measures up to eight triangles, given by the ids of vertices. The normals have the bits of triangle_normal.
+  void (*measure_triangles)(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures);
   // Takes the corners of up to 16 triangles, given by index, to the surface's frame.
   void (*frame_group)(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                       GroupCorners &framed);

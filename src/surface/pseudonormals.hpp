@@ -57,14 +57,17 @@ class Pseudonormals {
 
   // The positions of an edge's ends.
   struct Ends {
-    std::int64_t lower, upper;
+    std::int32_t lower, upper;
   };
   Ends ends_of(std::int64_t slot) const;
 
-  Vector<Vec3> face_;              // one for each triangle
-  Vector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
-  Vector<Vec3> corner_;            // one for each distinct position
-  Vector<std::int64_t> position_;  // three for each triangle: position of each corner
+  void note_rim(std::int64_t slot);
+  void note_rim_sides(const TriangleSet &set);
+
+  UnfilledShortVector<Vec3> face_;              // one for each triangle
+  UnfilledShortVector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
+  Vector<Vec3> corner_;                         // one for each distinct position
+  UnfilledShortVector<std::int32_t> position_;  // three for each triangle: position of each corner
   Vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
 };
 
