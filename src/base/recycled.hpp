@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/unfilled.hpp"
+
 namespace riis {
 
 // Returns memory for so many bytes, aligned for any fundamental type. Throws std::bad_alloc. Any thread may give it back.
@@ -55,5 +57,9 @@ struct RecyclingAllocator {
 
 template <class T>
 using Vector = std::vector<T, RecyclingAllocator<T>>;
+
+// Every element must be written after resize(), as in an UnfilledVector.
+template <class T>
+using UnfilledShortVector = std::vector<T, UnfilledAllocator<T, RecyclingAllocator>>;
 
 }  // namespace riis

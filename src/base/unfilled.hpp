@@ -10,12 +10,13 @@
 
 namespace riis {
 
-template <class T>
-struct UnfilledAllocator : std::allocator<T> {
+// The memory is that of another allocator.
+template <class T, template <class> class Memory>
+struct UnfilledAllocator : Memory<T> {
   static_assert(std::is_trivially_default_constructible_v<T>);
   template <class U>
   struct rebind {
-    using other = UnfilledAllocator<U>;
+    using other = UnfilledAllocator<U, Memory>;
   };
 
   template <class U>
@@ -28,6 +29,6 @@ struct UnfilledAllocator : std::allocator<T> {
 
 // Every element must be written after resize().
 template <class T>
-using UnfilledVector = std::vector<T, UnfilledAllocator<T>>;
+using UnfilledVector = std::vector<T, UnfilledAllocator<T, std::allocator>>;
 
 }  // namespace riis

@@ -195,7 +195,7 @@ double flatness(const Bezier &curve) {
 // Bounds the curvature |B' x B''| / |B'|^3; infinite if the curve may turn on the spot. B' and B'' are Bézier curves
 // with differences of control points as control points. Products of these differences bound the numerator. The least
 // component of the differences in B' along the chord bounds the denominator from below.
-double rough_curvature(const Bezier &curve) {
+static double rough_curvature(const Bezier &curve) {
   const std::size_t n = degree_of(curve);
   const Vec3 chord = curve.last() - curve.first();
   std::array<Vec3, 3> first{};
@@ -211,6 +211,26 @@ double rough_curvature(const Bezier &curve) {
   }
   const double least_speed = least_along / length(chord);
   return largest_product / (least_speed * least_speed * least_speed);
+}
+
+double rough_curvature(const Bezier &curve, double t0, double t1) {
+  // Blossoms of B' and B'' are the control points of the part. Its chord runs along the sum of the first three.
+  const Speed along(curve);
+  const Vec3 first[3] = {along.constant + t0 * (along.linear + t0 * along.quadratic),
+                         along.constant + (0.5 * (t0 + t1)) * along.linear + (t0 * t1) * along.quadratic,
+                         along.constant + t1 * (along.linear + t1 * along.quadratic)};
+  const Vec3 second[2] = {along.linear + (2 * t0) * along.quadratic, along.linear + (2 * t1) * along.quadratic};
+  const Vec3 chord = first[0] + first[1] + first[2];
+  const double least_along = std::min({dot(first[0], chord), dot(first[1], chord), dot(first[2], chord)});
+  if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
+  double largest_sq = 0;
+  for (const Vec3 &b : second)
+    for (const Vec3 &a : first) {
+      const Vec3 product = cross(a, b);
+      largest_sq = std::max(largest_sq, dot(product, product));
+    }
+  const double least_speed = least_along / length(chord);
+  return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
 }
 
 double largest_curvature(const Bezier &curve) {

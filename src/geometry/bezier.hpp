@@ -57,7 +57,7 @@ double flatness(const Bezier &curve);
 
 // Bounds the curvature everywhere on the curve; infinite if the curve may turn on the spot.
 double largest_curvature(const Bezier &curve);
-// Bounds it too, more loosely, in a fifth of the time.
-double rough_curvature(const Bezier &curve);
+// Bounds it from parameter t0 to t1, t0 < t1, more loosely, in a tenth of the time.
+double rough_curvature(const Bezier &curve, double t0, double t1);
 
 }  // namespace riis

@@ -80,10 +80,14 @@ double CurvePoints::chord_error(std::size_t i, std::size_t j, double enough) {
   const double part_length = (shares_[j] - shares_[i]) * curve_.length();
   if (!(part_length > 0)) return 0;
   const double eighth = 0.125 * part_length * part_length;
+  const Place &from = is_reversed_ ? place(j) : place(i), &to = is_reversed_ ? place(i) : place(j);
   double quick = 0, close = 0;
-  between(i, j);
-  for (const Bezier &part : parts_) quick = std::max(quick, eighth * rough_curvature(part));
+  for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {
+    const double t0 = piece == from.piece ? from.t : 0, t1 = piece == to.piece ? to.t : 1;
+    if (t1 > t0) quick = std::max(quick, eighth * rough_curvature(curve_.pieces()[piece], t0, t1));
+  }
   if (quick <= enough) return quick;
+  between(i, j);
   for (const Bezier &part : parts_) close = std::max(close, eighth * largest_curvature(part));
   return std::min(part_length, close);
 }

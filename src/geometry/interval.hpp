@@ -23,14 +23,21 @@ struct Interval {
 
 inline Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
 inline Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
+// A bound of 0 times any number is 0. Infinity only stands for a number that may be arbitrarily large.
+inline double bound_product(double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; }
 inline Interval operator*(Interval a, Interval b) {
-  // A bound of 0 times any number is 0. Infinity only stands for a number that may be arbitrarily large.
-  const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
-  const double p = product(a.low, b.low), q = product(a.low, b.high), r = product(a.high, b.low),
-               s = product(a.high, b.high);
+  double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+  // 0 times infinity is not a number here, and neither is a sum with it.
+  const double sum = (p + q) + (r + s);
+  if (!(sum - sum == 0))
+    p = bound_product(a.low, b.low), q = bound_product(a.low, b.high), r = bound_product(a.high, b.low),
+    s = bound_product(a.high, b.high);
   return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
 }
-inline Interval operator*(double a, Interval b) { return Interval::of(a) * b; }
+inline Interval operator*(double a, Interval b) {
+  const double p = bound_product(a, b.low), q = bound_product(a, b.high);
+  return {std::min(p, q), std::max(p, q)};
+}
 inline Interval square(Interval a) {
   const double p = a.low * a.low, q = a.high * a.high;
   return {a.low <= 0 && a.high >= 0 ? 0.0 : std::min(p, q), std::max(p, q)};

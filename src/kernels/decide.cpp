@@ -133,11 +133,12 @@ void decide(int32_t n, const int32_t *point, const int32_t *triangle, const doub
 }
 
 void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
-  const auto vector = [&](const double(*from)[pairs_at_once]) RIIS_LAMBDA {
-    return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
+  const auto corner = [&](int i) RIIS_LAMBDA {
+    return Doubles3{Doubles::gather(pairs.corners, 3 * i), Doubles::gather(pairs.corners, 3 * i + 1),
+                    Doubles::gather(pairs.corners, 3 * i + 2)};
   };
-  const ClosestPoints closest = closest_points<true>(vector(pairs.point), vector(pairs.corners),
-                                                     vector(pairs.corners + 3), vector(pairs.corners + 6));
+  const Doubles3 point = {Doubles::load(pairs.point[0]), Doubles::load(pairs.point[1]), Doubles::load(pairs.point[2])};
+  const ClosestPoints closest = closest_points<true>(point, corner(0), corner(1), corner(2));
   const auto store = [](Doubles3 v, double(*to)[pairs_at_once]) RIIS_LAMBDA {
     v.x.store(to[0]);
     v.y.store(to[1]);
@@ -146,6 +147,32 @@ void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
   closest.distance_sq.store(located.distance_sq);
   store(closest.point, located.point);
   store(closest.weights, located.barycentric);
+  const Doubles zero = Doubles::all(0);
+  located.at_border =
+      bits(closest.weights.x == zero) | bits(closest.weights.y == zero) | bits(closest.weights.z == zero);
+}
+
+void mix_at_vertices(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
+                     VertexNumbers *mixed) {
+  const auto numbers_of = [&](int64_t id) RIIS_LAMBDA { return Doubles::load(numbers[id].number); };
+#pragma GCC unroll 8
+  for (int lane = 0; lane < pairs_at_once; ++lane) {
+    const int64_t *const id = vertex[lane];
+    const auto weight = [&](int k) RIIS_LAMBDA { return Doubles::all(located.barycentric[k][lane]); };
+    const Doubles mean = weight(0) * numbers_of(id[0]) + weight(1) * numbers_of(id[1]) + weight(2) * numbers_of(id[2]);
+    mean.store(mixed[lane].number);
+  }
+}
+
+void find_sides(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
+                const double (&normal)[3][pairs_at_once], int32_t *side) {
+  const auto vector = [&](const double(&from)[3][pairs_at_once]) RIIS_LAMBDA {
+    return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
+  };
+  const Doubles height = dot(vector(pairs.point) - vector(located.point), vector(normal)), zero = Doubles::all(0);
+  const uint32_t above = bits(height > zero), below = bits(height < zero);
+  for (int lane = 0; lane < pairs_at_once; ++lane)
+    side[lane] = static_cast<int32_t>(above >> lane & 1) - static_cast<int32_t>(below >> lane & 1);
 }
 
 void bound_corners(const double *corners, int64_t n, double *lower, double *upper) {
@@ -177,18 +204,40 @@ void bound_corners(const double *corners, int64_t n, double *lower, double *uppe
     for (int c = 0; c < 9; ++c) add(c % 3, corners[9 * i + c], corners[9 * i + c]);
 }
 
-bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+// The corners of up to eight triangles, given by the ids of vertices. Lanes without a triangle repeat the first.
+struct Corners {
+  Doubles3 a, b, c;
+};
+RIIS_INLINE Corners corners_by_id(const double *vertices, const int64_t *vertex_id, int32_t n) {
   const double *of_lane[3][Doubles::n];
-  // Lanes without a triangle repeat the first.
   for (int lane = 0; lane < Doubles::n; ++lane)
     for (int k = 0; k < 3; ++k) of_lane[k][lane] = vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k];
   const auto vertex = [&](int k) RIIS_LAMBDA {
     return Doubles3{Doubles::gather(of_lane[k], 0), Doubles::gather(of_lane[k], 1), Doubles::gather(of_lane[k], 2)};
   };
-  const Doubles3 a = vertex(0), ab = vertex(1) - a, ac = vertex(2) - a, twice_area = cross(ab, ac);
+  return {vertex(0), vertex(1), vertex(2)};
+}
+
+bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+  const auto [a, b, c] = corners_by_id(vertices, vertex_id, n);
+  const Doubles3 ab = b - a, ac = c - a, twice_area = cross(ab, ac);
   const Doubles size = dot(ab, ab) + dot(ac, ac);
   return !any(
       opposite(both(dot(twice_area, twice_area) > Doubles::all(4e-23) * size * size, size > Doubles::all(1e-119))));
+}
+
+void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures) {
+  const auto [a, b, c] = corners_by_id(vertices, vertex_id, n);
+  const Doubles3 ab = b - a, ac = c - a, bc = c - b, twice_area = cross(ab, ac);
+  const Doubles one = Doubles::all(1), longest = root(greatest(greatest(dot(ab, ab), dot(bc, bc)), dot(ac, ac)));
+  const Doubles3 scaled = cross((one / longest) * ab, (one / longest) * ac);
+  const Doubles3 normal = (one / root(dot(scaled, scaled))) * scaled;
+  normal.x.store(measures.normal[0]);
+  normal.y.store(measures.normal[1]);
+  normal.z.store(measures.normal[2]);
+  root(dot(twice_area, twice_area)).store(measures.twice_area);
+  dot(ab, ac).store(measures.product_at_a);
+  dot(bc, a - b).store(measures.product_at_b);
 }
 
 void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
@@ -402,7 +451,7 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {bound_corners, have_area, frame_group,
-                                                        make_group,    decide,    locate};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {
+    bound_corners, have_area, measure_triangles, frame_group, make_group, decide, locate, mix_at_vertices, find_sides};
 
 }  // namespace riis

@@ -84,15 +84,28 @@ struct PairArrays {
   int32_t *node, *triangle;
 };
 
-// Eight pairs of a point and a triangle, coordinate by coordinate, and the closest points. Lanes without a pair repeat another.
+// Eight pairs of a point, coordinate by coordinate, and a triangle. Lanes without a pair repeat another.
 constexpr int pairs_at_once = 8;
 struct alignas(64) PointsAndTriangles {
   double point[3][pairs_at_once];
-  double corners[9][pairs_at_once];  // x, y, z of the first corner, then of the second and the third
+  const double *corners[pairs_at_once];  // x, y, z of the first corner, then of the second and the third
 };
+// The closest points of these pairs, coordinate by coordinate.
 struct alignas(64) PointsOnTriangles {
   double distance_sq[pairs_at_once];
   double point[3][pairs_at_once], barycentric[3][pairs_at_once];
+  uint32_t at_border;  // a bit for each lane: whether one of its weights is 0
+};
+
+// Fields interpolate these numbers between the vertices of a triangle: the velocity, u and v, and three zeros.
+struct alignas(64) VertexNumbers {
+  double number[8];
+};
+constexpr int uv_in_numbers = 3;
+
+// Eight triangles: the unit normal, twice the area, and the products of the two edges at the first and at the second corner.
+struct alignas(64) TriangleMeasures {
+  double normal[3][pairs_at_once], twice_area[pairs_at_once], product_at_a[pairs_at_once], product_at_b[pairs_at_once];
 };
 
 struct FilterKernels {
@@ -112,6 +125,8 @@ struct DecisionKernels {
   // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area: if the square of twice its
   // area is at most 1e-23 of the square of 2 (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n);
+  // Measures up to eight triangles, given by the ids of vertices. The normals have the bits of triangle_normal.
+  void (*measure_triangles)(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures);
   // Takes the corners of up to 16 triangles, given by index, to the surface's frame.
   void (*frame_group)(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                       GroupCorners &framed);
@@ -123,6 +138,12 @@ struct DecisionKernels {
                  double *distance_sq);
   // Finds the closest points themselves, with the bits of closest_point_on_triangle.
   void (*locate)(const PointsAndTriangles &pairs, PointsOnTriangles &located);
+  // Mixes the numbers of three vertices by the weights of each located point. `vertex` has the ids of each pair's vertices.
+  void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
+                          VertexNumbers *mixed);
+  // Finds the side of each point: +1, -1 or 0 by its height over the located point, along a normal given by coordinates.
+  void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
+                     const double (&normal)[3][pairs_at_once], int32_t *side);
 };
 
 struct Kernels : FilterKernels, DecisionKernels {};

@@ -201,6 +201,23 @@ RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #endif
 }
 
+RIIS_INLINE uint32_t bits(Doubles::Mask mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask((__m512i)mask.part[0]);
+#elif defined(__AVX2__)
+  return static_cast<uint32_t>(_mm256_movemask_pd((__m256d)mask.part[0])) |
+         static_cast<uint32_t>(_mm256_movemask_pd((__m256d)mask.part[1])) << 4;
+#elif defined(RIIS_SSE2)
+  uint32_t r = 0;
+  for (int i = 0; i < 4; ++i) r |= static_cast<uint32_t>(_mm_movemask_pd((__m128d)mask.part[i])) << 2 * i;
+  return r;
+#else
+  uint32_t r = 0;
+  for (int i = 0; i < 8; ++i) r |= static_cast<uint32_t>(mask.part[i / 2][i % 2] & 1) << i;
+  return r;
+#endif
+}
+
 // Returns bits(a <= b).
 RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #if defined(__AVX512F__)

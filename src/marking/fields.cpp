@@ -2,8 +2,7 @@
 #include "marking/fields.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
+#include <cstring>
 
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
@@ -31,22 +30,37 @@ void for_each_array(std::int32_t fields, const Visit &visit) {
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::int64_t{1});
 }
 
-// Returns the position of a triangle in the set. It is the id, unless triangles of the caller's arrays were left out.
-std::int64_t position_of(const TriangleSet &set, std::int64_t triangle_id) {
-  const auto ids = view(set.triangle_id);
-  if (triangle_id < ids.size() && ids[triangle_id] == triangle_id) return triangle_id;
-  return std::lower_bound(ids.begin(), ids.end(), triangle_id) - ids.begin();
-}
+// Finds the positions of triangles in the set. They are the ids, unless triangles of the caller's arrays were left out.
+class Positions {
+ public:
+  explicit Positions(const TriangleSet &set)
+      : ids_(view(set.triangle_id)), are_ids_(ids_[ids_.size() - 1] == ids_.size() - 1) {}
+
+  std::int64_t of(std::int64_t id) const {
+    return are_ids_ ? id : std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin();
+  }
+
+ private:
+  ArrayView<const std::int64_t> ids_;
+  bool are_ids_;
+};
+
+// Two numbers in a register that every processor of a kind has.
+typedef double Two __attribute__((vector_size(16)));
 
 // Fields of nodes whose closest point lies on a triangle.
 class TriangleFields {
  public:
-  TriangleFields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made)
+  TriangleFields(const SearchRequest &request, std::int32_t fields, const NodeList &list, const FieldScratch &scratch,
+                 NodeFields &made)
       : set_(request.surface.triangles()),
+        positions_(set_),
+        corners_(request.surface.scene().groups().corners.data()),
         nodes_(request.mesh.nodes()),
-        locate_(kernels(request.instructions).locate),
+        simd_(kernels(request.instructions)),
         fields_(fields),
         normals_(need_normals(request.surface, fields, list.size()) ? &request.surface.pseudonormals() : nullptr),
+        at_vertices_(scratch.at_vertices.data()),
         list_(list),
         made_(made) {}
 
@@ -61,77 +75,114 @@ class TriangleFields {
   }
 
  private:
-  // Writes the fields of at most pairs_at_once nodes.
+  typedef double Lanes[3][pairs_at_once];
+
+  bool has(std::int32_t field) const { return (fields_ & field) != 0; }
+
+  // Writes the fields of at most pairs_at_once nodes. Each field is written in a loop of its own, which stays short.
   void write_at_once(std::int64_t first, std::int64_t end) const {
+    const std::int64_t n = end - first;
     PointsAndTriangles pairs;
     std::int64_t triangle[pairs_at_once];
+    const std::int64_t *const node = list_.node_id.data() + first, *const id = list_.triangle_id.data() + first;
     for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) {
-      const std::int64_t i = std::min(first + lane, end - 1);
-      triangle[lane] = position_of(set_, view(list_.triangle_id)[i]);
-      set_lane(pairs.point, lane, nodes_[view(list_.node_id)[i]]);
-      const std::array<Vec3, 3> corners = set_.corners(triangle[lane]);
-      for (std::size_t k = 0; k < 3; ++k) set_lane(pairs.corners + 3 * k, lane, corners[k]);
+      const std::int64_t i = std::min(lane, n - 1);
+      triangle[lane] = positions_.of(id[i]);
+      pairs.corners[lane] = corners_ + 9 * triangle[lane];
+      set_lane(pairs.point, lane, nodes_[node[i]]);
     }
     PointsOnTriangles on;
-    locate_(pairs, on);
-    const std::int64_t n = end - first;
-    const auto has = [&](std::int32_t field) { return (fields_ & field) != 0; };
+    simd_.locate(pairs, on);
     if (has(RIIS_FIELD_POINT)) put_vectors(on.point, n, made_.point.data() + 3 * first);
     if (has(RIIS_FIELD_BARYCENTRIC)) put_vectors(on.barycentric, n, made_.barycentric.data() + 3 * first);
-    if (has(RIIS_FIELD_VELOCITY)) interpolate<3>(set_.velocity, triangle, on, n, made_.velocity.data() + 3 * first);
-    if (has(RIIS_FIELD_UV)) interpolate<2>(set_.uv, triangle, on, n, made_.uv.data() + 2 * first);
-    for (std::int64_t lane = 0; lane < n; ++lane) {
-      const std::int64_t i = first + lane, at = triangle[lane];
-      if (has(RIIS_FIELD_PATCH)) view(made_.patch_id)[i] = view(set_.patch_id)[at];
-      if (has(RIIS_FIELD_NORMAL)) put_vector(made_.normal.data(), i, normal(at));
-      if (!has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) continue;
-      const Vec3 weights = lane_of(on.barycentric, lane);
-      const std::array<double, 3> barycentric{weights.x, weights.y, weights.z};
-      const auto [normal_there, is_on_rim] = normals_->at(at, barycentric);
-      if (has(RIIS_FIELD_SIDE))
-        view(made_.side)[i] = side_of(lane_of(pairs.point, lane) - lane_of(on.point, lane), normal_there);
-      if (has(RIIS_FIELD_RIM)) view(made_.rim)[i] = is_on_rim ? 1 : 0;
+    if (has(RIIS_FIELD_VELOCITY | RIIS_FIELD_UV)) write_mixed(triangle, on, first, n);
+    if (has(RIIS_FIELD_PATCH))
+      for (std::int64_t lane = 0; lane < n; ++lane)
+        view(made_.patch_id)[first + lane] = view(set_.patch_id)[triangle[lane]];
+    if (has(RIIS_FIELD_NORMAL))
+      for (std::int64_t lane = 0; lane < n; ++lane)
+        put_vector(made_.normal.data(), first + lane, normal(triangle[lane]));
+    if (has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) write_sides(triangle, pairs, on, first, n);
+  }
+
+  // Writes the velocities and (u,v), which are those of the vertices mixed by the weights.
+  void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
+                   std::int64_t n) const {
+    const std::int64_t *vertex[pairs_at_once];
+    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) vertex[lane] = set_.vertex_id.data() + 3 * triangle[lane];
+    VertexNumbers mixed[pairs_at_once];
+    simd_.mix_at_vertices(at_vertices_, vertex, on, mixed);
+    if (has(RIIS_FIELD_VELOCITY)) {
+      double *to = made_.velocity.data() + 3 * first;
+      for (std::int64_t lane = 0; lane < n; ++lane) std::copy_n(mixed[lane].number, 3, to + 3 * lane);
+    }
+    if (has(RIIS_FIELD_UV)) {
+      double *to = made_.uv.data() + 2 * first;
+      for (std::int64_t lane = 0; lane < n; ++lane) std::copy_n(mixed[lane].number + uv_in_numbers, 2, to + 2 * lane);
     }
   }
 
-  static void set_lane(double (*to)[pairs_at_once], std::int64_t lane, Vec3 v) {
+  void write_sides(const std::int64_t *triangle, const PointsAndTriangles &pairs, const PointsOnTriangles &on,
+                   std::int64_t first, std::int64_t n) const {
+    alignas(64) Lanes normal_there;
+    std::int32_t is_on_rim[pairs_at_once]{};
+    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane)
+      set_lane(normal_there, lane, normals_->of_face(triangle[lane]));
+    for (std::uint32_t lanes = on.at_border; lanes; lanes &= lanes - 1) {
+      const std::int64_t lane = __builtin_ctz(lanes);
+      const Pseudonormals::Feature feature = normals_->at_border(triangle[lane], lane_of(on.barycentric, lane));
+      set_lane(normal_there, lane, feature.normal);
+      is_on_rim[lane] = feature.is_on_rim ? 1 : 0;
+    }
+    if (has(RIIS_FIELD_RIM)) std::copy_n(is_on_rim, n, made_.rim.data() + first);
+    if (!has(RIIS_FIELD_SIDE)) return;
+    std::int32_t side[pairs_at_once];
+    simd_.find_sides(pairs, on, normal_there, side);
+    std::copy_n(side, n, made_.side.data() + first);
+  }
+
+  static void set_lane(Lanes &to, std::int64_t lane, Vec3 v) {
     to[0][lane] = v.x;
     to[1][lane] = v.y;
     to[2][lane] = v.z;
   }
-  static Vec3 lane_of(const double (*from)[pairs_at_once], std::int64_t lane) {
-    return {from[0][lane], from[1][lane], from[2][lane]};
-  }
-  static void put_vectors(const double (*from)[pairs_at_once], std::int64_t n, double *to) {
-    for (std::int64_t lane = 0; lane < n; ++lane) put_vector(to, lane, lane_of(from, lane));
+  static Vec3 lane_of(const Lanes &from, std::int64_t lane) { return {from[0][lane], from[1][lane], from[2][lane]}; }
+  static void put_vectors(const Lanes &from, std::int64_t n, double *to) {
+    for (std::int64_t lane = 0; lane < n; ++lane, to += 3) {
+      const Two xy = {from[0][lane], from[1][lane]};
+      std::memcpy(to, &xy, sizeof xy);
+      to[2] = from[2][lane];
+    }
   }
 
   Vec3 normal(std::int64_t triangle) const {
     return normals_ ? normals_->of_face(triangle) : triangle_normal(set_.corners(triangle));
   }
 
-  // Interpolates a field that has n_components per vertex.
-  template <int n_components>
-  void interpolate(const std::vector<double> &field, const std::int64_t *triangle, const PointsOnTriangles &on,
-                   std::int64_t n, double *to) const {
-    for (std::int64_t lane = 0; lane < n; ++lane) {
-      const std::int64_t *id = set_.vertex_id.data() + 3 * triangle[lane];
-      const double *a = field.data() + n_components * id[0], *b = field.data() + n_components * id[1],
-                   *c = field.data() + n_components * id[2];
-      const Vec3 weights = lane_of(on.barycentric, lane);
-      for (int k = 0; k < n_components; ++k)
-        to[n_components * lane + k] = weights.x * a[k] + weights.y * b[k] + weights.z * c[k];
-    }
-  }
-
   const TriangleSet &set_;
+  Positions positions_;
+  const double *corners_;  // of the triangles, nine numbers each
   const StridedPoints &nodes_;
-  void (*locate_)(const PointsAndTriangles &, PointsOnTriangles &);
+  const Kernels &simd_;
   std::int32_t fields_;
   const Pseudonormals *normals_;  // null if no field needs them
+  const VertexNumbers *at_vertices_;
   const NodeList &list_;
   NodeFields &made_;
 };
+
+// Puts the numbers of each vertex that the fields need beside each other.
+void gather_at_vertices(const TriangleSet &set, std::int32_t fields, FieldScratch &scratch) {
+  const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
+  if (!has_velocity && !has_uv) return;
+  resize(scratch.at_vertices, set.n_vertices());
+  const double *velocity = set.velocity.data(), *uv = set.uv.data();
+  for (VertexNumbers &at : scratch.at_vertices) {
+    at = {};
+    if (has_velocity) std::copy_n(velocity, 3, at.number), velocity += 3;
+    if (has_uv) std::copy_n(uv, 2, at.number + uv_in_numbers), uv += 2;
+  }
+}
 
 // Writes the fields of a node whose distance is by sampling or minimisation. It finds the point once more.
 void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::int64_t node, std::int64_t i,
@@ -154,6 +205,10 @@ void NodeFields::resize(std::int32_t fields, std::int64_t n) {
   for_each_array(all_fields & ~fields, [&](auto member, std::int64_t) { (this->*member).clear(); });
   // Old entries need not be cleared, because every entry is written.
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
+}
+
+void FieldScratch::reserve(const Surface &surface, std::int32_t fields) {
+  if (fields & (RIIS_FIELD_VELOCITY | RIIS_FIELD_UV)) reserve_amply(at_vertices, surface.triangles().n_vertices());
 }
 
 void check_fields(const Surface &surface, std::int32_t fields) {
@@ -182,10 +237,12 @@ bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_no
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 
-void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made) {
+void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
+                 NodeFields &made) {
   made.resize(fields, list.size());
   if (fields == 0) return;
-  const TriangleFields of_triangles(request, fields, list, made);
+  gather_at_vertices(request.surface.triangles(), fields, scratch);
+  const TriangleFields of_triangles(request, fields, list, scratch, made);
   const bool has_triangles = !request.surface.other_distance();
   constexpr std::int64_t nodes_per_block = 512;
   parallel_for_ranges(list.size(), nodes_per_block, request.n_threads, [&](const Range &range, int) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/unfilled.hpp"
+#include "kernels/kernels.hpp"
 #include "marking/node_list.hpp"
 #include "marking/search.hpp"
 
@@ -22,6 +23,14 @@ struct NodeFields {
   void resize(std::int32_t fields, std::int64_t n);
 };
 
+// Memory for the next marking's fields.
+struct FieldScratch {
+  UnfilledVector<VertexNumbers> at_vertices;
+
+  // Reserves memory for the fields of any list of nodes.
+  void reserve(const Surface &surface, std::int32_t fields);
+};
+
 // Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
 void check_fields(const Surface &surface, std::int32_t fields);
 
@@ -29,7 +38,8 @@ void check_fields(const Surface &surface, std::int32_t fields);
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
 
 // Writes the fields of the nodes in the list. Memory was reserved for both, so this does not throw.
-void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, NodeFields &made);
+void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
+                 NodeFields &made);
 
 // Writes the fields of the nodes of `some`, which is a part of `all`. Both ascend.
 void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,

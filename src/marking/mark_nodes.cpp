@@ -84,11 +84,12 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
   // Calls that may fail come before the first list is overwritten.
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
+  result.field_scratch.reserve(request.surface, fields);
   if (need_normals(request.surface, fields, result.found.size()))
     request.surface.pseudonormals();
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                result.order_scratch, result.within, result.marked);
-  make_fields(request, fields, result.within, result.fields_within);
+  make_fields(request, fields, result.within, result.field_scratch, result.fields_within);
   if (limit_is_wider) select_fields(fields, result.within, result.fields_within, result.marked, result.fields_marked);
   result.fields = fields;
   result.was_marked = true;

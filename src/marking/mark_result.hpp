@@ -41,6 +41,7 @@ struct MarkResult {
   NeighborScratch neighbor_scratch;
   ClusterScratch cluster_scratch;
   OrderScratch order_scratch;
+  FieldScratch field_scratch;
 
   const NodeList &marked_nodes() const { return limit_is_wider ? marked : within; }
   const NodeFields &marked_fields() const { return limit_is_wider ? fields_marked : fields_within; }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
-#include <tuple>
 
 #include "base/array_view.hpp"
 #include "base/constants.hpp"
+#include "kernels/kernels.hpp"
 #include "surface/rims.hpp"
 
 namespace riis {
@@ -26,35 +26,51 @@ std::uint64_t hash(Vec3 p) {
 }
 
 // Numbers all vertices; vertices with equal coordinates get the same number.
-Vector<std::int64_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
+UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
   // A table of vertices that is at most half full. Each vertex is at the first place from its hash on that was free.
   constexpr std::int32_t none = -1;
-  Vector<std::int64_t> position;
+  UnfilledShortVector<std::int32_t> position;
   resize(position, set.n_vertices());
   std::size_t size = 16;
   while (size < 2 * position.size()) size *= 2;
   Vector<std::int32_t> table(size, none);
-  n_positions = 0;
+  std::int32_t n = 0;
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
     const Vec3 p = set.vertex(i);
     std::size_t at = hash(p) & (size - 1);
     while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
     if (table[at] == none) {
       table[at] = static_cast<std::int32_t>(i);
-      view(position)[i] = n_positions++;
+      view(position)[i] = n++;
     } else {
       view(position)[i] = view(position)[table[at]];
     }
   }
+  n_positions = n;
   return position;
 }
 
 // The third angle follows from the other two, because an arc tangent is dear.
-std::array<double, 3> angles_of(const std::array<Vec3, 3> &corners) {
-  const auto &[a, b, c] = corners;
-  const double twice_area = length(cross(b - a, c - a)), at_a = std::atan2(twice_area, dot(b - a, c - a)),
-               at_b = std::atan2(twice_area, dot(c - b, a - b));
+std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
+  const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
+               at_b = std::atan2(measures.twice_area[lane], measures.product_at_b[lane]);
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
+}
+
+// Sorts edges by their upper ends. They are few, and those with equal ends stay in their order.
+template <class Edge>
+void sort_few(Edge *begin, Edge *end) {
+  constexpr std::ptrdiff_t few = 32;
+  if (end - begin > few) {
+    std::stable_sort(begin, end, [](const Edge &a, const Edge &b) { return a.upper < b.upper; });
+    return;
+  }
+  for (Edge *next = begin + 1; next < end; ++next) {
+    const Edge edge = *next;
+    Edge *to = next;
+    for (; to != begin && edge.upper < to[-1].upper; --to) *to = to[-1];
+    *to = edge;
+  }
 }
 
 }  // namespace
@@ -71,78 +87,98 @@ Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
 Pseudonormals::Pseudonormals(const TriangleSet &set) {
   const std::int64_t n = set.n_triangles();
   std::int64_t n_positions = 0;
-  const Vector<std::int64_t> position_of_vertex = distinct_positions(set, n_positions);
+  const UnfilledShortVector<std::int32_t> position_of_vertex = distinct_positions(set, n_positions);
   resize(face_, n);
   resize(edge_, 3 * n);
-  resize(corner_, n_positions);
   resize(position_, 3 * n);
   resize(edge_is_rim_, 3 * n);
+  resize(corner_, n_positions);
   resize(corner_is_rim_, n_positions);
   // Edges are listed by their lower end. Each list is short, and equal edges follow each other once it is sorted.
-  Vector<std::int64_t> first_edge;
-  resize(first_edge, n_positions + 1);
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::array<Vec3, 3> corners = set.corners(i);
-    const Vec3 normal = view(face_)[i] = triangle_normal(corners);
-    const std::array<double, 3> angles = angles_of(corners);
-    for (std::int64_t k = 0; k < 3; ++k) {
-      const std::int64_t position = view(position_of_vertex)[view(set.vertex_id)[3 * i + k]];
-      view(position_)[3 * i + k] = position;
-      Vec3 &sum = view(corner_)[position];
-      sum = sum + view(angles)[k] * normal;
+  Vector<std::int32_t> end_of_list;
+  resize(end_of_list, n_positions + 1);
+  const auto ends_at = view(end_of_list);
+  const Kernels &simd = kernels(best_instruction_set());
+  for (std::int64_t first = 0; first < n; first += pairs_at_once) {
+    const auto n_here = static_cast<std::int32_t>(std::min<std::int64_t>(pairs_at_once, n - first));
+    TriangleMeasures measures;
+    simd.measure_triangles(set.xyz.data(), set.vertex_id.data() + 3 * first, n_here, measures);
+    for (std::int32_t lane = 0; lane < n_here; ++lane) {
+      const std::int64_t i = first + lane;
+      const Vec3 normal{measures.normal[0][lane], measures.normal[1][lane], measures.normal[2][lane]};
+      view(face_)[i] = normal;
+      const std::array<double, 3> angles = angles_of(measures, lane);
+      for (std::int64_t k = 0; k < 3; ++k) {
+        const std::int32_t position = view(position_of_vertex)[view(set.vertex_id)[3 * i + k]];
+        view(position_)[3 * i + k] = position;
+        Vec3 &sum = view(corner_)[position];
+        sum = sum + view(angles)[k] * normal;
+      }
+      for (std::int64_t k = 0; k < 3; ++k) ++ends_at[ends_of(3 * i + k).lower];
     }
-    for (std::int64_t k = 0; k < 3; ++k) ++view(first_edge)[ends_of(3 * i + k).lower + 1];
   }
-  std::partial_sum(first_edge.begin(), first_edge.end(), first_edge.begin());
+  std::partial_sum(end_of_list.begin(), end_of_list.end(), end_of_list.begin());
   struct Edge {
-    std::int64_t upper, slot;  // position of its upper end, place in edge_
+    std::int32_t upper, slot;  // position of its upper end, place in edge_
   };
-  Vector<Edge> edges;
+  UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  Vector<std::int64_t> next(first_edge.begin(), first_edge.end() - 1);
-  for (std::int64_t slot = 0; slot < 3 * n; ++slot) {
+  // Lists are filled from their ends, so that equal edges are in the order of their slots. Then sums have the same bits however
+  // the ends are numbered.
+  for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
-    view(edges)[view(next)[lower]++] = {upper, slot};
+    view(edges)[--ends_at[lower]] = {upper, static_cast<std::int32_t>(slot)};
   }
   for (std::int64_t lower = 0; lower < n_positions; ++lower) {
-    const auto begin = edges.begin() + view(first_edge)[lower], end = edges.begin() + view(first_edge)[lower + 1];
-    // Equal edges are in the order of their slots, so that the sums have the same bits however the ends are numbered.
-    std::sort(begin, end,
-              [](const Edge &a, const Edge &b) { return std::tie(a.upper, a.slot) < std::tie(b.upper, b.slot); });
-    for (auto first = begin; first != end;) {
+    Edge *const end = edges.data() + ends_at[lower + 1];
+    Edge *first = edges.data() + ends_at[lower];
+    sort_few(first, end);
+    while (first != end) {
       Vec3 sum{0, 0, 0};
-      auto last = first;
+      const Edge *last = first;
       for (; last != end && last->upper == first->upper; ++last) sum = sum + view(face_)[last->slot / 3];
-      const bool is_single = last - first == 1;
-      for (; first != last; ++first) {
-        const std::int64_t slot = first->slot;
-        view(edge_)[slot] = sum;
-        if (!(set.rim_sides.empty() ? is_single : is_on_rim_side(set, slot / 3, slot % 3))) continue;
-        view(edge_is_rim_)[slot] = 1;
-        view(corner_is_rim_)[lower] = view(corner_is_rim_)[first->upper] = 1;
-      }
+      if (set.rim_sides.empty() && last - first == 1) note_rim(first->slot);
+      for (; first != last; ++first) view(edge_)[first->slot] = sum;
     }
+  }
+  if (!set.rim_sides.empty()) note_rim_sides(set);
+}
+
+// Notes that an edge and its ends are on the rim.
+void Pseudonormals::note_rim(std::int64_t slot) {
+  const auto [lower, upper] = ends_of(slot);
+  view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
+}
+
+void Pseudonormals::note_rim_sides(const TriangleSet &set) {
+  UnfilledShortVector<std::uint8_t> sides;
+  resize(sides, set.n_vertices());
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) view(sides)[i] = sides_of_place(set.uv.data() + 2 * i);
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
+    const int rim = view(set.rim_sides)[view(set.patch_id)[i]];
+    const std::int64_t *id = set.vertex_id.data() + 3 * i;
+    const int a = rim & view(sides)[id[0]], b = rim & view(sides)[id[1]], c = rim & view(sides)[id[2]];
+    if (((a & b) | (b & c) | (c & a)) == 0) continue;
+    if (a & b) note_rim(3 * i);
+    if (b & c) note_rim(3 * i + 1);
+    if (c & a) note_rim(3 * i + 2);
   }
 }
 
 Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
-  const std::int64_t triangle = slot / 3, k = slot % 3;
   const auto position = view(position_);
-  const auto [lower, upper] = std::minmax(position[slot], position[3 * triangle + (k + 1) % 3]);
-  return {lower, upper};
+  const std::int32_t from = position[slot], to = position[slot % 3 == 2 ? slot - 2 : slot + 1];
+  return from < to ? Ends{from, to} : Ends{to, from};
 }
 
-Pseudonormals::Place Pseudonormals::place_of(const std::array<double, 3> &barycentric) {
-  const auto is_zero = [&](std::int64_t k) { return view(barycentric)[k] == 0.0; };
-  for (std::int64_t k = 0; k < 3; ++k) {
-    const std::int64_t next = (k + 1) % 3, previous = (k + 2) % 3;
-    if (is_zero(next) && is_zero(previous)) return {Kind::vertex, k};
-    if (is_zero(previous) && !is_zero(k) && !is_zero(next)) return {Kind::edge, k};
-  }
-  return {Kind::face, 0};
+Pseudonormals::Place Pseudonormals::place_of(Vec3 barycentric) {
+  // By the weights that are 0: the first counts 1, the second 2, the third 4.
+  static constexpr Place places[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
+                                      {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
+  return places[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];
 }
 
-Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
+Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 barycentric) const {
   const auto [kind, corner] = place_of(barycentric);
   if (kind == Kind::face) return {of_face(triangle), false};
   const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];

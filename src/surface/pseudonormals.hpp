@@ -40,31 +40,34 @@ class Pseudonormals {
   Feature at(std::int64_t triangle, const std::array<double, 3> &barycentric) const {
     // Most closest points are inside, so that this is decided where it is called.
     const bool is_inside = barycentric[0] != 0 && barycentric[1] != 0 && barycentric[2] != 0;
-    return is_inside ? Feature{of_face(triangle), false} : at_border(triangle, barycentric);
+    return is_inside ? Feature{of_face(triangle), false}
+                     : at_border(triangle, {barycentric[0], barycentric[1], barycentric[2]});
   }
+  // Does the same for points that may be on an edge or a vertex.
+  Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
  private:
-  // Does the same for points that may be on an edge or a vertex.
-  Feature at_border(std::int64_t triangle, const std::array<double, 3> &barycentric) const;
-
   // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
   enum class Kind { face, edge, vertex };
   struct Place {
     Kind kind;
     std::int64_t corner;
   };
-  static Place place_of(const std::array<double, 3> &barycentric);
+  static Place place_of(Vec3 barycentric);
 
   // The positions of an edge's ends.
   struct Ends {
-    std::int64_t lower, upper;
+    std::int32_t lower, upper;
   };
   Ends ends_of(std::int64_t slot) const;
 
-  Vector<Vec3> face_;              // one for each triangle
-  Vector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
-  Vector<Vec3> corner_;            // one for each distinct position
-  Vector<std::int64_t> position_;  // three for each triangle: position of each corner
+  void note_rim(std::int64_t slot);
+  void note_rim_sides(const TriangleSet &set);
+
+  UnfilledShortVector<Vec3> face_;              // one for each triangle
+  UnfilledShortVector<Vec3> edge_;              // three for each triangle; edge k runs from corner k to k + 1
+  Vector<Vec3> corner_;                         // one for each distinct position
+  UnfilledShortVector<std::int32_t> position_;  // three for each triangle: position of each corner
   Vector<std::uint8_t> edge_is_rim_, corner_is_rim_;
 };
 

@@ -2,7 +2,6 @@
 #include "surface/rims.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "base/array_view.hpp"
 
@@ -62,17 +61,6 @@ Vector<std::uint8_t> rim_sides(const PatchSet &set) {
       }
   }
   return sides;
-}
-
-bool is_on_rim_side(const TriangleSet &set, std::int64_t triangle, std::int64_t k) {
-  const std::uint8_t rim = view(set.rim_sides)[view(set.patch_id)[triangle]];
-  if (rim == 0) return false;
-  const std::int64_t *vertex = set.vertex_id.data() + 3 * triangle;
-  const auto place = [&](std::int64_t corner) { return set.uv.data() + 2 * vertex[corner % 3]; };
-  const double *a = place(k), *b = place(k + 1);
-  // Vertices on a side have its parameter exactly.
-  return ((rim & rim_u0) && a[0] == 0 && b[0] == 0) || ((rim & rim_u1) && a[0] == 1 && b[0] == 1) ||
-         ((rim & rim_v0) && a[1] == 0 && b[1] == 0) || ((rim & rim_v1) && a[1] == 1 && b[1] == 1);
 }
 
 }  // namespace riis

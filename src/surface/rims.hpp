@@ -20,7 +20,11 @@ enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8 };
 // meet inside a side, as along the bending curve. Nothing depends on vertices there, so a T-junction is no rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
-// Returns whether edge k, from corner k to the next, of a triangle lies on a side on the rim.
-bool is_on_rim_side(const TriangleSet &set, std::int64_t triangle, std::int64_t k);
+// Returns the sides of its patch that a vertex lies on, by its u and v. A vertex on a side has the side's parameter exactly. An
+// edge lies on a side if both ends do.
+inline std::uint8_t sides_of_place(const double *uv) {
+  return static_cast<std::uint8_t>((uv[1] == 0 ? rim_v0 : 0) | (uv[1] == 1 ? rim_v1 : 0) | (uv[0] == 0 ? rim_u0 : 0) |
+                                   (uv[0] == 1 ? rim_u1 : 0));
+}
 
 }  // namespace riis

@@ -116,7 +116,7 @@ void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *tri
   for (int i = 0; i < pairs_at_once; ++i) {
     const int pair = i < n ? i : 0;
     for (int c = 0; c < 3; ++c) pairs.point[c][i] = points[3 * point[pair] + c];
-    for (int c = 0; c < 9; ++c) pairs.corners[c][i] = corners[9 * triangle[pair] + c];
+    pairs.corners[i] = corners + 9 * triangle[pair];
   }
   of(set).locate(pairs, located);
   for (int i = 0; i < n; ++i) {
