@@ -16,9 +16,12 @@ from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import (
+    FINE,
+    ROUGH,
     Pose,
     Problem,
     axis_and_angle,
+    matrix_of,
     random_rotations,
     start_pose,
     vertex_areas,
@@ -33,6 +36,10 @@ Reals = NDArray[numpy.float64]
 # valve's size or of the scale.
 _UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
+# The search looks at so many of the points.
+_N_ROUGH = 400
+# So many of the search's ends are looked at again, with the width of the points' own scatter.
+_N_ENDS = 3
 # Further starts choose among this many rotations.
 _N_ROTATIONS = 150
 
@@ -112,7 +119,7 @@ def _points_of(data: Any) -> tuple[Reals, Reals | None]:
         return points, vertex_areas(points, data.triangles.vertex_id)
     if pyvista is not None and isinstance(data, pyvista.PolyData):
         points = numpy.array(data.points, numpy.float64)  # PyVista's are often float32
-        triangles = data.triangulate().faces.reshape(-1, 4)[:, 1:] if data.n_faces_strict > 0 else None
+        triangles = data.triangulate().faces.reshape(-1, 4)[:, 1:] if data.faces.size > 0 else None
         return points, None if triangles is None else vertex_areas(points, triangles)
     if not isinstance(data, numpy.ndarray) or data.dtype != numpy.float64:
         what = f"an array of {data.dtype}" if isinstance(data, numpy.ndarray) else type(data).__name__
@@ -206,7 +213,7 @@ def fit(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Reals | None = None,
     whole: bool = True,
-    n_starts: int = 1,
+    n_starts: int = 8,
     seed: int = 0,
 ) -> FitResult:
     """Finds parameters and a placement with which a valve lies closest to points.
@@ -267,16 +274,19 @@ def fit(
     size = float(numpy.linalg.norm(first.info.upper - first.info.lower)) * pose.scale / place["scale"]
     limits = _bounds_of(valve, names, {} if bounds is None else bounds, size / pose.scale)
 
-    problem = Problem(points, weights, valve, names, limits, moves, size, whole)
+    random = numpy.random.default_rng(seed)
+    problem = Problem(points, weights, valve, names, limits, moves, size, whole, FINE)
+    few = random.permutation(numpy.flatnonzero(weights > 0.0))[:_N_ROUGH]
+    rough = Problem(points[few], weights[few], valve.copy(), names, limits, moves, size, whole, ROUGH)
     middle = None
     if "translation" in moves and "translation" not in given:
         middle = numpy.array([weighted_median(column, weights) for column in points.T])
     shares = (numpy.array([valve[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
     x = numpy.zeros(problem.n)
     x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
-    base, x = _search(problem, pose, x, middle, "rotation" in moves and "rotation_angle" not in given, n_starts, seed)
+    base, x = _search(rough, pose, x, middle, "rotation" in moves and "rotation_angle" not in given, n_starts, random)
     problem.begin(base)
-    return _result(problem, problem.refine(x))
+    return _result(problem, problem.refine(x, 8))
 
 
 def _extent(points: Reals, weights: Reals) -> float:
@@ -290,12 +300,18 @@ def _extent_of(surface: Surface) -> float:
 
 
 def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_starts: int,
-            seed: int) -> tuple[Pose, Reals]:
+            random: numpy.random.Generator) -> tuple[Pose, Reals]:
     """Goes down from every start, roughly, and returns the base and the unknowns of the lowest end."""
-    random = numpy.random.default_rng(seed)
     n_names = len(problem.names)
     width = 0.05 * problem.size
-    best: tuple[float, Pose, Reals] | None = None
+    ends: list[tuple[float, Pose, Reals]] = []
+
+    def go_down(base: Pose, x: Reals) -> None:
+        problem.begin(base)
+        x = problem.solve(x, width, 30, 1e-4)
+        ends.append((problem.loss(x, width), problem.pose(x), numpy.append(x[:n_names], numpy.zeros(problem.n - n_names))))
+        ends.sort(key=lambda end: end[0])
+
     for number in range(n_starts):
         x, rotations = given.copy(), numpy.eye(3)[None]
         if number > 0:
@@ -304,16 +320,29 @@ def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, an
                 rotations = random_rotations(random, _N_ROTATIONS)
         problem.begin(pose)
         base = problem.best_rotation(x, rotations, middle)
-        if base is None:
-            continue  # the values clash
-        problem.begin(base)
-        x = problem.solve(x, width, 60 if n_starts == 1 else 20)
-        cost = problem.cost(x, width)
-        if best is None or cost < best[0]:
-            best = cost, base, x
-    if best is None:
+        if base is not None:  # else the values clash
+            go_down(base, x)
+    if not ends:
         raise InvalidArgumentError("valve: no start has a surface; its values clash")
-    return best[1], best[2]
+    if any_rotation and n_starts > 1:
+        # Valves look alike when a cusp lies where another was, or when back and front change places.
+        _, found, x = ends[0]
+        for angle in numpy.radians((120.0, 240.0, 180.0)):
+            turn = matrix_of(numpy.array([0.0, 0.0, angle]))
+            go_down(Pose(found.rotation @ turn, found.move, found.scale), x)
+    best: list[tuple[float, Pose, Reals]] = []
+    for _, base, x in ends[:_N_ENDS]:
+        problem.begin(base)
+        x = problem.refine(x, 2)
+        best.append((problem.noise, problem.pose(x), numpy.append(x[:n_names], numpy.zeros(problem.n - n_names))))
+    noise = min(end[0] for end in best)
+
+    def rank(end: tuple[float, Pose, Reals]) -> float:
+        problem.begin(end[1])
+        return problem.merit(end[2], noise)
+
+    _, base, x = min(best, key=rank)
+    return base, x
 
 
 def _result(problem: Problem, x: Reals) -> FitResult:

@@ -15,7 +15,7 @@ from riis._riis import Surface, Valve
 Reals = NDArray[numpy.float64]
 
 # Triangles lie within this share of the valve's size of the smooth valve.
-_TOLERANCE = 5e-4
+FINE, ROUGH = 5e-4, 2e-3
 # The step of differences, in shares of a parameter's bounds. A smaller one would see the triangles change.
 _STEP = 2e-3
 # Residuals of values that clash, in sizes of the valve: far more than any distance to a valve that lies near the points.
@@ -70,7 +70,7 @@ def vertex_areas(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
     """Returns a third of the area of the triangles around each vertex."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     third = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 6.0
-    return numpy.bincount(triangles.ravel(), numpy.repeat(third, 3), len(vertices))
+    return numpy.asarray(numpy.bincount(triangles.ravel(), numpy.repeat(third, 3), len(vertices)), numpy.float64)
 
 
 @dataclass(frozen=True)
@@ -99,9 +99,10 @@ class Problem:
     """
 
     def __init__(self, points: Reals, weights: Reals, valve: Valve, names: list[str], bounds: Reals, moves: list[str],
-                 size: float, whole: bool) -> None:
+                 size: float, whole: bool, tolerance: float) -> None:
         self.points, self.weights, self.root_weights = points, weights, numpy.sqrt(weights)
         self.valve, self.names, self.bounds, self.moves, self.size, self.whole = valve, names, bounds, moves, size, whole
+        self.tolerance = tolerance
         self.unknowns = list(names)
         for move in moves:
             self.unknowns += [move] * _N_UNKNOWNS[move]
@@ -140,7 +141,7 @@ class Problem:
             self.valve.update(**dict(zip(self.names, self.values(x).tolist())))
             if self.surface is None:
                 scale = self.base.scale
-                self.surface = Surface(self.valve, half_thickness=self.size / scale, tolerance=_TOLERANCE, n_threads=1)
+                self.surface = Surface(self.valve, half_thickness=self.size / scale, tolerance=self.tolerance, n_threads=1)
             else:
                 self.surface.update(self.valve)
         except Error:
@@ -233,12 +234,19 @@ class Problem:
         assert seen is not None
         return max(1.4826 * weighted_median(numpy.abs(seen.distance), self.weights), 1e-4 * self.size)
 
-    def cost(self, x: Reals, width: float) -> float:
+    def loss(self, x: Reals, width: float) -> float:
         """Returns the loss of the points' residuals for a width."""
         return float(numpy.log1p((self.residuals(x)[:-1] / width) ** 2).sum())
 
-    def solve(self, x: Reals, width: float, n_steps: int) -> Reals:
-        """Goes down from x. Residuals beyond the width lose weight, that of the area does not."""
+    def merit(self, x: Reals, noise: float) -> float:
+        """Returns what solve makes small, for a given noise."""
+        seen, width = self.at(x), 3.0 * noise
+        if seen is None:
+            return numpy.inf
+        return width**2 * self.loss(x, width) + 0.5 * float(self.weights.sum()) * noise**2 * seen.log_area
+
+    def solve(self, x: Reals, width: float, n_steps: int, change: float) -> Reals:
+        """Goes down from x until x or the cost changes by less. Residuals beyond the width lose weight, not that of the area."""
         from scipy.optimize import least_squares
 
         seen = self.at(x)
@@ -253,16 +261,16 @@ class Problem:
         low, high = numpy.full(self.n, -numpy.inf), numpy.full(self.n, numpy.inf)
         low[: len(self.names)], high[: len(self.names)] = 0.0, 1.0
         result = least_squares(
-            self.residuals, x, self.jacobian, bounds=(low, high), loss=loss, f_scale=width, max_nfev=n_steps, ftol=1e-6, xtol=1e-6,
-            gtol=1e-10,
+            self.residuals, x, self.jacobian, bounds=(low, high), loss=loss, f_scale=width, max_nfev=n_steps, ftol=change,
+            xtol=change, gtol=1e-10,
         )
         return numpy.asarray(result.x)
 
-    def refine(self, x: Reals) -> Reals:
+    def refine(self, x: Reals, n_rounds: int) -> Reals:
         """Goes down again with a width that follows the scatter of the points."""
-        for _ in range(8):
+        for _ in range(n_rounds):
             self.noise = self.scatter(x)
-            before, x = x, self.solve(x, 3.0 * self.noise, 60)
+            before, x = x, self.solve(x, 3.0 * self.noise, 60, 1e-6)
             if numpy.abs(x - before).max() < 1e-4:
                 break
         self.noise = self.scatter(x)

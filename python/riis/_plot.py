@@ -44,8 +44,8 @@ _BAR = {
 
 
 def _look(plotter: Any, zoom: float) -> None:
-    """Looks at all that is drawn from the side, slightly from above."""
-    plotter.view_vector((1.0, -1.6, 0.9), viewup=(0.0, 0.0, 1.0))
+    """Looks at all that is drawn obliquely from above."""
+    plotter.view_vector((1.0, -1.6, 1.5), viewup=(0.0, 0.0, 1.0))
     plotter.camera.zoom(zoom)
 
 
@@ -53,15 +53,15 @@ def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: MarkResult |
     """Draws or replaces the leaflets and the marked nodes."""
     pyvista = _pyvista()
     plotter.add_mesh(
-        surface_to_pyvista(surface), scalars="leaflet_id", cmap="Set2", clim=[-0.5, 7.5], show_scalar_bar=False,
+        surface_to_pyvista(surface), scalars="leaflet_id", cmap="Set2", clim=[-0.5, 7.5], show_scalar_bar=False, ambient=0.3,
         name="riis leaflets", reset_camera=False,
     )
     if mesh is not None and marks is not None and len(marks) > 0:
         nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
         nodes.point_data["distance"] = numpy.array(marks.distance)
         plotter.add_mesh(
-            nodes, scalars="distance", cmap="viridis", clim=[0.0, surface.half_thickness], point_size=4,
-            render_points_as_spheres=True, opacity=0.5, scalar_bar_args=_BAR, name="riis marks", reset_camera=False,
+            nodes, scalars="distance", cmap="viridis", clim=[0.0, surface.half_thickness], point_size=3,
+            render_points_as_spheres=True, opacity=0.35, scalar_bar_args=_BAR, name="riis marks", reset_camera=False,
         )
     else:
         plotter.remove_actor("riis marks", reset_camera=False)
@@ -134,7 +134,7 @@ def animate(
     frame_rate  frames a second
     plotter     a pyvista.Plotter(off_screen=True) with a camera and things of your own; it is closed
 
-    Without plotter, the camera looks at the first frame from the side, slightly from above. If a frame raises an
+    Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an
     exception, no file is left. A movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg: pip install riis[plot].
     """
     pyvista = _pyvista()
