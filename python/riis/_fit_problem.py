@@ -50,7 +50,8 @@ def axis_and_angle(rotation: Reals) -> tuple[tuple[float, float, float], float]:
 
 def random_rotations(random: numpy.random.Generator, n: int) -> Reals:
     """Returns (n, 3, 3) rotations, evenly from all (quaternions of four normal numbers)."""
-    w, x, y, z = (q := random.normal(size=(4, n))) / numpy.linalg.norm(q, axis=0)
+    quaternions = random.normal(size=(4, n))
+    w, x, y, z = quaternions / numpy.linalg.norm(quaternions, axis=0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
@@ -175,10 +176,11 @@ class Problem:
             self.last = key, seen
         return self.last[1]
 
-    # The last residual is that of the area. Where points lie evenly over the whole valve, each has the probability
-    # 1 / area, so the logarithm of the likelihood has the term -n log(area). Edges of a surface that noise has blurred see a
-    # quarter of it: points beyond the edge pull it outwards by n / (4 area) per length, and this residual by the same inwards.
-    # Its square is n noise^2 / 2 (log(area) + constant); the constant keeps the root real.
+    # The last residual is that of the area. Where points lie evenly over the whole valve, each has the probability density
+    # 1 / area, so the logarithm of their likelihood has the term -n log(area). Half the sum of squares, which is the rest of the
+    # likelihood times noise^2, is not quite right near an edge: noise carries points beyond it, and these pull it outwards by
+    # n noise^2 / (4 area) per length. A quarter of the term pulls it inwards by the same, so edges stay where they are. Half the
+    # square of this residual is n noise^2 / 4 (log(area) + constant). The constant keeps the root real.
     _CONSTANT = 4.0
 
     def _area_factor(self) -> float:

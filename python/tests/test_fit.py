@@ -12,6 +12,7 @@ import pytest
 
 import fit_table
 import riis
+from riis._fit_problem import axis_and_angle, matrix_of, random_rotations, weighted_median
 
 pytest.importorskip("scipy", reason="scipy is missing; ./run python installs it")
 
@@ -192,6 +193,33 @@ def test_a_valve_that_is_more_than_its_parameters_is_not_written(tmp_path):
     with pytest.raises(riis.InvalidArgumentError, match="valve: has patches or an open state of its own"):
         found.write(tmp_path / "valve.json")
     assert not (tmp_path / "valve.json").exists()
+
+
+def test_rotations_go_to_axis_and_angle_and_back():
+    """The oracle is the library: it places a surface by an axis and an angle."""
+    valve = riis.Valve("bileaflet")
+    surface = riis.Surface(valve)
+    known = numpy.array(surface.vertices)
+    random = numpy.random.default_rng(3)
+    rotations = [*random_rotations(random, 200), numpy.eye(3), numpy.diag([1.0, -1.0, -1.0]), numpy.diag([-1.0, 1.0, -1.0])]
+    for angle in (1e-10, 1e-5, numpy.pi - 1e-10, numpy.pi - 1e-5, numpy.pi):
+        axis = random.normal(size=3)
+        rotations.append(matrix_of(axis / numpy.linalg.norm(axis) * angle))
+    for rotation in rotations:
+        assert numpy.allclose(rotation @ rotation.T, numpy.eye(3), atol=1e-12) and numpy.linalg.det(rotation) > 0.0
+        axis, angle = axis_and_angle(rotation)
+        surface.update(valve, rotation_axis=axis, rotation_angle=angle)
+        assert numpy.allclose(surface.vertices, known @ rotation.T, atol=1e-8)
+    mean = numpy.mean(rotations[:200], axis=0)
+    assert abs(mean).max() < 0.25  # they go everywhere
+
+
+def test_half_of_the_weight_lies_below_the_median():
+    random = numpy.random.default_rng(4)
+    for _ in range(200):
+        values, times = random.normal(size=9), random.integers(1, 6, 9)
+        repeated = numpy.sort(numpy.repeat(values, times))
+        assert weighted_median(values, times.astype(float)) == repeated[(len(repeated) - 1) // 2]
 
 
 POINTS = numpy.zeros((50, 3))
