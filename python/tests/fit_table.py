@@ -46,9 +46,13 @@ def any_placement(seed):
 
 
 def main(n_seeds):
-    print("| valve | noise | gaps, outliers | parameter | true | error, rms | largest | standard error | within two |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    """Prints a row per parameter and a column per case: the root mean square of the errors, and the standard error that fits state."""
+    cases = [f"{noise}" + (f", {n_gaps} gaps, {outliers:.0%} outliers" if n_gaps else "") for noise, n_gaps, outliers in CASES]
+    print(f"| valve | parameter | true | {' | '.join(cases)} |")
+    print("|---" * (3 + len(CASES)) + "|")
+    within = []
     for kind, true in VALVES.items():
+        cells = {name: [] for name in true}
         for noise, n_gaps, outliers in CASES:
             errors, stated = [], []
             for seed in range(n_seeds):
@@ -56,16 +60,13 @@ def main(n_seeds):
                 found = riis.fit(points, kind, free=list(true), seed=seed)
                 errors.append([found.parameters[name] - true[name] for name in true])
                 stated.append([found.standard_errors[name] for name in true])
-            size = numpy.abs(errors)
-            rms, typical = numpy.sqrt((size**2).mean(axis=0)), numpy.median(stated, axis=0)
-            within = (size <= 2.0 * numpy.array(stated)).mean(axis=0)
-            first = f"{kind} | {noise} | {f'{n_gaps}, {outliers:.0%}' if n_gaps else 'none'}"
-            for i, (name, value) in enumerate(true.items()):
-                print(
-                    f"| {first} | {name} | {value} | {rms[i]:.4f} | {size[:, i].max():.4f} | {typical[i]:.4f} | {within[i]:.0%} |",
-                    flush=True,
-                )
-                first = "| | "
+            rms, typical = numpy.sqrt(numpy.square(errors).mean(axis=0)), numpy.median(stated, axis=0)
+            within.extend((numpy.abs(errors) <= 2.0 * numpy.array(stated)).ravel())
+            for i, name in enumerate(true):
+                cells[name].append(f"{rms[i]:.4f} ({typical[i]:.4f})")
+        for name, value in true.items():
+            print(f"| {kind} | {name} | {value} | {' | '.join(cells[name])} |", flush=True)
+    print(f"{numpy.mean(within):.0%} of {len(within)} errors are at most two standard errors")
 
 
 if __name__ == "__main__":
