@@ -76,7 +76,8 @@ class FitResult:
         if moves:
             lines.append(f"undetermined in the placement: {', '.join(moves)}")
         light = int(numpy.count_nonzero(self.weights < 0.25 * self.weights.max()))
-        lines.append(f"rms {self.rms:.4f}, 95 % of {len(self.distances)} points within {self.percentile95:.4f}, {light} with little weight")
+        share = f"95 % of {len(self.distances)} points within {self.percentile95:.4f}"
+        lines.append(f"rms {self.rms:.4f}, {share}, {light} with little weight")
         lines.append(f"singular values of the Jacobian: {' '.join(f'{value:.3g}' for value in self.singular_values)}")
         return "\n".join(lines)
 

@@ -118,7 +118,8 @@ def test_what_the_data_do_not_say_is_told():
     """A closed valve is the same whatever its open radius will be."""
     valve = riis.Valve("trileaflet", opening=0.0)
     points = numpy.array(riis.Surface(valve).vertices[::5])
-    found = riis.fit(points, valve, free=["leaflet_height", "open_radius_ratio"], placement=["translation"], n_starts=1, whole=False)
+    free = ["leaflet_height", "open_radius_ratio"]
+    found = riis.fit(points, valve, free=free, placement=["translation"], n_starts=1, whole=False)
     assert found.undetermined == ("open_radius_ratio",)
     assert numpy.isinf(found.standard_errors["open_radius_ratio"])
     assert found.singular_values[-1] < 1e-9 < found.singular_values[-2]
