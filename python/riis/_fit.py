@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -12,16 +14,34 @@ from typing import Any, Literal
 import numpy
 from numpy.typing import NDArray
 
-from riis._errors import Error, InvalidArgumentError
+from riis._errors import InvalidArgumentError
+from riis._fit_problem import (
+    FINE,
+    ROUGH,
+    Pose,
+    Problem,
+    axis_and_angle,
+    matrix_of,
+    random_rotations,
+    start_pose,
+    vertex_areas,
+    weighted_median,
+)
 from riis._records import Parameter
 from riis._riis import Surface, Valve
 
 Reals = NDArray[numpy.float64]
 
-# The surfaces of a fit: their triangles lie within this many half thicknesses of the smooth valve.
-_TOLERANCE = 0.01
-# A parameter is called undetermined if its standard error is more than this share of its bounds.
+# An unknown is undetermined if its standard error is more than this share of its bounds, this part of a radian, of the
+# valve's size or of the scale.
 _UNDETERMINED = 0.1
+_MOVES = ("rotation", "translation", "scale")
+# The search looks at so many of the points.
+_N_ROUGH = 400
+# So many of the search's ends are looked at again, with the width of the points' own scatter.
+_N_ENDS = 3
+# Further starts choose among this many rotations.
+_N_ROTATIONS = 150
 
 
 @dataclass(frozen=True)
@@ -31,173 +51,161 @@ class FitResult:
     valve: Valve
     placement: dict[str, Any]  #: scale, rotation_axis, rotation_angle (degrees) and translation
     parameters: dict[str, float]  #: the free parameters
-    standard_errors: dict[str, float]  #: of these by the data's own scatter; infinite where the data say nothing
-    undetermined: tuple[str, ...]  #: free parameters that the data do not determine
-    rms: float  #: root mean square of the points' distances, without outliers' weight, lengths
+    standard_errors: dict[str, float]  #: of these, by the data's own scatter; infinite where the data say nothing
+    undetermined: tuple[str, ...]  #: free parameters and parts of the placement that the data do not determine
+    at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
+    singular_values: Reals  #: of the Jacobian, descending: a row per point, a column per unknown, in sizes of the valve
+    rms: float  #: root mean square of the points' distances by these weights, lengths
     percentile95: float  #: 95 % of all points are at most so far, lengths
     distances: Reals = field(repr=False)  #: (n_points,), of all points
     weights: Reals = field(repr=False)  #: (n_points,), 0 to 1 times the caller's: small for outliers
 
+    def report(self) -> str:
+        """Returns a table of the parameters with their standard errors, and the measures of the fit below it."""
+        table = self.valve.parameters
+        lines = [f"{'parameter':32} {'value':>10} {'std. error':>10}  unit"]
+        for name, value in self.parameters.items():
+            notes = ["undetermined"] * (name in self.undetermined) + ["at a bound"] * (name in self.at_bounds)
+            lines.append(
+                f"{name:32} {value:10.4f} {self.standard_errors[name]:10.4f}  {table[name].unit:7} {', '.join(notes)}".rstrip()
+            )
+        for name, value in self.placement.items():
+            numbers = " ".join(f"{number:.4f}" for number in numpy.atleast_1d(value))
+            lines.append(f"{name:32} {numbers}")
+        moves = [name for name in self.undetermined if name in _MOVES]
+        if moves:
+            lines.append(f"undetermined in the placement: {', '.join(moves)}")
+        light = int(numpy.count_nonzero(self.weights < 0.25 * self.weights.max()))
+        share = f"95 % of {len(self.distances)} points within {self.percentile95:.4f}"
+        lines.append(f"rms {self.rms:.4f}, {share}, {light} with little weight")
+        lines.append(f"singular values of the Jacobian: {' '.join(f'{value:.3g}' for value in self.singular_values)}")
+        return "\n".join(lines)
+
     def write(self, path: str | os.PathLike[str]) -> str:
-        """Writes the parameters to a file for riis-mark --params, and returns the options that place the valve."""
+        """Writes the parameters to a file for riis-mark --params, and returns the options with the file and the placement."""
+        if not _is_its_parameters(self.valve):
+            raise InvalidArgumentError(
+                "valve: has patches or an open state of its own, which a file of parameters does not hold; write those with "
+                "the program that made them"
+            )
         values = {name: numpy.asarray(value).tolist() for name, value in dict(self.valve).items()}
         with open(path, "w", encoding="utf-8") as file:
             json.dump(values, file, indent=2)
             file.write("\n")
-        axis, move = self.placement["rotation_axis"], self.placement["translation"]
-        rotation = ",".join(f"{v:.17g}" for v in (*axis, self.placement["rotation_angle"]))
+        rotation = ",".join(f"{v:.17g}" for v in (*self.placement["rotation_axis"], self.placement["rotation_angle"]))
+        move = ",".join(f"{v:.17g}" for v in self.placement["translation"])
         return (
-            f"--valve {self.valve.kind} --params {os.fspath(path)} --scale {self.placement['scale']:.17g} "
-            f"--rotate {rotation} --translate {','.join(f'{v:.17g}' for v in move)}"
+            f"--valve {self.valve.kind} --params {shlex.quote(os.fspath(path))} --scale {self.placement['scale']:.17g} "
+            f"--rotate={rotation} --translate={move}"
         )
 
 
-def _matrix(vector: Reals) -> Reals:
-    """Returns the rotation by a vector: its direction is the axis, its length the angle in radians (Rodrigues)."""
-    angle = float(numpy.linalg.norm(vector))
-    if angle == 0.0:
-        return numpy.eye(3)
-    x, y, z = vector / angle
-    cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return numpy.eye(3) + numpy.sin(angle) * cross + (1.0 - numpy.cos(angle)) * cross @ cross
+def _is_its_parameters(valve: Valve) -> bool:
+    """Returns if the parameters alone make the valve: it has no patches, and no open state that was given."""
+    if valve.kind == "patches":
+        return False
+    alone = Valve(valve.kind)
+    alone.update(**dict(valve))
+    if "opening" in valve:
+        valve, alone = valve.copy(), alone.copy()
+        valve["opening"] = alone["opening"] = 1.0
+    return numpy.array_equal(Surface(alone).vertices, Surface(valve).vertices)
 
 
-class _Problem:
-    """The unknowns: free parameters in shares of their bounds, then a rotation vector, a translation, log of the scale."""
-
-    def __init__(self, points: Reals, weights: Reals, valve: Valve, names: list[str], bounds: Reals, moves: list[str],
-                 placement: dict[str, Any], size: float) -> None:
-        self.points, self.weights, self.valve, self.names, self.bounds = points, weights, valve, names, bounds
-        self.moves, self.placement, self.size = moves, placement, size
-        self.n = len(names) + sum({"rotation": 3, "translation": 3, "scale": 1}[move] for move in moves)
-        self.surface: Surface | None = None
-        self.last: tuple[bytes, Any] | None = None
-
-    def parts(self, x: Reals) -> tuple[Reals, Reals, Reals, float]:
-        """Returns the parameters, the rotation vector, the translation and the scale."""
-        share, rest = x[: len(self.names)], list(x[len(self.names) :])
-        rotation, translation, scale = numpy.zeros(3), numpy.zeros(3), 0.0
-        for move in self.moves:
-            if move == "rotation":
-                rotation, rest = numpy.array(rest[:3]), rest[3:]
-            elif move == "translation":
-                translation, rest = numpy.array(rest[:3]) * self.size, rest[3:]
-            else:
-                scale, rest = float(rest[0]), rest[1:]
-        values = self.bounds[:, 0] + share * (self.bounds[:, 1] - self.bounds[:, 0])
-        return values, rotation, translation, float(numpy.exp(scale))
-
-    def placed(self, x: Reals) -> tuple[Reals, Reals, float]:
-        """Returns rotation matrix, translation and scale of the whole placement: the start's, then that of x."""
-        _, vector, move, factor = self.parts(x)
-        axis = numpy.asarray(self.placement["rotation_axis"], float)
-        angle = numpy.radians(self.placement["rotation_angle"])
-        start = _matrix(axis / numpy.linalg.norm(axis) * angle) if angle else numpy.eye(3)
-        return _matrix(vector) @ start, numpy.asarray(self.placement["translation"], float) + move, factor * self.placement["scale"]
-
-    def closest(self, x: Reals) -> tuple[Reals, Reals, Reals] | None:
-        """Returns points less closest points, normals, and closest points in the valve's frame; None if no valve has x."""
-        values, *_ = self.parts(x)
-        rotation, translation, scale = self.placed(x)
-        try:
-            self.valve.update(**dict(zip(self.names, values.tolist())))
-            if self.surface is None:
-                self.surface = Surface(self.valve, half_thickness=0.05 * self.size / self.placement["scale"], tolerance=_TOLERANCE)
-            else:
-                self.surface.update(self.valve)
-        except Error:
-            return None
-        local = numpy.ascontiguousarray((self.points - translation) @ rotation / scale)
-        found = self.surface.closest_points(local, triangle_id=False, leaflet_id=False)
-        assert found.point is not None and found.normal is not None
-        return scale * (local - found.point) @ rotation.T, found.normal @ rotation.T, found.point
-
-    def at(self, x: Reals) -> Any:
-        """Returns differences and directions at x, computed once."""
-        key = x.tobytes()
-        if self.last is None or self.last[0] != key:
-            found = self.closest(x)
-            if found is not None:
-                difference, normal, local = found
-                length = numpy.linalg.norm(difference, axis=1)
-                near = length < 1e-9 * self.size
-                direction = numpy.where(near[:, None], normal, difference / numpy.where(near, 1.0, length)[:, None])
-                # The sign makes distances smooth where points change sides; a cost does not depend on it.
-                sign = numpy.where(numpy.einsum("ij,ij->i", direction, normal) < 0.0, -1.0, 1.0)
-                found = (difference, direction * sign[:, None], length * sign, local)
-            self.last = key, found
-        return self.last[1]
-
-    def residuals(self, x: Reals) -> Reals:
-        found = self.at(x)
-        if found is None:
-            return numpy.full(len(self.points), 10.0 * self.size)
-        return self.weights * found[2]
-
-    def jacobian(self, x: Reals) -> Reals:
-        found = self.at(x)
-        result = numpy.zeros((len(self.points), self.n))
-        if found is None:
-            return result
-        _, direction, distance, local = found
-        rotation, translation, scale = self.placed(x)
-        for i in range(len(self.names)):
-            step = 2e-3 if x[i] < 0.5 else -2e-3
-            moved = x.copy()
-            moved[i] += step
-            other = self.closest(moved)
-            if other is not None:
-                result[:, i] = (numpy.einsum("ij,ij->i", other[0], direction) - distance) / step
-        column = len(self.names)
-        turned = scale * local @ rotation.T
-        _, vector, _, _ = self.parts(x)
-        for move in self.moves:
-            if move == "translation":
-                result[:, column : column + 3] = -direction * self.size
-            elif move == "rotation":
-                for k in range(3):
-                    step = numpy.zeros(3)
-                    step[k] = 1e-6
-                    change = (_matrix(vector + step) - _matrix(vector - step)) / 2e-6
-                    derivative = change @ _matrix(vector).T
-                    result[:, column + k] = -numpy.einsum("ij,ij->i", direction, turned @ derivative.T)
-            else:
-                result[:, column] = -numpy.einsum("ij,ij->i", direction, turned)
-            column += 1 if move == "scale" else 3
-        return self.weights[:, None] * result
+def _points_of(data: Any) -> tuple[Reals, Reals | None]:
+    """Returns points, and the areas around them where they are vertices of a surface."""
+    pyvista = sys.modules.get("pyvista")
+    if isinstance(data, Surface):
+        points = numpy.array(data.vertices)
+        return points, vertex_areas(points, data.triangles.vertex_id)
+    if pyvista is not None and isinstance(data, pyvista.PolyData):
+        points = numpy.array(data.points, numpy.float64)  # PyVista's are often float32
+        triangles = data.triangulate().faces.reshape(-1, 4)[:, 1:] if data.faces.size > 0 else None
+        return points, None if triangles is None else vertex_areas(points, triangles)
+    if not isinstance(data, numpy.ndarray) or data.dtype != numpy.float64:
+        what = f"an array of {data.dtype}" if isinstance(data, numpy.ndarray) else type(data).__name__
+        raise TypeError(f"points: must be a numpy array of float64, a riis.Surface or a pyvista.PolyData, not {what}")
+    return data, None
 
 
-def _default_bounds(parameter: Parameter, value: float) -> tuple[float, float]:
-    """Returns the bounds of the table. Those of lengths span many powers of ten, so they are narrowed to a factor of two."""
-    if parameter.unit != "length" or value == 0.0:
+def _check_points(points: Reals) -> None:
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise InvalidArgumentError(f"points: its shape is {points.shape}; it must be (n, 3)")
+    bad = numpy.flatnonzero(~numpy.isfinite(points).all(axis=1))
+    if len(bad) > 0:
+        raise InvalidArgumentError(f"points: row {bad[0]} is {points[bad[0]].tolist()}; coordinates must be finite")
+
+
+def _checked_weights(weights: Any, n: int) -> Reals:
+    if not isinstance(weights, numpy.ndarray) or weights.dtype != numpy.float64:
+        what = f"an array of {weights.dtype}" if isinstance(weights, numpy.ndarray) else type(weights).__name__
+        raise TypeError(f"weights: must be a numpy array of float64, not {what}")
+    if weights.shape != (n,):
+        raise InvalidArgumentError(f"weights: its shape is {weights.shape}; there are {n} points")
+    bad = numpy.flatnonzero(~(numpy.isfinite(weights) & (weights >= 0.0)))
+    if len(bad) > 0:
+        raise InvalidArgumentError(f"weights: entry {bad[0]} is {weights[bad[0]]}; it must be finite and at least 0")
+    return weights
+
+
+def _names_of(names: Any, argument: str) -> list[str]:
+    if isinstance(names, str) or not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
+        raise TypeError(f"{argument}: must be a list of names, not {names!r}")
+    return list(dict.fromkeys(names))
+
+
+def _default_bounds(parameter: Parameter, value: float, size: float) -> tuple[float, float]:
+    """Returns the bounds of the table. Those of lengths span many powers of ten, so they are narrowed around the value."""
+    if parameter.unit != "length":
         return parameter.minimum, parameter.maximum
-    low, high = sorted((0.5 * value, 2.0 * value))
+    low, high = sorted((0.5 * value, 2.0 * value)) if value != 0.0 else (-0.25 * size, 0.25 * size)
     return max(low, parameter.minimum), min(high, parameter.maximum)
 
 
-def _bounds_of(valve: Valve, free: Sequence[str], given: Mapping[str, tuple[float, float]]) -> Reals:
+def _pair(given: Any, name: str) -> tuple[float, float]:
+    try:
+        low, high = (float(number) for number in given)
+    except (TypeError, ValueError):
+        raise TypeError(f"bounds: those of '{name}' must be two numbers, not {given!r}") from None
+    return low, high
+
+
+def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
+    if not isinstance(given, Mapping):
+        raise TypeError(f"bounds: must be a dict from names to pairs, not {given!r}")
     table = valve.parameters
     bounds = []
     for name in free:
         if name not in table:
             raise InvalidArgumentError(f"free: '{name}' is no parameter of a {valve.kind} valve; they are {', '.join(table)}")
         if table[name].n_values != 1:
-            raise InvalidArgumentError(f"free: '{name}' has three values; placement fits a place and a rotation")
-        low, high = given.get(name, _default_bounds(table[name], valve[name]))
+            raise InvalidArgumentError(f"free: '{name}' has three values; only parameters with one can be free")
+        low, high = _pair(given[name], name) if name in given else _default_bounds(table[name], valve[name], size)
         if not table[name].minimum <= low < high <= table[name].maximum:
             raise InvalidArgumentError(
                 f"bounds: those of '{name}' are {low} and {high}; they must ascend within {table[name].minimum} and "
                 f"{table[name].maximum}"
             )
         bounds.append((low, high))
-    unknown = set(given) - set(free)
+    unknown = sorted(set(given) - set(free), key=str)
     if unknown:
-        raise InvalidArgumentError(f"bounds: '{min(unknown)}' is not in free")
+        raise InvalidArgumentError(f"bounds: '{unknown[0]}' is not in free")
     return numpy.array(bounds, float).reshape(-1, 2)
 
 
+def _placed(start: Any) -> dict[str, Any]:
+    if not isinstance(start, Mapping):
+        raise TypeError(f"start: must be a dict of a placement, not {start!r}")
+    place = {"scale": 1.0, "rotation_axis": (0.0, 0.0, 1.0), "rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}
+    for name, value in start.items():
+        if name not in place:
+            raise InvalidArgumentError(f"start: '{name}' is none of {', '.join(place)}")
+        place[name] = value
+    return place
+
+
 def fit(
-    points: Reals | Surface,
+    points: Any,
     valve: str | Valve,
     *,
     free: Sequence[str],
@@ -205,136 +213,169 @@ def fit(
     start: Mapping[str, Any] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Reals | None = None,
-    n_starts: int = 1,
+    whole: bool = True,
+    n_starts: int = 8,
     seed: int = 0,
 ) -> FitResult:
     """Finds parameters and a placement with which a valve lies closest to points.
 
-    points     (n, 3) float64, or a Surface, whose vertices are taken
+    points     (n, 3) float64; or a Surface or a pyvista.PolyData, whose vertices are taken
     valve      a kind, or a Valve with the values to start from, which stays as it is
     free       names of parameters with one value that are fitted; the others stay
     placement  which of rotation, translation and scale are fitted
-    start      a dict of scale, rotation_axis, rotation_angle and translation to start from
-    bounds     a dict from names in free to (low, high); others have those of valve.parameters, lengths half to twice
+    start      a dict of scale, rotation_axis, rotation_angle and translation to start from. Without a translation the
+               middle of the valve starts at that of the points; without a scale, a free one starts from their extents
+    bounds     a dict from names in free to (low, high). Others have those of valve.parameters, lengths half to twice
                the value to start from
-    weights    (n,) float64 >= 0, of the squares of distances
-    n_starts   1 starts from the given values; others from random values within the bounds, by seed
+    weights    (n,) float64 >= 0, of the squares of distances. Vertices of a surface have the areas around them if None,
+               other points have 1
+    whole      True: the points lie over the whole valve, as evenly as may be, so a surface that reaches beyond them costs.
+               False: they lie on a part of it, and nothing pulls an edge back that reaches beyond them
+    n_starts   1 starts from the given values. More starts, by seed, have random values within the bounds and, if start
+               has no rotation, any rotation. The closest fit counts
+    seed       of the random starts
 
-    Distances are from the points to the surface alone. So gaps in the points do no harm, but nothing pulls an edge back
-    that reaches beyond the points. Outliers lose weight (Cauchy's loss, by the scatter of the points).
+    Distances are from the points to the surface. Outliers lose weight (Cauchy's loss, by the scatter of the points).
     """
-    from scipy.optimize import least_squares
-
-    valve = Valve(valve) if isinstance(valve, str) else valve.copy()
-    if isinstance(points, Surface):
-        points = numpy.array(points.vertices)
-    if not isinstance(points, numpy.ndarray) or points.dtype != numpy.float64:
-        raise TypeError("points: must be a numpy array of float64, or a riis.Surface")
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise InvalidArgumentError(f"points: its shape is {points.shape}; it must be (n, 3)")
-    if not numpy.isfinite(points).all():
-        raise InvalidArgumentError("points: has a coordinate that is not finite")
-    if weights is None:
-        weights = numpy.ones(len(points))
-    if not isinstance(weights, numpy.ndarray) or weights.shape != (len(points),):
-        raise InvalidArgumentError(f"weights: must be an array of shape ({len(points)},)")
-    if not (numpy.isfinite(weights).all() and (weights >= 0.0).all() and weights.any()):
-        raise InvalidArgumentError("weights: must be finite, at least 0, and not all 0")
-    moves = list(dict.fromkeys(placement))
+    points, areas = _points_of(points)
+    _check_points(points)
+    if isinstance(valve, Valve):
+        valve = valve.copy()
+    elif isinstance(valve, str):
+        valve = Valve(valve)
+    else:
+        raise TypeError(f"valve: must be a kind or a riis.Valve, not {type(valve).__name__}")
+    names, moves = _names_of(free, "free"), _names_of(placement, "placement")
     for move in moves:
-        if move not in ("rotation", "translation", "scale"):
-            raise InvalidArgumentError(f"placement: '{move}' is none of 'rotation', 'translation', 'scale'")
-    place = {"scale": 1.0, "rotation_axis": (0.0, 0.0, 1.0), "rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}
-    for name, value in (start or {}).items():
-        if name not in place:
-            raise InvalidArgumentError(f"start: '{name}' is none of {', '.join(place)}")
-        place[name] = value
-    names = list(dict.fromkeys(free))
-    limits = _bounds_of(valve, names, bounds or {})
+        if move not in _MOVES:
+            raise InvalidArgumentError(f"placement: '{move}' is none of {', '.join(_MOVES)}")
     if not names and not moves:
         raise InvalidArgumentError("free: and placement are empty, so there is nothing to fit")
-    info = Surface(valve, scale=place["scale"]).info
-    size = float(numpy.linalg.norm(info.upper - info.lower))
-    problem = _Problem(points, numpy.sqrt(weights), valve, names, limits, moves, place, size)
-    if len(points) < problem.n:
-        raise InvalidArgumentError(f"points: there are {len(points)}, fewer than the {problem.n} unknowns")
+    if weights is not None:
+        weights = _checked_weights(weights, len(points))
+    else:
+        weights = numpy.ones(len(points)) if areas is None else areas / (areas.mean() or 1.0)
+    for name, number, least in ("n_starts", n_starts, 1), ("seed", seed, 0):
+        if not isinstance(number, int) or isinstance(number, bool):
+            raise TypeError(f"{name}: must be an int, not {number!r}")
+        if number < least:
+            raise InvalidArgumentError(f"{name}: is {number}; it must be at least {least}")
+    if not isinstance(whole, bool):
+        raise TypeError(f"whole: must be True or False, not {whole!r}")
+    given = {} if start is None else start
+    place = _placed(given)
+    first = Surface(valve, **place)  # refuses a bad placement, and values that clash
+    pose = start_pose(place)
+    used = points[weights > 0.0]
+    n_unknowns = len(names) + sum({"rotation": 3, "translation": 3, "scale": 1}[move] for move in moves)
+    if len(used) < n_unknowns:
+        raise InvalidArgumentError(f"points: {len(used)} have a weight, fewer than the {n_unknowns} unknowns")
+    if "scale" in moves and "scale" not in given:
+        pose = Pose(pose.rotation, pose.move, pose.scale * _extent(points, weights) / _extent_of(first))
+    size = float(numpy.linalg.norm(first.info.upper - first.info.lower)) * pose.scale / place["scale"]
+    limits = _bounds_of(valve, names, {} if bounds is None else bounds, size / pose.scale)
 
-    span = limits[:, 1] - limits[:, 0]
-    given = numpy.zeros(problem.n)
-    given[: len(names)] = numpy.clip((numpy.array([valve[name] for name in names]) - limits[:, 0]) / span, 0.01, 0.99)
-    low, high = numpy.full(problem.n, -numpy.inf), numpy.full(problem.n, numpy.inf)
-    low[: len(names)], high[: len(names)] = 0.0, 1.0
     random = numpy.random.default_rng(seed)
+    problem = Problem(points, weights, valve, names, limits, moves, size, whole, FINE)
+    few = random.permutation(numpy.flatnonzero(weights > 0.0))[:_N_ROUGH]
+    rough = Problem(points[few], weights[few], valve.copy(), names, limits, moves, size, whole, ROUGH)
+    middle = None
+    if "translation" in moves and "translation" not in given:
+        middle = numpy.array([weighted_median(column, weights) for column in points.T])
+    shares = (numpy.array([valve[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
+    x = numpy.zeros(problem.n)
+    x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
+    base, x = _search(rough, pose, x, middle, "rotation" in moves and "rotation_angle" not in given, n_starts, random)
+    problem.begin(base)
+    return _result(problem, problem.refine(x, 8))
 
-    def solve(x: Reals, width: float) -> Any:
-        return least_squares(
-            problem.residuals, x, problem.jacobian, bounds=(low, high), loss="cauchy", f_scale=width, x_scale=1.0, max_nfev=60,
-            ftol=1e-6, xtol=1e-6, gtol=1e-10,
-        )
 
-    def width_of(x: Reals) -> float:
-        return max(3.0 * 1.4826 * float(numpy.median(numpy.abs(problem.residuals(x)))), 1e-4 * size)
+def _extent(points: Reals, weights: Reals) -> float:
+    """Returns the median distance of points from their middle."""
+    middle = numpy.array([weighted_median(column, weights) for column in points.T])
+    return weighted_median(numpy.linalg.norm(points - middle, axis=1), weights) or 1.0
 
-    best: tuple[float, Reals] | None = None
-    for number in range(max(1, n_starts)):
-        x = given.copy()
+
+def _extent_of(surface: Surface) -> float:
+    return _extent(surface.vertices, vertex_areas(surface.vertices, surface.triangles.vertex_id))
+
+
+def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_starts: int,
+            random: numpy.random.Generator) -> tuple[Pose, Reals]:
+    """Goes down from every start, roughly, and returns the base and the unknowns of the lowest end."""
+    n_names = len(problem.names)
+    width = 0.05 * problem.size
+    ends: list[tuple[float, Pose, Reals]] = []
+
+    def go_down(base: Pose, x: Reals) -> None:
+        problem.begin(base)
+        x = problem.solve(x, width, 30, 1e-4)
+        ends.append((problem.loss(x, width), problem.pose(x), numpy.append(x[:n_names], numpy.zeros(problem.n - n_names))))
+        ends.sort(key=lambda end: end[0])
+
+    for number in range(n_starts):
+        x, rotations = given.copy(), numpy.eye(3)[None]
         if number > 0:
-            x[: len(names)] = random.uniform(0.05, 0.95, len(names))
-            x[len(names) :] = random.normal(0.0, 0.1, problem.n - len(names))
-        if problem.at(x) is None:
-            continue  # the values clash
-        x = solve(x, 0.05 * size).x
-        for _ in range(2):
-            x = solve(x, width_of(x)).x
-        typical = float(numpy.median(numpy.abs(problem.residuals(x))))
-        if best is None or typical < best[0]:
-            best = typical, x
-    if best is None:
+            x[:n_names] = random.uniform(0.05, 0.95, n_names)
+            if any_rotation:
+                rotations = random_rotations(random, _N_ROTATIONS)
+        problem.begin(pose)
+        base = problem.best_rotation(x, rotations, middle)
+        if base is not None:  # else the values clash
+            go_down(base, x)
+    if not ends:
         raise InvalidArgumentError("valve: no start has a surface; its values clash")
-    return _result(problem, best[1], width_of(best[1]), weights)
+    if any_rotation and n_starts > 1:
+        # Valves look alike when a cusp lies where another was, or when back and front change places.
+        _, found, x = ends[0]
+        for angle in numpy.radians((120.0, 240.0, 180.0)):
+            turn = matrix_of(numpy.array([0.0, 0.0, angle]))
+            go_down(Pose(found.rotation @ turn, found.move, found.scale), x)
+    best: list[tuple[float, Pose, Reals]] = []
+    for _, base, x in ends[:_N_ENDS]:
+        problem.begin(base)
+        x = problem.refine(x, 2)
+        best.append((problem.noise, problem.pose(x), numpy.append(x[:n_names], numpy.zeros(problem.n - n_names))))
+    noise = min(end[0] for end in best)
+
+    def rank(end: tuple[float, Pose, Reals]) -> float:
+        problem.begin(end[1])
+        return problem.merit(end[2], noise)
+
+    _, base, x = min(best, key=rank)
+    return base, x
 
 
-def _result(problem: _Problem, x: Reals, width: float, weights: Reals) -> FitResult:
-    found = problem.at(x)
-    distances = numpy.abs(found[2])
-    robust = 1.0 / (1.0 + (problem.weights * distances / width) ** 2)
-    jacobian = problem.jacobian(x) * numpy.sqrt(robust)[:, None]
+def _result(problem: Problem, x: Reals) -> FitResult:
+    seen, width, weights = problem.at(x), 3.0 * problem.noise, problem.weights
+    assert seen is not None
+    distances = numpy.abs(seen.distance)
+    robust = 1.0 / (1.0 + weights * (distances / width) ** 2)
+    jacobian = problem.jacobian(x) * numpy.sqrt(numpy.append(robust, 1.0))[:, None]
+    surface, pose = problem.set_valve(x), problem.pose(x)  # the last difference moved the valve
+    assert surface is not None
     total = weights * robust
-    variance = float(total @ distances**2) / max(1.0, float(numpy.count_nonzero(total > 0.5 * weights.max()) - problem.n))
-    assert problem.surface is not None
-    scale = problem.placed(x)[2]
-    variance = max(variance, (scale * problem.surface.info.error_bound) ** 2)  # triangles are no better than this
+    n_free = total.sum() ** 2 / (total**2).sum() - problem.n
+    variance = float(total @ distances**2) / total.sum() * (1.0 + problem.n / max(1.0, n_free))
+    variance = max(variance, (pose.scale * surface.info.error_bound) ** 2)  # triangles are no better than this
     _, s, v = numpy.linalg.svd(jacobian, full_matrices=False)
-    kept = s > max(1e-6 * s.max(), 1e-12)
+    kept = s > max(1e-6 * s.max(), 1e-12 * problem.size)
     covariance = (v[kept].T / s[kept] ** 2) @ v[kept] * variance
     blind = (v[~kept] ** 2).sum(axis=0) > 1e-6
-    share = numpy.where(blind, numpy.inf, numpy.sqrt(numpy.diag(covariance)))
-    problem.closest(x)  # the last difference moved the valve
-    rotation, translation, scale = problem.placed(x)
-    axis, angle = _axis_and_angle(rotation)
-    values = problem.parts(x)[0]
+    errors = numpy.where(blind, numpy.inf, numpy.sqrt(numpy.diag(covariance)))
+    axis, angle = axis_and_angle(pose.rotation)
+    n_names = len(problem.names)
     span = problem.bounds[:, 1] - problem.bounds[:, 0]
     return FitResult(
         valve=problem.valve,
-        placement={"scale": scale, "rotation_axis": axis, "rotation_angle": angle, "translation": tuple(translation.tolist())},
-        parameters=dict(zip(problem.names, values.tolist())),
-        standard_errors={name: float(share[i] * span[i]) for i, name in enumerate(problem.names)},
-        undetermined=tuple(name for i, name in enumerate(problem.names) if share[i] > _UNDETERMINED),
+        placement={"scale": pose.scale, "rotation_axis": axis, "rotation_angle": angle, "translation": tuple(pose.move.tolist())},
+        parameters=dict(zip(problem.names, problem.values(x).tolist())),
+        standard_errors={name: float(errors[i] * span[i]) for i, name in enumerate(problem.names)},
+        undetermined=tuple(dict.fromkeys(name for i, name in enumerate(problem.unknowns) if errors[i] > _UNDETERMINED)),
+        at_bounds=tuple(name for name, share in zip(problem.names, x[:n_names]) if not 1e-3 < share < 1.0 - 1e-3),
+        singular_values=s / problem.size,
         rms=float(numpy.sqrt(total @ distances**2 / total.sum())),
         percentile95=float(numpy.percentile(distances, 95.0)),
         distances=distances,
         weights=total,
     )
-
-
-def _axis_and_angle(rotation: Reals) -> tuple[tuple[float, float, float], float]:
-    """Returns the axis of a rotation matrix and its angle in degrees, 0 to 180."""
-    twice = numpy.array([rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]])
-    angle = float(numpy.arctan2(numpy.linalg.norm(twice), numpy.trace(rotation) - 1.0))
-    if numpy.linalg.norm(twice) < 1e-9:
-        if angle < 1.0:
-            return (0.0, 0.0, 1.0), 0.0
-        column = int(numpy.argmax(numpy.diag(rotation)))
-        twice = rotation[:, column] + numpy.eye(3)[column]
-    x, y, z = (twice / numpy.linalg.norm(twice)).tolist()
-    return (x, y, z), float(numpy.degrees(angle))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy
@@ -36,6 +37,36 @@ def surface_to_pyvista(surface: Surface) -> Any:
     return data
 
 
+_BAR = {
+    "title": "distance\n", "vertical": True, "position_x": 0.88, "position_y": 0.2, "height": 0.6, "width": 0.06, "n_labels": 3,
+    "fmt": "{:.2g}", "title_font_size": 16, "label_font_size": 14,
+}
+
+
+def _look(plotter: Any, zoom: float) -> None:
+    """Looks at all that is drawn obliquely from above."""
+    plotter.view_vector((1.0, -1.6, 1.5), viewup=(0.0, 0.0, 1.0))
+    plotter.camera.zoom(zoom)
+
+
+def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: MarkResult | None) -> None:
+    """Draws or replaces the leaflets and the marked nodes."""
+    pyvista = _pyvista()
+    plotter.add_mesh(
+        surface_to_pyvista(surface), scalars="leaflet_id", cmap="Set2", clim=[-0.5, 7.5], show_scalar_bar=False, ambient=0.3,
+        name="riis leaflets", reset_camera=False,
+    )
+    if mesh is not None and marks is not None and len(marks) > 0:
+        nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
+        nodes.point_data["distance"] = numpy.array(marks.distance)
+        plotter.add_mesh(
+            nodes, scalars="distance", cmap="viridis", clim=[0.0, surface.half_thickness], point_size=3,
+            render_points_as_spheres=True, opacity=0.35, scalar_bar_args=_BAR, name="riis marks", reset_camera=False,
+        )
+    else:
+        plotter.remove_actor("riis marks", reset_camera=False)
+
+
 def plot(
     surface: Surface,
     mesh: Mesh | None = None,
@@ -58,17 +89,93 @@ def plot(
     given = plotter is not None
     if not given:
         plotter = pyvista.Plotter(off_screen=screenshot is not None)
-    leaflets = surface_to_pyvista(surface)
-    plotter.add_mesh(leaflets, scalars="leaflet_id", cmap="Set2", clim=[-0.5, 7.5], show_scalar_bar=False, opacity=0.85)
-    if mesh is not None and marks is not None and len(marks) > 0:
-        nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
-        nodes.point_data["distance"] = numpy.array(marks.distance)
-        plotter.add_mesh(
-            nodes, scalars="distance", cmap="viridis", clim=[0.0, surface.half_thickness], point_size=5, render_points_as_spheres=True, opacity=0.5,
-            scalar_bar_args={"title": "distance"},
-        )
+    _draw(plotter, surface, mesh, marks)
+    if not given:
+        _look(plotter, 1.2)
     if screenshot is not None:
         plotter.screenshot(os.fspath(screenshot))
     elif not given:
         plotter.show()
     return plotter
+
+
+def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, MarkResult | None, str]:
+    """Returns a frame's surface, marks and caption."""
+    from riis._riis import MarkResult, Surface
+
+    parts = item if isinstance(item, tuple) else (item,)
+    surface, marks, caption = (*parts, None, "")[:3] if len(parts) == 1 else (*parts, "")[:3]
+    if (
+        len(parts) > 3
+        or not isinstance(surface, Surface)
+        or not (marks is None or isinstance(marks, MarkResult))
+        or not isinstance(caption, str)
+    ):
+        raise TypeError(f"frames: frame {number} must be a Surface, (Surface, marks) or (Surface, marks, caption), not {item!r}")
+    if marks is not None and mesh is None:
+        raise InvalidArgumentError(f"mesh: is None, but frame {number} of frames has marks")
+    return surface, marks, caption
+
+
+def animate(
+    path: str | os.PathLike[str],
+    frames: Iterable[Any],
+    mesh: Mesh | None = None,
+    *,
+    frame_rate: float = 12.0,
+    plotter: Any = None,
+) -> int:
+    """Makes a movie of a valve that moves, and returns the number of frames.
+
+    path        a file .gif or .mp4 to write
+    frames      an iterable, such as a generator that is a time loop. Each item is a Surface, (Surface, marks) or
+                (Surface, marks, caption), and is drawn as it comes, so all may be the same objects with new content
+    mesh        that of the marks
+    frame_rate  frames a second
+    plotter     a pyvista.Plotter(off_screen=True) with a camera and things of your own; it is closed
+
+    Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an
+    exception, no file is left. A movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg: pip install riis[plot].
+    """
+    pyvista = _pyvista()
+    name = os.fspath(path)
+    kind = os.path.splitext(name)[1].lower()
+    if kind not in (".gif", ".mp4"):
+        raise InvalidArgumentError(f"path: '{name}' must end in .gif or .mp4")
+    if not isinstance(frame_rate, (int, float)) or isinstance(frame_rate, bool):
+        raise TypeError(f"frame_rate: must be a number, not {frame_rate!r}")
+    if not 0.0 < frame_rate <= 1000.0:
+        raise InvalidArgumentError(f"frame_rate: is {frame_rate}; it must be above 0 and at most 1000")
+    given = plotter is not None
+    if not given:
+        plotter = pyvista.Plotter(off_screen=True, window_size=(768, 576))  # multiples of 16, as .mp4 has them
+    number, complete = 0, False
+    try:
+        for item in frames:
+            surface, marks, caption = _frame_of(item, number, mesh)
+            _draw(plotter, surface, mesh, marks)
+            plotter.add_text(caption, name="riis caption", font_size=12)
+            if number == 0:
+                if not given:
+                    _look(plotter, 1.1)
+                _open_movie(plotter, name, kind, frame_rate)
+            plotter.write_frame()
+            number += 1
+        if number == 0:
+            raise InvalidArgumentError("frames: has no frame")
+        complete = True
+    finally:
+        plotter.close()
+        if number > 0 and not complete:
+            os.remove(name)
+    return number
+
+
+def _open_movie(plotter: Any, name: str, kind: str, frame_rate: float) -> None:
+    try:
+        if kind == ".gif":
+            plotter.open_gif(name, fps=frame_rate)
+        else:
+            plotter.open_movie(name, framerate=frame_rate)
+    except ImportError as missing:
+        raise ImportError("movies need imageio, .mp4 also imageio-ffmpeg: install riis[plot]") from missing

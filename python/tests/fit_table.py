@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints how well riis.fit finds known valves again, from points with noise, gaps and outliers."""
+"""Prints how well riis.fit finds known valves again, from points with noise, gaps and outliers, in any placement."""
 
 import sys
-import time
 
 import numpy
 
@@ -10,15 +9,19 @@ import riis
 
 PLACEMENT = {"rotation_axis": (1.0, 2.0, 3.0), "rotation_angle": 12.0, "translation": (0.2, -0.1, 0.3)}
 VALVES = {
-    "mitral": {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "opening": 0.3},
-    "trileaflet": {"leaflet_height": 1.25, "opening": 0.35},
+    "mitral": {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "anterior_length": 2.3, "opening": 0.3},
+    "aortic": {"leaflet_height": 1.1, "bending_height": 0.65, "right.leaflet_radius_in": 0.3},
+    "trileaflet": {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.35},
+    "bileaflet": {"radius": 1.2, "opening": 0.3},
 }
+# Noise, number of gaps, share of outliers.
+CASES = ((0.0, 0, 0.0), (0.01, 0, 0.0), (0.02, 0, 0.0), (0.05, 0, 0.0), (0.02, 2, 0.05))
 
 
-def cloud(kind, n_points, noise, n_gaps=0, outliers=0.0, seed=0):
+def cloud(kind, n_points, noise, n_gaps=0, outliers=0.0, seed=0, placement=None):
     """Returns points of a known valve: evenly over its area, with normal noise, without balls of radius 0.5, and outliers."""
     random = numpy.random.default_rng(seed)
-    surface = riis.Surface(riis.Valve(kind, **VALVES[kind]), half_thickness=0.05, tolerance=0.02, **PLACEMENT)
+    surface = riis.Surface(riis.Valve(kind, **VALVES[kind]), half_thickness=0.05, tolerance=0.02, **(placement or PLACEMENT))
     a, b, c = (surface.vertices[surface.triangles.vertex_id[:, i]] for i in range(3))
     area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
     chosen = random.choice(len(area), n_points, p=area / area.sum())
@@ -33,20 +36,38 @@ def cloud(kind, n_points, noise, n_gaps=0, outliers=0.0, seed=0):
     return points
 
 
-def main():
-    print(f"{'valve':10} {'noise':>5} {'gaps':>4} {'outliers':>8}  {'parameter':14} {'true':>6} {'error':>7} {'std.':>7} {'rms':>6} {'s':>4}")
+def any_placement(seed):
+    random = numpy.random.default_rng(seed)
+    return {
+        "rotation_axis": random.normal(size=3),
+        "rotation_angle": random.uniform(0.0, 180.0),
+        "translation": random.uniform(-100.0, 100.0, 3),
+    }
+
+
+def main(n_seeds):
+    """Prints a row per parameter and a column per case: the errors' root mean square, and the standard error that fits state."""
+    cases = [f"{noise}" + (f", {n_gaps} gaps, {outliers:.0%} outliers" if n_gaps else "") for noise, n_gaps, outliers in CASES]
+    print(f"| valve | parameter | true | {' | '.join(cases)} |")
+    print("|---" * (3 + len(CASES)) + "|")
+    within = []
     for kind, true in VALVES.items():
-        for noise, n_gaps, outliers in ((0.0, 0, 0.0), (0.02, 0, 0.0), (0.05, 0, 0.0), (0.02, 3, 0.05)):
-            begin = time.perf_counter()
-            found = riis.fit(cloud(kind, 1000, noise, n_gaps, outliers), kind, free=list(true))
-            seconds = time.perf_counter() - begin
-            for name, value in true.items():
-                print(
-                    f"{kind:10} {noise:5} {n_gaps:4} {outliers:8.0%}  {name:14} {value:6} {found.parameters[name] - value:7.3f} "
-                    f"{found.standard_errors[name]:7.3f} {found.rms:6.3f} {seconds:4.0f}",
-                    flush=True,
-                )
+        cells = {name: [] for name in true}
+        for noise, n_gaps, outliers in CASES:
+            errors, stated = [], []
+            for seed in range(n_seeds):
+                points = cloud(kind, 1000, noise, n_gaps, outliers, seed, any_placement(seed))
+                found = riis.fit(points, kind, free=list(true), seed=seed)
+                errors.append([found.parameters[name] - true[name] for name in true])
+                stated.append([found.standard_errors[name] for name in true])
+            rms, typical = numpy.sqrt(numpy.square(errors).mean(axis=0)), numpy.median(stated, axis=0)
+            within.extend((numpy.abs(errors) <= 2.0 * numpy.array(stated)).ravel())
+            for i, name in enumerate(true):
+                cells[name].append(f"{rms[i]:.4f} ({typical[i]:.4f})")
+        for name, value in true.items():
+            print(f"| {kind} | {name} | {value} | {' | '.join(cells[name])} |", flush=True)
+    print(f"{numpy.mean(within):.0%} of {len(within)} errors are at most two standard errors")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 4))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The programs of docs/python.md run as they stand there, and README has the first."""
+"""The programs of docs/python.md run as they stand there, README has the first, and the notebook is as it should be."""
 
+import ast
+import json
 import pathlib
 import re
 
@@ -14,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_the_programs_of_the_document_run(xyz):
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    assert len(programs) == 3  # test_fit.py does what the third does
+    assert len(programs) == 4  # test_plot.py and test_fit.py do what the last two do
     assert programs[0] in (ROOT / "README.md").read_text(encoding="utf-8")
     names = {"xyz": xyz, "n_steps": 6, "dt": 0.125}
     exec(programs[0], names)
@@ -23,3 +25,18 @@ def test_the_programs_of_the_document_run(xyz):
     exec(programs[1], names)
     # The last step goes from 0.625 s to 0.75 s, when the valve is open and at rest.
     assert names["valve"]["opening"] == 1.0 and not names["K_u"].any() and names["K"].any()
+
+
+def test_the_notebook_is_committed_without_outputs():
+    """./run python runs it; outputs would be results that nobody checks."""
+    notebook = json.loads((ROOT / "examples/python/tutorial.ipynb").read_text(encoding="utf-8"))
+    assert notebook["cells"][0]["source"][0].startswith("<!-- SPDX-License-Identifier: Apache-2.0 -->")
+    cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert len(cells) > 10
+    names = set()
+    for cell in cells:
+        assert cell["outputs"] == [] and cell["execution_count"] is None
+        for node in ast.walk(ast.parse("".join(cell["source"]))):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "riis":
+                names.add(node.attr)
+    assert {"Mesh", "mark", "animate", "fit"} <= names and all(hasattr(riis, name) for name in names)

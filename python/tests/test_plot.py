@@ -25,11 +25,90 @@ def test_a_surface_goes_to_pyvista():
 
 def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_path):
     alone, marked = tmp_path / "alone.png", tmp_path / "marked.png"
-    riis.plot(surface, screenshot=alone).close()
-    riis.plot(surface, mesh, marks, screenshot=marked).close()
+    for path, rest in (alone, ()), (marked, (mesh, marks)):
+        plotter = pyvista.Plotter(off_screen=True)
+        plotter.camera_position = [(4.0, -7.0, 5.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+        riis.plot(surface, *rest, screenshot=path, plotter=plotter).close()
     pictures = [numpy.asarray(pyvista.read(path).active_scalars)[:, :3].astype(int) for path in (alone, marked)]
     background = pictures[0][0]
     drawn = [numpy.count_nonzero((picture != background).any(axis=1)) for picture in pictures]
     assert drawn[0] > 10_000 and drawn[1] > 1.1 * drawn[0]  # the band is wider than the leaflets
     with pytest.raises(riis.InvalidArgumentError, match="marks: goes together with mesh"):
         riis.plot(surface, mesh)
+
+
+def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
+    riis.plot(surface, screenshot=tmp_path / "valve.png").close()
+    data = pyvista.read(tmp_path / "valve.png")
+    picture = numpy.asarray(data.active_scalars)[:, :3].astype(int).reshape(data.dimensions[1], data.dimensions[0], 3)
+    drawn = (picture != picture[0, 0]).any(axis=2)
+    assert drawn.mean() > 0.1
+    assert not (drawn[0].any() or drawn[-1].any() or drawn[:, 0].any() or drawn[:, -1].any())
+
+
+def beat(n_frames):
+    """Yields a valve that opens, always the same objects."""
+    valve = riis.Valve("mitral")
+    surface, marks = riis.Surface(valve), riis.MarkResult()
+    mesh = riis.Mesh(numpy.random.default_rng(1).uniform(-2.0, 2.0, (20_000, 3)))
+    yield mesh
+    for i in range(n_frames):
+        valve["opening"] = i / (n_frames - 1)
+        surface.update(valve)
+        riis.mark(surface, mesh, into=marks)
+        yield surface, marks, f"opening {valve['opening']:.1f}"
+
+
+@pytest.mark.parametrize("kind", ["gif", "mp4"])
+def test_a_movie_has_every_frame(kind, tmp_path):
+    imageio = pytest.importorskip("imageio.v3", reason="imageio is missing; ./run python installs it")
+    pytest.importorskip("imageio_ffmpeg", reason="imageio-ffmpeg is missing; ./run python installs it")
+    frames = beat(3)
+    assert riis.animate(tmp_path / f"beat.{kind}", frames, next(frames), frame_rate=4) == 3
+    pictures = [picture[..., :3].astype(int) for picture in imageio.imiter(tmp_path / f"beat.{kind}")]
+    assert len(pictures) == 3 and pictures[0].shape[:2] == (576, 768)
+    for one, other in zip(pictures, pictures[1:]):
+        assert numpy.count_nonzero(abs(one - other).max(axis=2) > 60) > 5_000  # the leaflets move
+
+
+def test_an_animation_takes_bare_surfaces_and_a_plotter_of_the_callers(surface, tmp_path):
+    pytest.importorskip("imageio", reason="imageio is missing; ./run python installs it")
+    plotter = pyvista.Plotter(off_screen=True, window_size=(320, 240))
+    plotter.camera_position = "xy"
+    assert riis.animate(tmp_path / "valve.gif", [surface, (surface, None)], plotter=plotter) == 2
+    assert pyvista.read(tmp_path / "valve.gif").dimensions[:2] == (320, 240)
+
+
+@pytest.mark.parametrize(
+    "kind, text, arguments",
+    [
+        (riis.InvalidArgumentError, "path: 'beat.avi' must end in .gif or .mp4", {"path": "beat.avi"}),
+        (TypeError, "frame_rate: must be a number, not '4'", {"frame_rate": "4"}),
+        (riis.InvalidArgumentError, "frame_rate: is 0; it must be above 0", {"frame_rate": 0}),
+        (riis.InvalidArgumentError, "frames: has no frame", {"frames": []}),
+        (TypeError, "frames: frame 0 must be a Surface, .*, not 3", {"frames": [3]}),
+        (TypeError, "frames: frame 1 must be a Surface", {"frames": ["surface", ("surface", "marks", 5)]}),
+        (TypeError, "frames: frame 0 must be a Surface", {"frames": [("surface", "marks", "text", 5)]}),
+        (riis.InvalidArgumentError, "mesh: is None, but frame 1", {"frames": ["surface", ("surface", "marks")]}),
+        (ZeroDivisionError, "in the loop", {"frames": "fails"}),
+    ],
+)
+def test_refused_animations_leave_no_file(kind, text, arguments, surface, marks, tmp_path, monkeypatch):
+    pytest.importorskip("imageio", reason="imageio is missing; ./run python installs it")
+    monkeypatch.chdir(tmp_path)
+
+    def fails():
+        yield surface
+        raise ZeroDivisionError("in the loop")
+
+    def real(item):
+        return {"surface": surface, "marks": marks}.get(item, item) if isinstance(item, str) else item
+
+    given = {"path": "beat.gif", "frames": ["surface"], **arguments}
+    if given["frames"] == "fails":
+        frames = fails()
+    else:
+        frames = [tuple(map(real, item)) if isinstance(item, tuple) else real(item) for item in given["frames"]]
+    with pytest.raises(kind, match=text):
+        riis.animate(given["path"], frames, frame_rate=given.get("frame_rate", 12))
+    assert not list(tmp_path.iterdir())

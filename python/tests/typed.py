@@ -23,3 +23,12 @@ def resistance_of(xyz: NDArray[numpy.float64], opening: float) -> NDArray[numpy.
     law = riis.OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0)
     valve["opening"] = law(0.475)
     return coefficient
+
+
+def valve_of(points: NDArray[numpy.float64]) -> riis.Valve:
+    found: riis.FitResult = riis.fit(points, "mitral", free=["opening"], placement=["translation"], n_starts=2)
+    opening: float = found.parameters["opening"]
+    assert opening <= 1.0 and found.weights.shape == found.distances.shape
+    frames: int = riis.animate("valve.gif", [riis.Surface(found.valve, **found.placement)], frame_rate=4.0)
+    assert frames == 1
+    return found.valve
