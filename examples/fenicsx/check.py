@@ -8,7 +8,7 @@ import sys
 
 import numpy
 
-RADIUS, HINGE, DT, EPS = 0.011, 0.35, 5e-3, 2e-3
+RADIUS, HINGE, DT, EPS = 0.011, 0.45, 5e-3, 2e-3
 
 
 def require(holds, text):

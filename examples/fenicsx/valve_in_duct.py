@@ -88,7 +88,7 @@ if __name__ == "__main__":
     if len(sys.argv) > 1:
         sys.exit(f"valve_in_duct.py takes no arguments, but got '{' '.join(sys.argv[1:])}'; its numbers are in the file")
     opens, file = riis.OpeningTimes(0.02, 0.04, 0.5, 0.04, period=1.0), None  # it opens from 0.02 s to 0.06 s
-    for state in flow(MPI.COMM_WORLD, opens, dt=5e-3, n_steps=16, hinge_offset=0.35):
+    for state in flow(MPI.COMM_WORLD, opens, dt=5e-3, n_steps=16, hinge_offset=0.45):
         file = file or io.VTXWriter(MPI.COMM_WORLD, "flow.bp", [state.velocity])
         file.write(state.time)
         if MPI.COMM_WORLD.rank == 0:
