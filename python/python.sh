@@ -16,7 +16,8 @@ python_folder=build-python
 # python_tools: makes the environment that builds.
 python_tools() {
   local venv=$python_folder/tools
-  [[ -x $venv/bin/auditwheel && -x $venv/bin/wheel ]] || { rm -rf "$venv" && "$1" -m venv "$venv" && "$venv/bin/pip" install "${python_build_tools[@]}"; }
+  [[ -x $venv/bin/auditwheel && -x $venv/bin/wheel ]] ||
+    { rm -rf "$venv" && "$1" -m venv "$venv" && "$venv/bin/pip" install "${python_build_tools[@]}"; }
 }
 
 # python_build_folder: prints where CMake built the wheel, a folder with the wheel's tag for its name (pyproject.toml).

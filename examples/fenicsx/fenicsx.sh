@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. They use
-# its $packages, install_missing, say and step.
+# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. They
+# use its $packages, install_missing, say and step.
 
 # Debian's reference BLAS makes the solver of the linear systems ten times slower than OpenBLAS.
 fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev python3 python3-dev python3-venv
@@ -25,8 +25,8 @@ fenicsx() {
   cat "$fenicsx_log"
   step "the valve opens, on 2 ranks" fenicsx_in "$out" mpirun -n 2 "$python" -B -m mpi4py "$here/valve_in_duct.py"
   grep ' s, opening' "$fenicsx_log"
-  step "the same on 1 rank, recorded" fenicsx_in "$work" "$python" -B "$here/check.py" record "$work" 16
-  step "and half of it on 2 ranks" fenicsx_in "$work" mpirun -n 2 "$python" -B -m mpi4py "$here/check.py" record "$work" 8
+  step "the same on 1 rank, recorded" fenicsx_in "$work" "$python" -B "$here/check.py" record "$work" 10
+  step "and half of it on 2 ranks" fenicsx_in "$work" mpirun -n 2 "$python" -B -m mpi4py "$here/check.py" record "$work" 5
   "$python" -B "$here/check.py" marks "$work" 2 | tee "$out/marks.txt"
   step "the drop across the closed valve" fenicsx_in "$work" "$python" -B "$here/check.py" drops
   tee "$out/drops.txt" <"$fenicsx_log"
