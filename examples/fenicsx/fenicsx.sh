@@ -65,7 +65,8 @@ fenicsx_environment() {
 # Open MPI refuses root, and more ranks than processors, unless it is told. Each rank has one thread.
 fenicsx_settings() {
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl=self,sm
-  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
+  export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 }
 
 # fenicsx_in FOLDER COMMAND...: runs the command there. Its output is also in $fenicsx_log.

@@ -44,6 +44,14 @@ def test_every_library_of_the_wheel_has_its_licence():
             assert f"common-licenses/{name}" in licences
 
 
+def test_a_library_of_no_package_is_refused(tmp_path):
+    program = "import pathlib, sys, licences; licences.package_of(pathlib.Path(sys.argv[1]))"
+    answer = subprocess.run([sys.executable, "-B", "-c", program, tmp_path / "libown.so.1"], cwd=ROOT / "python",
+                            capture_output=True, text=True, check=False)
+    assert answer.returncode == 1
+    assert f"no Debian package has {tmp_path}/libown.so.1, so its licence is unknown" in answer.stderr
+
+
 @pytest.mark.parametrize("name, text", [
     ("libunknown-01234567.so.1", "loads no libunknown.so.1, which the wheel has as libunknown-01234567.so.1"),
     (None, "riis.libs has no library"),
