@@ -8,7 +8,7 @@ import sys
 
 import numpy
 
-RADIUS, HINGE, DT, EPS = 0.011, 0.45, 8e-3, 2e-3
+RADIUS, HINGE, DT, EPS = 0.011, 0.45, 0.02, 2e-3
 
 
 def require(holds, text):
@@ -18,7 +18,7 @@ def require(holds, text):
 
 def law():
     import riis
-    return riis.OpeningTimes(0.02, 0.04, 0.5, 0.04, period=1.0)
+    return riis.OpeningTimes(0.04, 0.08, 0.5, 0.08, period=1.0)
 
 
 def values_at(function, points):
@@ -213,7 +213,7 @@ def picture(folder, path):
     from matplotlib.collections import LineCollection
     folder = pathlib.Path(folder)
     cuts, rows = numpy.load(folder / "cuts1.npz"), json.loads((folder / "rows1.json").read_text())
-    chosen = [1, 4, 7, len(rows) - 1]
+    chosen = [1, 3, 5, len(rows) - 1]
     speed = numpy.linalg.norm(cuts["velocity"][chosen], axis=-1).reshape(len(chosen), *cuts["x"].shape)
     figure, axes = plt.subplots(1, len(chosen), figsize=(11, 5.4), sharey=True, layout="constrained")
     for one, step, values in zip(axes, chosen, speed):

@@ -88,8 +88,8 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
 if __name__ == "__main__":
     if len(sys.argv) > 1:
         sys.exit(f"valve_in_duct.py takes no arguments, but got '{' '.join(sys.argv[1:])}'; its numbers are in the file")
-    opens, file = riis.OpeningTimes(0.02, 0.04, 0.5, 0.04, period=1.0), None  # it opens from 0.02 s to 0.06 s
-    for state in flow(MPI.COMM_WORLD, opens, dt=8e-3, n_steps=10, hinge_offset=0.45):
+    opens, file = riis.OpeningTimes(0.04, 0.08, 0.5, 0.08, period=1.0), None  # it opens from 0.04 s to 0.12 s
+    for state in flow(MPI.COMM_WORLD, opens, dt=0.02, n_steps=10, hinge_offset=0.45):
         file = file or io.VTXWriter(MPI.COMM_WORLD, "flow.bp", [state.velocity])
         file.write(state.time)
         if MPI.COMM_WORLD.rank == 0:
