@@ -154,10 +154,10 @@ def drops():
               f" {found / expected:>6.3f}")
     valve_in_duct.GRAD_DIV = term
     found, expected = drop(2e-3, EPS, 1.0, hinge_offset=HINGE)
-    print(f"  open: {found:.1f} Pa, {100 * found / expected:.2f} % of the closed form")
+    print(f"  the open valve, edges of 2 mm: {found:.1f} Pa, {100 * found / expected:.1f} % of the closed form")
     for (angle, size, grad_div), ratio in ratios.items():
         require(grad_div == 0 or abs(ratio - 1) < 0.2, f"the drop is the closed form to 20 %: {angle} deg, {size}: {ratio}")
-    require(found < 0.02 * expected, "the open valve has less than 2 % of the drop of the closed one")
+    require(0 < found < 0.05 * expected, f"the open valve has a drop, and at most 5 % of that of the closed one, not {found}")
 
 
 def refusals():
