@@ -156,7 +156,8 @@ def drops():
     found, expected = drop(2e-3, EPS, 1.0, hinge_offset=HINGE)
     print(f"  the open valve, edges of 2 mm: {found:.1f} Pa, {100 * found / expected:.1f} % of the closed form")
     for (angle, size, grad_div), ratio in ratios.items():
-        require(grad_div == 0 or abs(ratio - 1) < 0.2, f"the drop is the closed form to 20 %: {angle} deg, {size}: {ratio}")
+        limit = 0.05 if angle == 0 else 0.12
+        require(grad_div == 0 or abs(ratio - 1) < limit, f"the ratio at {angle} degrees and {size} m is within {limit} of 1: {ratio}")
     require(0 < found < 0.05 * expected, f"the open valve has a drop, and at most 5 % of that of the closed one, not {found}")
 
 
@@ -230,7 +231,7 @@ def picture(folder, path):
     axes[0].set_ylabel("z, mm; blood flows upwards")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.9)
     figure.suptitle("Speed and velocity in the plane y = 0; red: the leaflets there")
-    figure.savefig(path, dpi=90)
+    figure.savefig(path, dpi=70)
 
 
 if __name__ == "__main__":
