@@ -157,7 +157,8 @@ def drops():
     print(f"  the open valve, edges of 2 mm: {found:.1f} Pa, {100 * found / expected:.1f} % of the closed form")
     for (angle, size, grad_div), ratio in ratios.items():
         limit = 0.05 if angle == 0 else 0.12
-        require(grad_div == 0 or abs(ratio - 1) < limit, f"the ratio at {angle} degrees and {size} m is within {limit} of 1: {ratio}")
+        require(grad_div == 0 or abs(ratio - 1) < limit,
+                f"the ratio at {angle} degrees and edges of {size} m is within {limit} of 1, not {ratio}")
     require(0 < found < 0.05 * expected, f"the open valve has a drop, and at most 5 % of that of the closed one, not {found}")
 
 
