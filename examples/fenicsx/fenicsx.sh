@@ -1,0 +1,77 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. They
+# use its $packages, install_missing, say and step.
+
+# Debian's reference BLAS makes the solver of the linear systems ten times slower than OpenBLAS.
+fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev python3 python3-dev python3-venv
+  python3-dolfinx python3-gmsh python3-numpy python3-matplotlib openmpi-bin libopenblas0-pthread)
+fenicsx_version=0.9 # the one of Debian 13
+
+# fenicsx
+fenicsx() {
+  local here=$PWD/examples/fenicsx work=$PWD/build-python/fenicsx out=$PWD/out/fenicsx python fenicsx_log
+  (($# == 0)) || { echo "./run fenicsx: '$*' is not a word that it takes" >&2; exit 2; }
+  fenicsx_is_there || return 0
+  # shellcheck disable=SC2034 # install_missing reads it
+  packages=("${fenicsx_packages[@]}")
+  install_missing
+  step "install the Python package beside the distribution's dolfinx" fenicsx_environment "$work"
+  python=$work/venv/bin/python
+  mkdir -p "$out"
+  fenicsx_log=$work/output.txt
+  fenicsx_settings
+  step "bad input" fenicsx_in "$work" "$python" -B "$here/check.py" refusals
+  cat "$fenicsx_log"
+  step "the valve opens, on 2 ranks" fenicsx_in "$out" mpirun -n 2 "$python" -B -m mpi4py "$here/valve_in_duct.py"
+  grep ' s, opening' "$fenicsx_log"
+  step "the same on 1 rank, recorded" fenicsx_in "$work" "$python" -B "$here/check.py" record "$work" 10
+  step "and half of it on 2 ranks" fenicsx_in "$work" mpirun -n 2 "$python" -B -m mpi4py "$here/check.py" record "$work" 5
+  "$python" -B "$here/check.py" marks "$work" 2 | tee "$out/marks.txt"
+  step "the drop across the closed valve" fenicsx_in "$work" "$python" -B "$here/check.py" drops
+  tee "$out/drops.txt" <"$fenicsx_log"
+  step "draw" fenicsx_in "$work" "$python" -B "$here/check.py" picture "$work" "$out/velocity.png"
+  say "left: out/fenicsx/velocity.png, marks.txt and drops.txt; for ParaView out/fenicsx/flow.bp"
+}
+
+# Says why nothing runs if the distribution lacks dolfinx, or has another version.
+fenicsx_is_there() {
+  local version
+  version=$(fenicsx_candidate)
+  if [[ ! $version ]] && command -v apt-get >/dev/null; then
+    local as_root=()
+    ((EUID == 0)) || as_root=(sudo)
+    "${as_root[@]}" apt-get -qq update || true
+    version=$(fenicsx_candidate)
+  fi
+  [[ $version != "$fenicsx_version".* ]] || return 0
+  say "skipped: the example is for dolfinx $fenicsx_version, as in Debian 13; this distribution has ${version:-none}"
+  return 1
+}
+
+# fenicsx_candidate: prints the version of the distribution's dolfinx, if it has one.
+fenicsx_candidate() {
+  LC_ALL=C apt-cache policy python3-dolfinx 2>/dev/null | sed -nE 's/^  Candidate: ([0-9]+:)?([0-9][0-9.]*).*/\2/p'
+}
+
+# fenicsx_environment FOLDER: makes FOLDER/venv with the distribution's Python, which has dolfinx, and builds the package there.
+fenicsx_environment() {
+  local venv=$1/venv
+  mkdir -p "$1"
+  rm -rf "$venv"
+  /usr/bin/python3 -m venv --system-site-packages "$venv" && "$venv/bin/pip" install --no-deps .
+}
+
+# Open MPI refuses root, and more ranks than processors, unless it is told. Each rank has one thread.
+fenicsx_settings() {
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl=self,sm
+  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
+  export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+}
+
+# fenicsx_in FOLDER COMMAND...: runs the command there. Its output is also in $fenicsx_log.
+fenicsx_in() {
+  cd "$1" || return
+  shift
+  "$@" 2>&1 | tee "$fenicsx_log"
+}

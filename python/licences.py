@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""licences.py FOLDER MODULE: puts the licence texts of all that a wheel brings into its metadata.
+
+FOLDER  the wheel, repaired by auditwheel and unpacked
+MODULE  the extension module as it was built. Its loader finds the libraries that the wheel has copies of
+
+Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses.
+The module itself contains parts of nanobind and of its robin_map. This Python has to have the nanobind that built it.
+"""
+import importlib.metadata
+import pathlib
+import re
+import subprocess
+import sys
+
+DOCUMENTS, COMMON = pathlib.Path("/usr/share/doc"), pathlib.Path("/usr/share/common-licenses")
+
+
+def fail(text):
+    raise SystemExit(f"licences.py: {text}")
+
+
+def package_of(library):
+    """The Debian package that has the library. It may list the file below /lib, which is /usr/lib."""
+    for path in (library, pathlib.Path("/", *library.parts[2:])):
+        answer = subprocess.run(["dpkg-query", "-S", path], capture_output=True, text=True, check=False)
+        if answer.returncode == 0:
+            return re.split("[:,]", answer.stdout)[0]
+    return fail(f"no Debian package has {library}, so its licence is unknown")
+
+
+def texts_of_nanobind():
+    """The licence of nanobind, and that of robin_map, which is the comment at the top of its header."""
+    files = {file.name: file for file in importlib.metadata.files("nanobind")}
+    header = files["robin_map.h"].read_text(encoding="utf-8")
+    comment = header[: header.index("*/") + 2]
+    if "Permission is hereby granted" not in comment:
+        fail("robin_map.h of nanobind does not begin with its licence")
+    return {"nanobind.copyright": files["LICENSE"].read_text(encoding="utf-8"), "robin_map.copyright": comment + "\n"}
+
+
+def main(folder, module):
+    lines = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout.splitlines()
+    found = {path.name: path for line in lines if "=> /" in line for path in [pathlib.Path(line.split()[2]).resolve()]}
+    (metadata,) = folder.glob("*.dist-info/METADATA")
+    licences = metadata.parent / "licenses"
+    texts = {}
+    for bundled in sorted(folder.glob("riis.libs/*")):
+        name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", bundled.name)  # auditwheel adds a part of the checksum
+        library = found.get(name) or fail(f"{module} loads no {name}, which the wheel has as {bundled.name}")
+        package = package_of(library)
+        copyright_ = DOCUMENTS / package / "copyright"
+        if not copyright_.is_file():
+            fail(f"{copyright_} is missing, so the licence of {name} is unknown")
+        texts[f"{package}.copyright"] = copyright_.read_text(encoding="utf-8")
+        print(f"{bundled.name}: {copyright_}")
+        for text in re.findall(rf"{COMMON}/([A-Za-z0-9.+-]*[A-Za-z0-9])", texts[f"{package}.copyright"]):
+            if (COMMON / text).is_file():
+                texts[f"common-licenses/{text}"] = (COMMON / text).read_text(encoding="utf-8")
+    if not texts:
+        fail(f"{folder}/riis.libs has no library")
+    texts.update(texts_of_nanobind())
+    for name, text in texts.items():
+        (licences / name).parent.mkdir(parents=True, exist_ok=True)
+        (licences / name).write_text(text, encoding="utf-8")
+    head, blank, rest = metadata.read_text(encoding="utf-8").partition("\n\n")
+    metadata.write_text("".join([head] + [f"\nLicense-File: {name}" for name in texts] + [blank, rest]), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        raise SystemExit("usage: licences.py FOLDER MODULE")
+    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
