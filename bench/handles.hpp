@@ -39,6 +39,15 @@ inline Surface make_surface(const riis_valve *valve, const riis_surface_options 
   return Surface(surface);
 }
 
+inline Surface make_surface(const riis_surface_arrays &arrays, double half_thickness) {
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = half_thickness;
+  riis_surface *surface = nullptr;
+  check(riis_surface_create_from_arrays(&arrays, &options, &surface));
+  return Surface(surface);
+}
+
 inline Result make_result() {
   riis_mark_result *result = nullptr;
   check(riis_mark_result_create(&result));

@@ -51,12 +51,7 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
   arrays.stride = 3;
   arrays.vertex_ids = ids;
   arrays.vertex_id_bits = 64;
-  riis_surface_options options;
-  check(riis_surface_options_init(&options, sizeof options));
-  options.half_thickness = thickness;
-  riis_surface *made = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, &options, &made));
-  return Surface(made);
+  return make_surface(arrays, thickness);
 }
 
 // A cube of nodes at the corners and in the middles of small cubes, turned and shifted at random. It is cut into equal

@@ -132,12 +132,7 @@ std::vector<double> distances_by_library(const Corners &corners, double half_thi
   arrays.n_faces = arrays.n_vertices / 3;
   arrays.vertex_ids = ids.data();
   arrays.vertex_id_bits = 64;
-  riis_surface_options options;
-  check(riis_surface_options_init(&options, sizeof options));
-  options.half_thickness = half_thickness;
-  riis_surface *handle = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, &options, &handle));
-  const Surface surface(handle);
+  const Surface surface = make_surface(arrays, half_thickness);
   const Mesh mesh = mesh_over(nodes);
   const Result result = make_result();
   check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));

@@ -308,10 +308,11 @@ static void pairs_equal_those_of_all_triangles(void **state) {
     print_message("kind %d: %lld cross, %lld touch, %lld are too close to call\n", kind,
                   (long long)tallies[kind].n_crossing, (long long)tallies[kind].n_touching,
                   (long long)tallies[kind].n_undecided);
+    /* Random triangles are the kind with the fewest: 157 pairs in 100 trials, and 85 by the least of 81 seeds. */
     if (kinds[kind] == add_in_plane)
       assert_int_equal(tallies[kind].n_crossing, 0);
     else
-      assert_true(tallies[kind].n_crossing > n_trials / n_kinds);
+      assert_true(5 * tallies[kind].n_crossing > n_trials / n_kinds);
     assert_true(tallies[kind].n_undecided <= tallies[kind].n_crossing / 10);
   }
 }

@@ -77,11 +77,13 @@ def draw_flow(study, out, history):
         title = f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa"
         axis.set_title(title, fontsize=11)
         axis.set_aspect("equal")
+        axis.set_xlim(-14, 18)
+        axis.set_ylim(-29, 24)
         axis.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm: the ventricle is below, the aorta above")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.7)
     figure.suptitle("The aortic root in code_saturne. Red: the leaflets; the cut runs through the middle of the right cusp, and "
-                    "along the seam of the two others")
+                    "between the two others, which meet in it when they close")
     figure.savefig(os.path.join(out, "flow.png"), dpi=110)
     plt.close(figure)
 

@@ -282,6 +282,12 @@ of_bad() {
   of_case "$1" && of_set "$1" system/controlDict endTime 2e-3 deltaT 1e-3 writeInterval 2
 }
 
+# of_height NAME CENTIMETRES: gives the valve a leaflet height. foamDictionary would leave six digits of it.
+of_height() {
+  sed -i -E "s/kind +trileaflet;.*/kind trileaflet; leaflet_height $2;/" "$of_cases/$1/system/fvOptions" &&
+    grep -q "leaflet_height $2;" "$of_cases/$1/system/fvOptions"
+}
+
 openfoam_refusals() {
   local dict=system/fvOptions
   of_bad unknown-valve && of_set unknown-valve $dict aorticValve/valve/kind tricuspid &&
@@ -306,8 +312,11 @@ openfoam_refusals() {
     of_refused "a pressure that is NaN" not-a-number 'at time 0.001: RIIS_INVALID_ARGUMENT: pressure_difference' &&
     of_bad no-library && of_set no-library $dict aorticValve/libs '("libnoValve.so")' &&
     of_refused "a library that is not in the path" no-library 'Unknown fvOption type riisValve' &&
-    of_bad other-state && of_run other-state 1 && mv "$of_cases/other-state/0.002" "$of_cases/other-state/0.02" &&
-    of_set other-state system/controlDict startTime 0.02 endTime 0.03 &&
-    of_set other-state $dict aorticValve/valve '{ kind trileaflet; leaflet_height 1.15; }' &&
+    of_bad other-state && of_height other-state 1.123456789012 &&
+    of_run other-state 1 && mv "$of_cases/other-state/0.002" "$of_cases/other-state/0.02" &&
+    of_set other-state system/controlDict startTime 0.02 endTime 0.021 &&
+    of_run other-state 1 && grep -q 'continues at time 0.02' "$of_cases/other-state/log.pimpleFoam" &&
+    of_set other-state system/controlDict endTime 0.03 &&
+    of_height other-state 1.123456789 &&
     of_refused "a restart of another valve" other-state 'this state is that of a valve whose leaflet_height is'
 }

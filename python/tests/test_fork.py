@@ -15,8 +15,8 @@ import riis
 SECONDS = 60
 
 
-def in_child(work, leave=os._exit):
-    """Forks, runs work in the child, and returns whether it ended by itself and without an exception."""
+def status_of_child(work, leave=os._exit):
+    """Forks, and runs work in the child. Returns the child's exit status: 0, or 1 after an exception."""
     child = os.fork()
     if child == 0:
         signal.alarm(SECONDS)
@@ -27,7 +27,12 @@ def in_child(work, leave=os._exit):
         except BaseException:
             traceback.print_exc()
         leave(status)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+def in_child(work, leave=os._exit):
+    """Returns whether work ended by itself and without an exception in a child."""
+    return status_of_child(work, leave) == 0
 
 
 @pytest.fixture
@@ -133,17 +138,7 @@ def test_a_child_of_a_thread_inside_the_library_makes_no_surface(surface, mesh, 
     thread.start()
     try:
         for _ in range(30):
-            child = os.fork()
-            if child == 0:
-                signal.alarm(SECONDS)
-                status = 1
-                try:
-                    work()
-                    status = 0
-                except BaseException:
-                    traceback.print_exc()
-                os._exit(status)
-            refused.append(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+            refused.append(status_of_child(work))
     finally:
         is_over.set()
         thread.join()

@@ -162,7 +162,7 @@ static void advance_law(void) {
   cs_parall_sum(2, CS_DOUBLE, downstream);
   const double drop = upstream[1] / upstream[0] - downstream[1] / downstream[0];
   const double flow = upstream[2] / 0.004; /* the slab is so long */
-  /* Not t_cur: after a restart code_saturne's own sum of its time steps has other last bits. */
+  /* The time is not t_cur: after a restart code_saturne's own sum of its time steps has other last bits. */
   const double time = cs_glob_time_step->nt_cur * cs_glob_time_step->dt_ref;
   check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }

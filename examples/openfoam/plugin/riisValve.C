@@ -292,20 +292,14 @@ void riisValve::restart() {
                                      << lawBefore << ", and valve " << name_ << " has kind " << kind_
                                      << " with the law " << law << exit(FatalIOError);
     }
-    const dictionary &parameters = state_.subDict("parameters");
-    int64_t n = 0;
-    check(riis_valve_n_parameters(valve_.get(), &n));
-    for (int64_t i = 0; i < n; ++i) {
-      riis_parameter parameter;
-      check(riis_valve_parameter(valve_.get(), i, &parameter, sizeof parameter));
-      if (!strcmp(parameter.name, "opening")) continue;
-      double now[3] = {0, 0, 0};
-      check(riis_valve_get(valve_.get(), parameter.name, parameter.n_values, now));
-      const scalarList then = parameters.get<scalarList>(parameter.name);
-      for (label c = 0; c < parameter.n_values; ++c) {
-        if (c < then.size() && then[c] == now[c]) continue;
-        FatalIOErrorInFunction(state_) << "this state is that of a valve whose " << parameter.name << " is " << then
-                                       << ", and that of valve " << name_ << " is " << now[c] << exit(FatalIOError);
+    const dictionary before = state_.subDict("parameters"), now = parameters();
+    for (const entry &parameter : now) {
+      const word &name = parameter.keyword();
+      const scalarList then = before.get<scalarList>(name), values = now.get<scalarList>(name);
+      forAll(values, c) {
+        if (c < then.size() && then[c] == values[c]) continue;
+        FatalIOErrorInFunction(state_) << "this state is that of a valve whose " << name << " is " << then
+                                       << ", and that of valve " << name_ << " is " << values[c] << exit(FatalIOError);
       }
     }
     opening_ = state_.get<scalar>("opening");
@@ -342,6 +336,26 @@ void riisValve::restart() {
        << " with opening " << opening_ << (found ? " from " : ", without ") << state_.IOobject::objectPath() << endl;
 }
 
+dictionary riisValve::parameters() const {
+  dictionary found;
+  int64_t n = 0;
+  check(riis_valve_n_parameters(valve_.get(), &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter;
+    check(riis_valve_parameter(valve_.get(), i, &parameter, sizeof parameter));
+    if (!strcmp(parameter.name, "opening")) continue;
+    scalarList values(label(parameter.n_values));
+    check(riis_valve_get(valve_.get(), parameter.name, values.size(), values.data()));
+    // A list itself would be added as text of six digits.
+    tokenList tokens(values.size() + 2);
+    tokens.first() = token(token::BEGIN_LIST);
+    forAll(values, c) tokens[c + 1] = token(values[c]);
+    tokens.last() = token(token::END_LIST);
+    found.add(new primitiveEntry(parameter.name, std::move(tokens)));
+  }
+  return found;
+}
+
 void riisValve::keepState() {
   state_.clear();
   state_.add("kind", kind_);
@@ -357,18 +371,7 @@ void riisValve::keepState() {
     if (!std::isnan(switchState_.flow)) state_.add("flow", switchState_.flow);
     if (!std::isnan(switchState_.since)) state_.add("since", switchState_.since);
   }
-  dictionary parameters;
-  int64_t n = 0;
-  check(riis_valve_n_parameters(valve_.get(), &n));
-  for (int64_t i = 0; i < n; ++i) {
-    riis_parameter parameter;
-    check(riis_valve_parameter(valve_.get(), i, &parameter, sizeof parameter));
-    if (!strcmp(parameter.name, "opening")) continue;
-    scalarList values(label(parameter.n_values));
-    check(riis_valve_get(valve_.get(), parameter.name, values.size(), values.data()));
-    parameters.add(parameter.name, values);
-  }
-  state_.add("parameters", parameters);
+  state_.add("parameters", parameters());
 }
 
 // The mean pressure over the sensor's cells on all ranks.
