@@ -42,9 +42,9 @@ contains
     call this%valve%set('opening', opening, status)
     if (status == RIIS_OK) call this%valve%copy(this%before, status)
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
-      translation=this%place, status=status)
+      translation=this%place, n_threads=1, status=status) ! so few triangles and nodes need no more threads
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
-    if (status == RIIS_OK) call this%faces%prepare(status=status)
+    if (status == RIIS_OK) call this%faces%prepare(n_threads=1, status=status)
     call check(status)
     allocate (this%marked(0))
     this%seconds = clocks() - begin
@@ -69,7 +69,7 @@ contains
     if (status == RIIS_OK) call this%surface%update_moving(this%valve, this%before, dt, status=status)
     if (status == RIIS_OK) call this%before%set('opening', opening, status)
     if (status == RIIS_OK) call riis_mark_nodes(this%surface, this%faces, this%marks, fields=RIIS_FIELD_VELOCITY, &
-      status=status)
+      n_threads=1, status=status)
     if (status == RIIS_OK) call this%marks%add_resistance(this%R, fluid%K, fluid%K_u, status=status)
     if (status == RIIS_OK) call this%marks%marked_nodes(this%marked, status=status)
     call check(status)
