@@ -353,7 +353,8 @@ RIIS_INLINE void choose_axes(double (&across)[3], const GroupCorners &as_given, 
 RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupBounds &bounds) {
   const Floats3 corner[3] = {load3(rounded), load3(rounded + 3), load3(rounded + 6)};
   const Floats zero = Floats::all(0);
-  // Lower ends, and upper ends with the other sign, of the box along the axes, then of the box along the group's own.
+  // The box along the axes has three intervals, and so has the box along the group's own axes. An interval is its lower end and its
+  // negative upper end.
   Floats ends[3][4];
   const auto set_ends = [&](int at, Floats a, Floats b, Floats c) RIIS_LAMBDA {
     ends[at / 2][at % 2 * 2] = least(least(a, b), c);

@@ -119,6 +119,14 @@ void kernels_bound_corners(int set, int64_t n, const double *corners, double *lo
 /* Takes n of them, up to 16, to a frame: framed(16, 9). */
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
                          int32_t n, double *framed);
+/* For fields: mixes the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
+void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
+                             const double *barycentric, double *mixed);
+/* For fields: the sides of 8 points (3, 8) of planes through points (3, 8) with normals (3, 8). */
+void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side);
+/* Measures n triangles, up to 8: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
+ * the second corner. */
+void kernels_measure_triangles(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double *measures);
 /* Returns 0 if one of n triangles, up to 8, may have no area. */
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n);
 

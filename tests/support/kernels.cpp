@@ -143,6 +143,48 @@ int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id,
   return of(set).have_area(vertices, vertex_id, n);
 }
 
+void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
+                             const double *barycentric, double *mixed) {
+  std::vector<VertexNumbers> at(static_cast<std::size_t>(n_vertices));
+  for (VertexNumbers &vertex : at) {
+    std::copy_n(numbers, 8, vertex.number);
+    numbers += 8;
+  }
+  PointsOnTriangles located;
+  const std::int64_t *vertex[pairs_at_once];
+  for (int i = 0; i < pairs_at_once; ++i) {
+    vertex[i] = vertex_id + 3 * i;
+    for (int k = 0; k < 3; ++k) located.barycentric[k][i] = barycentric[3 * i + k];
+  }
+  VertexNumbers made[pairs_at_once];
+  of(set).mix_at_vertices(at.data(), vertex, located, made);
+  for (int i = 0; i < pairs_at_once; ++i) std::copy_n(made[i].number, 8, mixed + 8 * i);
+}
+
+void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side) {
+  PointsAndTriangles pairs;
+  PointsOnTriangles located;
+  alignas(64) double normal[3][pairs_at_once];
+  for (int i = 0; i < pairs_at_once; ++i)
+    for (int c = 0; c < 3; ++c) {
+      pairs.point[c][i] = points[3 * i + c];
+      located.point[c][i] = on[3 * i + c];
+      normal[c][i] = normals[3 * i + c];
+    }
+  of(set).find_sides(pairs, located, normal, side);
+}
+
+void kernels_measure_triangles(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double *measures) {
+  TriangleMeasures made;
+  of(set).measure_triangles(vertices, vertex_id, n, made);
+  for (int i = 0; i < n; ++i) {
+    for (int c = 0; c < 3; ++c) measures[6 * i + c] = made.normal[c][i];
+    measures[6 * i + 3] = made.twice_area[i];
+    measures[6 * i + 4] = made.product_at_a[i];
+    measures[6 * i + 5] = made.product_at_b[i];
+  }
+}
+
 kernel_group *kernels_group(int set, int n, const double *corners) {
   auto *group = new kernel_group{};
   group->bounds.n = n;
