@@ -559,7 +559,7 @@ static void triangles_without_area_are_noticed(void **state) {
         memcpy(vertices + 9 * i, t, sizeof t);
         for (int k = 0; k < 3; ++k) id[3 * i + k] = 3 * i + (k + trial) % 3;
       }
-      const int have_area = kernels_have_area(set, vertices, id, n);
+      const int have_area = kernels_have_area(set, vertices, id, n, 0);
       if (height <= 1e-12) {
         ++n_flat;
         assert_false(have_area);
@@ -569,6 +569,74 @@ static void triangles_without_area_are_noticed(void **state) {
       }
     }
     assert_true(n_flat > 1000 && n_high > 1000);
+  }
+}
+
+/* Triangles that pass with a shift still have an area after their corners have moved by an eighth of it. */
+static void triangles_keep_their_area_when_corners_move(void **state) {
+  (void)state;
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set)) continue;
+    int n_passed = 0, n_stopped = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+      const double size = power_of_ten(-20, 20), height = power_of_ten(-13, 0), shift = size * power_of_ten(-13, 0);
+      const double foot = random_between(&rng, -1, 2);
+      double vertices[9] = {0, 0, 0, size, 0, 0, foot * size, height * size, 0};
+      const int64_t id[3] = {trial % 3, (trial + 1) % 3, (trial + 2) % 3};
+      if (!kernels_have_area(set, vertices, id, 1, shift)) {
+        ++n_stopped;
+        continue;
+      }
+      ++n_passed;
+      for (int k = 0; k < 3; ++k) {
+        double by[3], length = 0;
+        random_vector(by, 1);
+        for (int c = 0; c < 3; ++c) length += by[c] * by[c];
+        // Heights fall most along y.
+        if (trial % 2 == 0) by[0] = by[2] = 0, by[1] = k == 2 ? -1 : 1, length = 1;
+        for (int c = 0; c < 3; ++c) vertices[3 * k + c] += 0.125 * shift * by[c] / sqrt(length);
+      }
+      const double *a = vertices, *b = vertices + 3, *c = vertices + 6;
+      double ab[3], ac[3], longest_sq = 0, of_ab = 0, of_ac = 0, of_bc = 0, area_sq = 0;
+      for (int k = 0; k < 3; ++k) {
+        ab[k] = b[k] - a[k], ac[k] = c[k] - a[k];
+        of_ab += ab[k] * ab[k], of_ac += ac[k] * ac[k], of_bc += (c[k] - b[k]) * (c[k] - b[k]);
+      }
+      longest_sq = fmax(of_ab, fmax(of_ac, of_bc));
+      for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        area_sq += (ab[i] * ac[j] - ab[j] * ac[i]) * (ab[i] * ac[j] - ab[j] * ac[i]);
+      }
+      assert_true(area_sq > 1e-24 * longest_sq * longest_sq);
+    }
+    assert_true(n_passed > 1000 && n_stopped > 1000);
+  }
+}
+
+/* Points have the bits of plain products and sums, from the left, and nothing behind them is written. */
+static void points_are_placed(void **state) {
+  (void)state;
+  enum { most = 20 };
+  for (int set = 0; set < n_kernel_sets; ++set) {
+    if (!kernels_there(set) || (set == baseline_set && !kernels_baseline_rounds_twice())) continue;
+    for (int trial = 0; trial < 2000; ++trial) {
+      double points[3 * most], placed[3 * most + 3], first[12], second[12];
+      const int64_t n = (int64_t)(random_bits(&rng) % (most + 1));
+      const double scale = power_of_ten(-2, 2), untouched = 17;
+      for (int64_t i = 0; i < n; ++i) random_vector(points + 3 * i, 3);
+      for (int k = 0; k < 12; k += 3) random_vector(first + k, 2), random_vector(second + k, 2);
+      for (int i = 0; i < 3 * most + 3; ++i) placed[i] = untouched;
+      kernels_place_points(set, first, second, scale, n, points, placed);
+      for (int64_t i = 0; i < n; ++i) {
+        const double *p = points + 3 * i;
+        double q[3];
+        for (int c = 0; c < 3; ++c) q[c] = p[0] * first[c] + p[1] * first[3 + c] + p[2] * first[6 + c] + first[9 + c];
+        for (int c = 0; c < 3; ++c)
+          CHECK_SAME(placed[3 * i + c],
+                     scale * (q[0] * second[c] + q[1] * second[3 + c] + q[2] * second[6 + c]) + second[9 + c]);
+      }
+      for (int64_t i = 3 * n; i < 3 * most + 3; ++i) CHECK_SAME(placed[i], untouched);
+    }
   }
 }
 
@@ -645,6 +713,8 @@ int main(void) {
       cmocka_unit_test(no_pair_that_matters_is_lost),
       cmocka_unit_test(corners_are_bounded_and_framed),
       cmocka_unit_test(triangles_without_area_are_noticed),
+      cmocka_unit_test(triangles_keep_their_area_when_corners_move),
+      cmocka_unit_test(points_are_placed),
       cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
   };
   rng = random_start("test_kernels");

@@ -129,23 +129,25 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides) {
   const std::size_t n_u = u.size(), n_v = v.size();
   const Vec3 p00 = sides.v0.front(), p10 = sides.v0.back(), p01 = sides.v1.front(), p11 = sides.v1.back();
+  struct Chords {
+    Vec3 at_v0, at_v1;
+  };
+  Vector<Chords> chords;
+  chords.reserve(n_u);
+  for (const double at : u) chords.push_back({mix(p00, p10, at), mix(p01, p11, at)});
+  // The boundary consists of the sides' own vectors, to the last bit, because neighbouring patches share it.
   Vector<Vec3> made;
   made.reserve(n_u * n_v);
-  for (std::size_t j = 0; j < n_v; ++j)
-    for (std::size_t i = 0; i < n_u; ++i) {
-      // The boundary consists of the sides' own vectors, to the last bit, because neighbouring patches share it.
-      if (j == 0)
-        made.push_back(sides.v0[i]);
-      else if (j + 1 == n_v)
-        made.push_back(sides.v1[i]);
-      else if (i == 0)
-        made.push_back(sides.u0[j]);
-      else if (i + 1 == n_u)
-        made.push_back(sides.u1[j]);
-      else
-        made.push_back(mix(sides.v0[i], sides.v1[i], v[j]) + mix(sides.u0[j], sides.u1[j], u[i]) -
-                       mix(mix(p00, p10, u[i]), mix(p01, p11, u[i]), v[j]));
-    }
+  made.insert(made.end(), sides.v0.begin(), sides.v0.end());
+  for (std::size_t j = 1; j + 1 < n_v; ++j) {
+    const Vec3 at_u0 = sides.u0[j], at_u1 = sides.u1[j];
+    made.push_back(at_u0);
+    for (std::size_t i = 1; i + 1 < n_u; ++i)
+      made.push_back(mix(sides.v0[i], sides.v1[i], v[j]) + mix(at_u0, at_u1, u[i]) -
+                     mix(chords[i].at_v0, chords[i].at_v1, v[j]));
+    made.push_back(at_u1);
+  }
+  made.insert(made.end(), sides.v1.begin(), sides.v1.end());
   return made;
 }
 
@@ -213,24 +215,30 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
     edge.push_back(evaluate(*sides.side_v1, line.t1));
   }
   grid.points.reserve(base.size() * grid.v.size());
-  for (const double v : grid.v)
+  grid.points = base;
+  for (std::size_t j = 1; j < n_rows; ++j) {
+    const double v = grid.v[j];
     for (std::size_t i = 0; i < base.size(); ++i)
-      grid.points.push_back(v == 0   ? base[i]
-                            : v == 1 ? edge[i]
-                                     : mix(base[i], edge[i], v) + (2 * v * (1 - v)) * lines.offsets[i]);
+      grid.points.push_back(mix(base[i], edge[i], v) + (2 * v * (1 - v)) * lines.offsets[i]);
+  }
+  grid.points.insert(grid.points.end(), edge.begin(), edge.end());
 
   // Between two lines, the base, the edge and O differ from linear by their errors. On a line, the chords of its arc
   // differ from it by |O| / 2 times the square of the row's height.
   const Vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);
+  Vector<double> chord_errors;
+  chord_errors.reserve(base_errors.size());
+  for (std::size_t i = 0; i < base_errors.size(); ++i)
+    chord_errors.push_back(0.5 * row * row * std::max(length(lines.offsets[i]), length(lines.offsets[i + 1])));
   grid.errors.reserve(base_errors.size() * n_rows);
-  for (std::size_t j = 0; j < n_rows; ++j)
-    for (std::size_t i = 0; i < base_errors.size(); ++i) {
-      const double offset = std::max(length(lines.offsets[i]), length(lines.offsets[i + 1]));
+  for (std::size_t j = 0; j < n_rows; ++j) {
+    const double weight = largest_arc_weight(grid.v[j], grid.v[j + 1]);
+    for (std::size_t i = 0; i < base_errors.size(); ++i)
       grid.errors.push_back(larger_mix(base_errors[i], edge_errors[i], grid.v[j], grid.v[j + 1]) +
-                            largest_arc_weight(grid.v[j], grid.v[j + 1]) * lines.errors[i] + 0.5 * row * row * offset);
-    }
+                            weight * lines.errors[i] + chord_errors[i]);
+  }
   return grid;
 }
 

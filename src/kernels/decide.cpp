@@ -218,12 +218,32 @@ RIIS_INLINE Corners corners_by_id(const double *vertices, const int64_t *vertex_
   return {vertex(0), vertex(1), vertex(2)};
 }
 
-bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n) {
+// One point in a register, with a lane to spare.
+typedef double Point __attribute__((vector_size(32)));
+
+void place_points(const PlacedBy &by, const double *points, int64_t n, double *placed) {
+  Point columns[8];
+  const double *const from[8] = {by.of_image[0], by.of_image[1], by.of_image[2], by.offset_of_image,
+                                 by.rotation[0], by.rotation[1], by.rotation[2], by.translation};
+  for (int k = 0; k < 8; ++k) __builtin_memcpy(&columns[k], from[k], sizeof columns[k]);
+  const auto place = [&](int64_t i, int64_t size) RIIS_LAMBDA {
+    const double *const p = points + 3 * i;
+    const Point image = p[0] * columns[0] + p[1] * columns[1] + p[2] * columns[2] + columns[3];
+    const Point at = by.scale * (image[0] * columns[4] + image[1] * columns[5] + image[2] * columns[6]) + columns[7];
+    __builtin_memcpy(placed + 3 * i, &at, static_cast<__SIZE_TYPE__>(size));
+  };
+  // The spare lane goes where the next point will be.
+  for (int64_t i = 0; i + 1 < n; ++i) place(i, sizeof(Point));
+  if (n > 0) place(n - 1, 3 * sizeof *placed);
+}
+
+bool have_area(const double *vertices, const int64_t *vertex_id, int32_t n, double shift) {
   const auto [a, b, c] = corners_by_id(vertices, vertex_id, n);
   const Doubles3 ab = b - a, ac = c - a, twice_area = cross(ab, ac);
   const Doubles size = dot(ab, ab) + dot(ac, ac);
   return !any(
-      opposite(both(dot(twice_area, twice_area) > Doubles::all(4e-23) * size * size, size > Doubles::all(1e-119))));
+      opposite(both(dot(twice_area, twice_area) > (Doubles::all(4e-23) * size + Doubles::all(shift * shift)) * size,
+                    size > Doubles::all(1e-119))));
 }
 
 void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures) {
@@ -453,6 +473,6 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
 }  // namespace
 
 const DecisionKernels RIIS_KERNELS(decision_kernels) = {
-    bound_corners, have_area, measure_triangles, frame_group, make_group, decide, locate, mix_at_vertices, find_sides};
+    bound_corners, have_area, place_points, measure_triangles, frame_group, make_group, decide, locate, mix_at_vertices, find_sides};
 
 }  // namespace riis

@@ -108,6 +108,11 @@ struct alignas(64) TriangleMeasures {
   double normal[3][pairs_at_once], twice_area[pairs_at_once], product_at_a[pairs_at_once], product_at_b[pairs_at_once];
 };
 
+// The place of an image of a patch, then that of the whole surface: columns of matrices, with a zero behind each.
+struct alignas(64) PlacedBy {
+  double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
+};
+
 struct FilterKernels {
   // Writes a bit for each box within the reach of each candidate group. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
@@ -122,9 +127,12 @@ struct FilterKernels {
 struct DecisionKernels {
   // Finds the least and the greatest coordinates of n triangles (9 doubles each), n > 0.
   void (*bound_corners)(const double *corners, int64_t n, double *lower, double *upper);
-  // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area: if the square of twice its
-  // area is at most 1e-23 of the square of 2 (|ab|^2 + |ac|^2).
-  bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n);
+  // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area, or may have none after its
+  // corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 and
+  // shift^2 (|ab|^2 + |ac|^2), both together.
+  bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
+  // Places n points (3, n), with the bits of place(placement, place(image, p)).
+  void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);
   // Measures up to eight triangles, given by the ids of vertices. The normals have the bits of triangle_normal.
   void (*measure_triangles)(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures);
   // Takes the corners of up to 16 triangles, given by index, to the surface's frame.

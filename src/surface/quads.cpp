@@ -12,12 +12,14 @@
 namespace riis {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // Bounds the distance between a quad and its triangles at a level of subdivision. Looks no closer than `enough` needs.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
-  if (level >= few || (at_equal_uv <= enough && enough < std::numeric_limits<double>::infinity())) return at_equal_uv;
+  if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
   const int n = 1 << level;
   double largest = 0;
   for (int row = 0; row < n; ++row)
@@ -62,14 +64,8 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
-  // Most quads are not subdivided, and their twist alone is small enough.
-  if (level == 0) {
-    const double at_equal_uv = quad_flatness(quad);
-    if (at_equal_uv <= left) return {0, grid.error(i, j) + at_equal_uv};
-  }
   double error = split_error_at(quad, level, left);
   if (!(error <= left)) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
     // Quad and triangles are each within half the edge of the merged ones.
@@ -94,17 +90,34 @@ double split_error(const Quad &q) {
 
 LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned) {
   LevelledGrid made{std::move(grid), {}};
-  made.n_vertices = view(made.grid.u).size() * view(made.grid.v).size();
-  if (planned) made.levels.reserve(planned->size());
-  for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
-    const Level level = planned ? planned_level(made.grid, i, j, max_error, (*planned)[made.levels.size()])
-                                : subdivision_level(made.grid, i, j, max_error);
-    made.levels.push_back(level.level);
+  const QuadGrid &in = made.grid;
+  made.n_vertices = view(in.u).size() * view(in.v).size();
+  const auto add = [&](const Level &level) {
     made.error_bound = std::max(made.error_bound, level.error);
     const std::int64_t n = std::int64_t{1} << level.level;
     made.n_triangles += 2 * n * n;
     if (n > 1) made.n_vertices += (n + 1) * (n + 1);
-  });
+  };
+  if (!planned) {
+    made.levels.reserve(in.errors.size());
+    for_each_quad(in, [&](std::size_t i, std::size_t j) {
+      const Level level = subdivision_level(in, i, j, max_error);
+      made.levels.push_back(level.level);
+      add(level);
+    });
+    return made;
+  }
+  made.levels = *planned;
+  const int *level = planned->data();
+  const double *error = in.errors.data();
+  const Vec3 *below = in.points.data(), *above = below + in.u.size();
+  for (std::size_t j = 0; j + 1 < in.v.size(); ++j, ++below, ++above)
+    for (std::size_t i = 0; i + 1 < in.u.size(); ++i, ++level, ++error, ++below, ++above) {
+      // Most quads are not subdivided, and their twist alone is small enough.
+      const double at_equal_uv = *level == 0 ? quad_flatness({below[0], below[1], above[1], above[0]}) : infinity;
+      add(at_equal_uv <= max_error - *error ? Level{0, *error + at_equal_uv}
+                                            : planned_level(in, i, j, max_error, *level));
+    }
   return made;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -40,22 +41,107 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
   return !is_on_diagonal && std::max(diagonal, other) > min_edge;
 }
 
-// Returns whether no triangle has zero area (has_zero_area).
-bool have_area(const TriangleSet &set, int n_threads) {
-  constexpr std::int64_t triangles_per_block = 4096;
+// Returns whether triangles have an area (has_zero_area), also after their corners move by up to an eighth of `shift`. May
+// return false if a corner moves.
+bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles, double shift) {
   const Kernels &simd = kernels(best_instruction_set());
-  std::atomic<bool> all_have{true};
-  parallel_for_ranges(set.n_triangles(), triangles_per_block, n_threads, [&](const Range &block, int) {
-    for (std::int64_t i = block.begin; i < block.end; i += pairs_at_once) {
-      const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(pairs_at_once, block.end - i));
-      if (simd.have_area(set.xyz.data(), set.vertex_id.data() + 3 * i, n)) continue;
-      for (std::int64_t k = i; k < i + n; ++k) {
-        const auto [a, b, c] = set.corners(k);
-        if (has_zero_area(a, b, c)) all_have.store(false, std::memory_order_relaxed);
-      }
+  for (std::int64_t i = triangles.begin; i < triangles.end; i += pairs_at_once) {
+    const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(pairs_at_once, triangles.end - i));
+    if (!simd.have_area(vertices, vertex_id.data() + 3 * i, n, shift)) return false;
+  }
+  return true;
+}
+
+// Returns whether no triangle has zero area.
+bool have_area(const TriangleSet &set) {
+  constexpr std::int64_t n_at_once = 128;
+  for (std::int64_t i = 0, n = set.n_triangles(); i < n; i += n_at_once) {
+    const Range few{i, std::min(n, i + n_at_once)};
+    if (have_area(set.xyz.data(), set.vertex_id, few, 0)) continue;
+    for (std::int64_t k = few.begin; k < few.end; ++k) {
+      const auto [a, b, c] = set.corners(k);
+      if (has_zero_area(a, b, c)) return false;
     }
-  });
-  return all_have.load(std::memory_order_relaxed);
+  }
+  return true;
+}
+
+// Bounds how far a corner of an image of a patch is from its place in an image that is exactly congruent to the others.
+double rounding_of_places(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
+  double largest = 0, farthest = 0;
+  for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const PatchImage &image : patch.images) farthest = std::max(farthest, length(image.translation));
+  // Each coordinate is right to 16 units of rounding of the numbers that it is the sum of.
+  return 0x1p-48 * (placement.scale * (2 * largest + farthest) + length(placement.translation));
+}
+
+// The vertices of a patch before any image is placed: those of the grid, then those of subdivided quads.
+struct PatchVertices {
+  explicit PatchVertices(const LevelledGrid &levelled) {
+    const QuadGrid &grid = levelled.grid;
+    const auto n = static_cast<std::size_t>(levelled.n_vertices);
+    const bool moves = !grid.displacements.empty();
+    points.reserve(n);
+    uv.reserve(2 * n);
+    displacements.reserve(moves ? n : 0);
+    points = grid.points;
+    displacements = grid.displacements;
+    for (const double v : grid.v)
+      for (const double u : grid.u) add(u, v);
+    auto level_of_next = levelled.levels.begin();
+    for_each_quad(grid, [&](std::size_t i, std::size_t j) {
+      const int level = *level_of_next++;
+      if (level == 0) return;
+      // All parts of a bilinear quad at one level have the same flatness. So recursive halving would end in equal parts, and they
+      // are made in one go.
+      const int n_parts = 1 << level;
+      const double step = 1.0 / n_parts;  // a power of two
+      const Quad quad = quad_of(grid, i, j);
+      const double u0 = grid.u[i], u1 = grid.u[i + 1], v0 = grid.v[j], v1 = grid.v[j + 1];
+      for (int row = 0; row <= n_parts; ++row)
+        for (int column = 0; column <= n_parts; ++column) {
+          const double s = column * step, t = row * step;
+          points.push_back(quad.at(s, t));
+          if (moves) displacements.push_back(displacements_of_quad(grid, i, j).at(s, t));
+          add((1 - s) * u0 + s * u1, (1 - t) * v0 + t * v1);
+        }
+    });
+  }
+
+  Vector<Vec3> points;
+  Vector<double> uv;
+  Vector<Vec3> displacements;  // since an earlier state; empty without one
+
+ private:
+  void add(double u, double v) {
+    uv.push_back(u);
+    uv.push_back(v);
+  }
+  static Quad displacements_of_quad(const QuadGrid &grid, std::size_t i, std::size_t j) {
+    const auto at = [&](std::size_t di, std::size_t dj) {
+      return grid.displacements[(j + dj) * grid.u.size() + i + di];
+    };
+    return {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
+  }
+};
+
+PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
+  PlacedBy by{};
+  const auto put = [](Vec3 column, double *to) { to[0] = column.x, to[1] = column.y, to[2] = column.z; };
+  const auto put_columns = [&](const Rotation &from, double(*to)[4]) {
+    put({from.row_x.x, from.row_y.x, from.row_z.x}, to[0]);
+    put({from.row_x.y, from.row_y.y, from.row_z.y}, to[1]);
+    put({from.row_x.z, from.row_y.z, from.row_z.z}, to[2]);
+  };
+  put_columns(image.rotation, by.of_image);
+  // The product with a mirrored coordinate is that with a mirrored column, to the last bit.
+  if (image.mirror != Mirror::none)
+    for (double &x : by.of_image[image.mirror == Mirror::in_x ? 0 : 1]) x = -x;
+  put(image.translation, by.offset_of_image);
+  put_columns(placement.rotation, by.rotation);
+  put(placement.translation, by.translation);
+  by.scale = placement.scale;
+  return by;
 }
 
 class PieceBuilder {
@@ -64,14 +150,21 @@ class PieceBuilder {
   PieceBuilder(Piece &piece, const Triangulation &how, const ImageMotion *motion, TriangleSet &set)
       : piece_(piece), grid_(piece.levelled->grid), how_(how), motion_(motion), set_(set) {}
 
-  // Vertices of the grid come first, then those of subdivided quads.
-  void place_vertices() {
-    place_vertices_of_grid();
-    auto level_of_next = piece_.levelled->levels.begin();
-    for_each_quad(grid_, [&](std::size_t i, std::size_t j) {
-      const int level = *level_of_next++;
-      if (level > 0) place_vertices_of_quad(i, j, level);
-    });
+  void place_vertices(const PatchVertices &of_patch) {
+    const Vector<Vec3> &points = of_patch.points;
+    const Vector<double> &uv = of_patch.uv;
+    double *const xyz = set_.xyz.data() + 3 * piece_.first_vertex;
+    kernels(best_instruction_set())
+        .place_points(placed_by(*piece_.image, how_.placement), &points.front().x, view(points).size(), xyz);
+    std::copy(uv.begin(), uv.end(), set_.uv.begin() + 2 * piece_.first_vertex);
+    if (piece_.seam)
+      for (std::int64_t i = 0; i < view(points).size(); ++i)
+        if (piece_.seam->has(view(uv)[2 * i], view(uv)[2 * i + 1]))
+          put_vector(xyz, i, place(how_.placement, place(*piece_.twin, view(points)[i])));
+    if (motion_)
+      for (std::int64_t i = 0; i < view(points).size(); ++i)
+        put_vector(set_.velocity.data() + 3 * piece_.first_vertex, i,
+                   motion_->velocity(view(points)[i], view(of_patch.displacements)[i]));
   }
 
   // The vertices have been placed.
@@ -141,87 +234,6 @@ class PieceBuilder {
     }
   }
 
-  // The velocity of the vertex that is added next, from its place on the patch and its displacement.
-  template <class Displacement>
-  void add_velocity(Vec3 p, const Displacement &displacement) {
-    if (!motion_) return;
-    const Vec3 velocity = motion_->velocity(p, displacement());
-    double *to = set_.velocity.data() + 3 * (piece_.first_vertex + n_vertices_);
-    to[0] = velocity.x, to[1] = velocity.y, to[2] = velocity.z;
-  }
-
-  void place_vertices_of_grid() {
-    const std::size_t n_u = grid_.u.size(), n_v = grid_.v.size();
-    // These are copies, which the compiler knows not to change as vertices are written.
-    const PatchImage image = *piece_.image;
-    const Placement placement = how_.placement;
-    const double *const u = grid_.u.data();
-    double *xyz = set_.xyz.data() + 3 * piece_.first_vertex, *uv = set_.uv.data() + 2 * piece_.first_vertex;
-    for (std::size_t j = 0; j < n_v; ++j) {
-      const double v = grid_.v[j];
-      const Vec3 *const points = grid_.points.data() + j * n_u;
-      for (std::size_t i = 0; i < n_u; ++i, xyz += 3, uv += 2) {
-        put(place(placement, place(image, points[i])), u[i], v, xyz, uv);
-      }
-    }
-    if (!piece_.seam && !motion_) {
-      n_vertices_ = static_cast<std::int64_t>(n_u * n_v);
-      return;
-    }
-    for (std::size_t j = 0; j < n_v; ++j)
-      for (std::size_t i = 0; i < n_u; ++i) {
-        add_velocity(grid_.point(i, j), [&] { return grid_.displacements[j * n_u + i]; });
-        if (piece_.seam)
-          add_vertex(grid_.point(i, j), grid_.u[i], grid_.v[j]);
-        else
-          ++n_vertices_;
-      }
-  }
-
-  void add_vertex(Vec3 p, double u, double v) {
-    const std::int64_t at = piece_.first_vertex + n_vertices_++;
-    const PatchImage &image = piece_.seam && piece_.seam->has(u, v) ? *piece_.twin : *piece_.image;
-    put(place(how_.placement, place(image, p)), u, v, set_.xyz.data() + 3 * at, set_.uv.data() + 2 * at);
-  }
-
-  static void put(Vec3 placed, double u, double v, double *xyz, double *uv) {
-    xyz[0] = placed.x, xyz[1] = placed.y, xyz[2] = placed.z;
-    uv[0] = u, uv[1] = v;
-  }
-
-  // All parts of a bilinear quad at one level have the same flatness. So recursive halving would end in equal parts,
-  // and they are made in one go.
-  void place_vertices_of_quad(std::size_t i, std::size_t j, int level) {
-    const int n = 1 << level;
-    const Quad quad = quad_of(grid_, i, j);
-    const auto displacement = [&](std::size_t di, std::size_t dj) {
-      return grid_.displacements[(j + dj) * grid_.u.size() + i + di];
-    };
-    const double u0 = grid_.u[i], u1 = grid_.u[i + 1], v0 = grid_.v[j], v1 = grid_.v[j + 1];
-    const PatchImage image = *piece_.image;
-    const Placement placement = how_.placement;
-    const bool is_simple = !motion_ && !piece_.seam;
-    const std::int64_t first = piece_.first_vertex + n_vertices_;
-    double *xyz = set_.xyz.data() + 3 * first, *uv = set_.uv.data() + 2 * first;
-    const double step = 1.0 / n;  // a power of two
-    for (int row = 0; row <= n; ++row) {
-      const double t = row * step, v = (1 - t) * v0 + t * v1;
-      for (int column = 0; column <= n; ++column, xyz += 3, uv += 2) {
-        const double s = column * step, u = (1 - s) * u0 + s * u1;
-        const Vec3 p = quad.at(s, t);
-        if (is_simple) {
-          put(place(placement, place(image, p)), u, v, xyz, uv);
-          continue;
-        }
-        add_velocity(p, [&] {
-          return Quad{displacement(0, 0), displacement(1, 0), displacement(1, 1), displacement(0, 1)}.at(s, t);
-        });
-        add_vertex(p, u, v);
-      }
-    }
-    if (is_simple) n_vertices_ += std::int64_t{1} * (n + 1) * (n + 1);
-  }
-
   // Adds the quads of a quad that is subdivided to a level, whose vertices begin with `first`.
   void add_quads(std::int64_t first, int level) {
     const int n = 1 << level;
@@ -264,7 +276,6 @@ class PieceBuilder {
   const Triangulation &how_;
   const ImageMotion *motion_;
   TriangleSet &set_;
-  std::int64_t n_vertices_ = 0;
   Vector<std::int32_t> first_of_quad_;
 };
 
@@ -369,10 +380,13 @@ Pieces make_pieces(const PatchSet &set, const Triangulation &how, const Vector<L
   return pieces;
 }
 
-// Calls work(builder) for the builder of every piece.
+// Places the vertices of every piece, then calls work(builder, i) for the builder of piece i.
 template <class Work>
-void for_each_piece(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, Pieces &pieces,
-                    TriangleSet &triangles, const Work &work) {
+void place_pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, Pieces &pieces,
+                  TriangleSet &triangles, const Work &work) {
+  Vector<std::optional<PatchVertices>> of_patches(grids.size());
+  parallel_for(view(grids).size(), how.n_threads,
+               [&](std::int64_t i, int) { view(of_patches)[i].emplace(view(grids)[i]); });
   parallel_for(view(pieces.all).size(), how.n_threads, [&](std::int64_t i, int) {
     Piece &piece = view(pieces.all)[i];
     std::optional<ImageMotion> image_motion;
@@ -380,7 +394,8 @@ void for_each_piece(const PatchSet &set, const Triangulation &how, const Vector<
       image_motion.emplace(*piece.image, image_before(piece, grids, set, how.motion->patches_before), how.placement,
                            *how.motion);
     PieceBuilder builder(piece, how, image_motion ? &*image_motion : nullptr, triangles);
-    work(builder);
+    builder.place_vertices(*view(of_patches)[piece.levelled - grids.data()]);
+    work(builder, i);
   });
 }
 
@@ -391,23 +406,23 @@ double error_bound_of(const PatchSet &set, const Triangulation &how, const Vecto
 }
 
 // Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
-// there are none. Writes the triangles that were left out by a plan where they are wanted.
+// there are none. Writes the triangles that were left out by a plan, and the end of each piece, where they are wanted.
 Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
-                          TriangleSet &triangles, Vector<LeftOut> *left_out = nullptr) {
+                          TriangleSet &triangles, Connectivity *made = nullptr) {
   Pieces pieces = make_pieces(set, how, grids);
   triangles.connectivity = 0;
   make_room(pieces.n_vertices, pieces.n_triangles, how.motion != nullptr, triangles);
-  for_each_piece(set, how, grids, pieces, triangles, [](PieceBuilder &builder) {
-    builder.place_vertices();
-    builder.add_triangles();
-  });
+  place_pieces(set, how, grids, pieces, triangles, [](PieceBuilder &builder, std::int64_t) { builder.add_triangles(); });
   Vector<std::size_t> vanished = vanished_patches(pieces.all, grids);
   if (!vanished.empty()) return vanished;
   close_gaps(pieces.all, how.plan != nullptr, triangles);
   triangles.error_bound = error_bound_of(set, how, grids);
-  if (left_out)
-    for (const Piece &piece : pieces.all)
-      left_out->insert(left_out->end(), piece.left_out.begin(), piece.left_out.end());
+  if (made)
+    for (const Piece &piece : pieces.all) {
+      made->left_out.insert(made->left_out.end(), piece.left_out.begin(), piece.left_out.end());
+      const std::int64_t first = made->end_of_piece.empty() ? 0 : made->end_of_piece.back();
+      made->end_of_piece.push_back(first + piece.n_triangles);
+    }
   return vanished;
 }
 
@@ -436,13 +451,24 @@ bool place(const PatchSet &set, const Triangulation &how, const Vector<LevelledG
   resize(triangles.xyz, 3 * pieces.n_vertices);
   resize(triangles.uv, 2 * pieces.n_vertices);
   resize(triangles.velocity, how.motion ? 3 * pieces.n_vertices : 0);
-  for_each_piece(set, how, grids, pieces, triangles, [](PieceBuilder &builder) { builder.place_vertices(); });
+  // Images of a patch are congruent, so the triangles of the first one are enough, with a margin for rounding. An image with a
+  // seam has points of another.
+  std::atomic<bool> all_have_area{true};
+  place_pieces(set, how, grids, pieces, triangles, [&](PieceBuilder &, std::int64_t i) {
+    const Piece &piece = view(pieces.all)[i];
+    if (i > 0 && view(pieces.all)[i - 1].levelled == piece.levelled && !piece.seam) return;
+    const Range of_piece{i == 0 ? 0 : view(planned.end_of_piece)[i - 1], view(planned.end_of_piece)[i]};
+    const Patch &patch = set.patches[static_cast<std::size_t>(piece.levelled - grids.data())];
+    const double rounding = rounding_of_places(piece.levelled->grid, patch, how.placement);
+    if (!have_area(triangles.xyz.data(), planned.vertex_id, of_piece, 16 * rounding))
+      all_have_area.store(false, std::memory_order_relaxed);
+  });
   take_connectivity(planned, how.flip_normals, triangles);
   for (const LeftOut &triangle : planned.left_out)
     if (!has_zero_area(triangles.vertex(triangle.corner), triangles.vertex(triangle.a), triangles.vertex(triangle.b)) ||
         is_missed(triangles, triangle))
       return false;
-  if (!have_area(triangles, how.n_threads)) return false;
+  if (!all_have_area.load(std::memory_order_relaxed) && !have_area(triangles)) return false;
   triangles.error_bound = error_bound_of(set, how, grids);
   return true;
 }
@@ -567,7 +593,7 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
     const Vector<std::size_t> vanished = vanished_anywhere(states, how, triangles);
     if (vanished.empty()) {
       Connectivity &made = plan.connectivity;
-      build(middle, how, make_levelled_grids(middle, how, {}), triangles, &made.left_out);
+      build(middle, how, make_levelled_grids(middle, how, {}), triangles, &made);
       group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), made.grouping);
       made.vertex_id = std::move(triangles.vertex_id);
       made.triangle_id = std::move(triangles.triangle_id);

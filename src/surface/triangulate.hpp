@@ -28,6 +28,7 @@ struct Connectivity {
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
+  Vector<std::int64_t> end_of_piece;  // behind the triangles of each image of each patch
   std::uint64_t number = 0;  // of the plan
 };
 

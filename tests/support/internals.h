@@ -127,8 +127,12 @@ void kernels_find_sides(int set, const double *points, const double *on, const d
 /* Measures n triangles, up to 8: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
  * the second corner. */
 void kernels_measure_triangles(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double *measures);
-/* Returns 0 if one of n triangles, up to 8, may have no area. */
-int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n);
+/* Places n points (3, n) by two maps, each given by the columns of its matrix and an offset (3, 4), with a scale before the second
+ * offset. */
+void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
+                          const double *points, double *placed);
+/* Returns 0 if one of n triangles, up to 8, may have no area, or none after its corners move by up to an eighth of `shift`. */
+int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
 /* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
 typedef struct kernel_group kernel_group;

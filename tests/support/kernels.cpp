@@ -139,8 +139,21 @@ void kernels_frame_group(int set, const double *centre, double scale, const doub
   std::memcpy(framed, of_group.xyz, sizeof of_group.xyz);
 }
 
-int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n) {
-  return of(set).have_area(vertices, vertex_id, n);
+void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
+                          const double *points, double *placed) {
+  PlacedBy by{};
+  by.scale = scale;
+  for (int k = 0; k < 3; ++k) {
+    std::copy_n(first + 3 * k, 3, by.of_image[k]);
+    std::copy_n(second + 3 * k, 3, by.rotation[k]);
+  }
+  std::copy_n(first + 9, 3, by.offset_of_image);
+  std::copy_n(second + 9, 3, by.translation);
+  of(set).place_points(by, points, n, placed);
+}
+
+int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift) {
+  return of(set).have_area(vertices, vertex_id, n, shift);
 }
 
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
