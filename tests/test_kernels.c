@@ -513,15 +513,22 @@ static void corners_are_bounded_and_framed(void **state) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     for (int trial = 0; trial < 2000; ++trial) {
-      static double corners[9 * most];
+      static double vertices[3 * most], corners[9 * most + 1];
+      static int64_t id[3 * most];
       const int64_t n = 1 + (int64_t)(random_bits(&rng) % most);
       double lower[3], upper[3], least[3] = {INFINITY, INFINITY, INFINITY},
                                  greatest[3] = {-INFINITY, -INFINITY, -INFINITY};
+      for (int64_t i = 0; i < 3 * most; ++i) {
+        vertices[i] = random_between(&rng, -1, 1) * power_of_ten(-3, 3);
+        id[i] = (int64_t)(random_bits(&rng) % most);
+      }
+      corners[9 * n] = 17;
+      kernels_take_corners(set, vertices, id, n, corners, lower, upper);
       for (int64_t i = 0; i < 9 * n; ++i) {
-        corners[i] = random_between(&rng, -1, 1) * power_of_ten(-3, 3);
+        CHECK_SAME(corners[i], vertices[3 * id[i / 3] + i % 3]);
         least[i % 3] = fmin(least[i % 3], corners[i]), greatest[i % 3] = fmax(greatest[i % 3], corners[i]);
       }
-      kernels_bound_corners(set, n, corners, lower, upper);
+      CHECK_SAME(corners[9 * n], 17.0);
       for (int c = 0; c < 3; ++c) {
         CHECK_SAME(lower[c], least[c]);
         CHECK_SAME(upper[c], greatest[c]);

@@ -175,33 +175,24 @@ void find_sides(const PointsAndTriangles &pairs, const PointsOnTriangles &locate
     side[lane] = static_cast<int32_t>(above >> lane & 1) - static_cast<int32_t>(below >> lane & 1);
 }
 
-void bound_corners(const double *corners, int64_t n, double *lower, double *upper) {
-  // Eight triangles have nine times eight numbers. Lane i of every third eight has the same coordinate.
-  Doubles least_of[3], greatest_of[3];
-  for (int k = 0; k < 3; ++k)
-    least_of[k] = Doubles::all(__builtin_inf()), greatest_of[k] = Doubles::all(-__builtin_inf());
-  int64_t i = 0;
-  for (; i + Doubles::n <= n; i += Doubles::n)
-    for (int k = 0; k < 9; k += 3)
-#pragma GCC unroll 3
-      for (int j = 0; j < 3; ++j) {
-        const Doubles x = Doubles::load_unaligned(corners + 9 * i + (k + j) * Doubles::n);
-        least_of[j] = least(x, least_of[j]);
-        greatest_of[j] = greatest(x, greatest_of[j]);
-      }
-  for (int c = 0; c < 3; ++c) lower[c] = upper[c] = corners[c];
-  const auto add = [&](int c, double least_x, double greatest_x) RIIS_LAMBDA {
-    lower[c] = least_x < lower[c] ? least_x : lower[c];
-    upper[c] = greatest_x > upper[c] ? greatest_x : upper[c];
+// One point in a register, with a lane to spare.
+typedef double Point __attribute__((vector_size(32)));
+
+void take_corners(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
+                  double *upper) {
+  Point least_of = Point{} + __builtin_inf(), greatest_of = -least_of;
+  const auto take = [&](int64_t i, int64_t size) RIIS_LAMBDA {
+    const double *const from = vertices + 3 * vertex_id[i];
+    // The vertex may be the last one, so nothing behind it is read.
+    const Point p = {from[0], from[1], from[2], 0};
+    __builtin_memcpy(corners + 3 * i, &p, static_cast<__SIZE_TYPE__>(size));
+    least_of = p < least_of ? p : least_of;
+    greatest_of = greatest_of < p ? p : greatest_of;
   };
-  for (int k = 0; k < 3; ++k) {
-    alignas(64) double from[Doubles::n], to[Doubles::n];
-    least_of[k].store(from);
-    greatest_of[k].store(to);
-    for (int lane = 0; lane < Doubles::n; ++lane) add((k * Doubles::n + lane) % 3, from[lane], to[lane]);
-  }
-  for (; i < n; ++i)
-    for (int c = 0; c < 9; ++c) add(c % 3, corners[9 * i + c], corners[9 * i + c]);
+  // The spare lane goes where the next corner will be.
+  for (int64_t i = 0; i + 1 < 3 * n; ++i) take(i, sizeof(Point));
+  take(3 * n - 1, 3 * sizeof *corners);
+  for (int c = 0; c < 3; ++c) lower[c] = least_of[c], upper[c] = greatest_of[c];
 }
 
 // The corners of up to eight triangles, given by the ids of vertices. Lanes without a triangle repeat the first.
@@ -217,9 +208,6 @@ RIIS_INLINE Corners corners_by_id(const double *vertices, const int64_t *vertex_
   };
   return {vertex(0), vertex(1), vertex(2)};
 }
-
-// One point in a register, with a lane to spare.
-typedef double Point __attribute__((vector_size(32)));
 
 void place_points(const PlacedBy &by, const double *points, int64_t n, double *placed) {
   Point columns[8];
@@ -330,42 +318,42 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-RIIS_INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-RIIS_INLINE bool normalize(double *a) {
-  const double length = __builtin_sqrt(dot(a, a));
-  if (!(length > 1e-12)) return false;
-  const double inverse = 1 / length;
-  for (int i = 0; i < 3; ++i) a[i] *= inverse;
-  return true;
+// Makes the length 1. Returns where there is one.
+RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
+  const Doubles length = root(dot(a, a));
+  const Doubles::Mask has_one = length > Doubles::all(1e-12);
+  a = choose(has_one, (Doubles::all(1) / length) * a, a);
+  return has_one;
 }
 
-// Chooses unit vectors across the triangles, along their first edge, and across both. Any three at right angles are right; these
-// make a small box. `across` is the sum of the triangles' normals, each as long as twice its area.
-RIIS_INLINE void choose_axes(double (&across)[3], const GroupCorners &as_given, float (*axis)[3]) {
+struct Axes {
+  alignas(64) double of[3][3][Doubles::n];
+};
+
+// Chooses unit vectors across the triangles of eight groups, along their first edges, and across both. Any three at right angles are
+// right; these make a small box. `across` is the sum of the triangles' normals, each as long as twice its area.
+RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
+  const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // The largest component is the unit, so that the squares for small triangles do not vanish.
-  double largest = 0;
-  for (int i = 0; i < 3; ++i) largest = __builtin_fmax(largest, __builtin_fabs(across[i]));
-  const double inverse = largest > 0 ? 1 / largest : 0;
-  for (int i = 0; i < 3; ++i) across[i] = inverse > 0 && inverse < __builtin_inf() ? across[i] * inverse : i == 2;
+  const Doubles largest = greatest(greatest(magnitude(across.x), magnitude(across.y)), magnitude(across.z));
+  const Doubles inverse = one / largest;
+  across = choose(inverse < Doubles::all(__builtin_inf()), inverse * across, {zero, zero, one});
   normalize(across);
-  double along[3];
-  for (int i = 0; i < 3; ++i) along[i] = as_given.xyz[3 + i][0] - as_given.xyz[i][0];
-  const auto take_across_away = [&] {
-    const double share = dot(along, across);
-    for (int i = 0; i < 3; ++i) along[i] -= share * across[i];
-    return normalize(along);
-  };
-  if (!take_across_away()) {
-    for (int i = 0; i < 3; ++i) along[i] = i == (__builtin_fabs(across[0]) < 0.6 ? 0 : 1);
-    take_across_away();
+  const auto take_across_away = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, across) * across; };
+  along = take_across_away(along);
+  const Doubles::Mask has_edge = normalize(along);
+  const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
+  along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
+  // Removes the rest that rounding left, which is large for an edge nearly across the triangles.
+  for (int i = 0; i < 2; ++i) {
+    along = take_across_away(along);
+    normalize(along);
   }
-  take_across_away();  // removes the rest that rounding left, which is large for an edge nearly across the triangles
+  const Doubles3 axis[3] = {across, along, cross(across, along)};
   for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    axis[0][i] = static_cast<float>(across[i]);
-    axis[1][i] = static_cast<float>(along[i]);
-    axis[2][i] = static_cast<float>(across[j] * along[k] - across[k] * along[j]);
+    axis[i].x.store(axes.of[i][0]);
+    axis[i].y.store(axes.of[i][1]);
+    axis[i].z.store(axes.of[i][2]);
   }
 }
 
@@ -415,9 +403,10 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
   for (int i = 0; i < 3; ++i) bounds.corner[i] = rounded[3 * k + i][lane];
 }
 
-void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds) {
+// Makes the frames of a group's triangles, rounds the corners, and returns the sum of the normals, each as long as twice the area.
+RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
+                             float (&rounded)[9][triangles_per_group], double (&normal)[3]) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
-  alignas(64) float rounded[9][triangles_per_group];
   Doubles3 sum = {zero, zero, zero};
   for (int half = 0; half < halves; ++half) {
     const int from = half * Doubles::n;
@@ -459,20 +448,46 @@ void make_group(const GroupCorners &corners, TriangleGroup &group, GroupBounds &
     put(along_bc.unit.x, group.bc_e + from);
     put(along_bc.unit.y, group.bc_f + from);
   }
-  double normal[3] = {sum_of(sum.x), sum_of(sum.y), sum_of(sum.z)};
-  choose_axes(normal, corners, bounds.axis);
-  bound_group(rounded, bounds);
+  normal[0] = sum_of(sum.x), normal[1] = sum_of(sum.y), normal[2] = sum_of(sum.z);
+}
+
+RIIS_INLINE float longest_edge(const TriangleGroup &group) {
   const Floats longest = greatest(greatest(Floats::load(group.ab), Floats::load(group.ac)), Floats::load(group.bc));
   const Floats opposite_of_longest = Floats::all(0) - longest;
   const Floats four[4] = {opposite_of_longest, opposite_of_longest, opposite_of_longest, opposite_of_longest};
   float longest_lane[4];
   least_lanes(four, longest_lane);
-  bounds.longest_edge = -round_down(longest_lane[0]);
+  return -round_down(longest_lane[0]);
+}
+
+void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds) {
+  alignas(64) float rounded[groups_at_once][9][triangles_per_group];
+  alignas(64) double across[3][groups_at_once] = {}, along[3][groups_at_once] = {};
+  for (int32_t g = 0; g < n; ++g) {
+    double normal[3];
+    make_frames(corners[g], groups[g], rounded[g], normal);
+    for (int i = 0; i < 3; ++i) {
+      across[i][g] = normal[i];
+      along[i][g] = corners[g].xyz[3 + i][0] - corners[g].xyz[i][0];
+    }
+  }
+  const auto vectors = [](const double(&from)[3][groups_at_once]) RIIS_LAMBDA {
+    return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
+  };
+  Axes axes;
+  choose_axes(vectors(across), vectors(along), axes);
+  for (int32_t g = 0; g < n; ++g) {
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) bounds[g].axis[k][i] = static_cast<float>(axes.of[k][i][g]);
+    bound_group(rounded[g], bounds[g]);
+    bounds[g].longest_edge = longest_edge(groups[g]);
+  }
 }
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {
-    bound_corners, have_area, place_points, measure_triangles, frame_group, make_group, decide, locate, mix_at_vertices, find_sides};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {take_corners,    have_area,   place_points, measure_triangles,
+                                                        frame_group,     make_groups, decide,       locate,
+                                                        mix_at_vertices, find_sides};
 
 }  // namespace riis

@@ -13,6 +13,7 @@
 namespace riis {
 
 constexpr int triangles_per_group = 16, nodes_per_leaf = 32, leaves_per_cluster = 16;
+constexpr int groups_at_once = 8;
 constexpr int nodes_per_cluster = nodes_per_leaf * leaves_per_cluster;
 
 // Up to 16 neighbouring triangles, each in a frame of its own: the first corner a, and unit vectors e along a-b, f in its plane,
@@ -125,8 +126,10 @@ struct FilterKernels {
 };
 
 struct DecisionKernels {
-  // Finds the least and the greatest coordinates of n triangles (9 doubles each), n > 0.
-  void (*bound_corners)(const double *corners, int64_t n, double *lower, double *upper);
+  // Copies the corners of n triangles (9 doubles each), given by the ids of vertices, and finds their least and greatest
+  // coordinates, n > 0.
+  void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
+                       double *upper);
   // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area, or may have none after its
   // corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 and
   // shift^2 (|ab|^2 + |ac|^2), both together.
@@ -138,8 +141,8 @@ struct DecisionKernels {
   // Takes the corners of up to 16 triangles, given by index, to the surface's frame.
   void (*frame_group)(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                       GroupCorners &framed);
-  // Makes the frames and the bounds of triangles from their corners in the surface's frame.
-  void (*make_group)(const GroupCorners &corners, TriangleGroup &group, GroupBounds &bounds);
+  // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame.
+  void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
   // Computes squares of the distances of pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.
   // Writes up to n + 7 squares.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "base/array_view.hpp"
@@ -87,24 +86,15 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
   const std::int64_t n = set.n_triangles();
   resize(corners, 9 * n);
-  constexpr std::int64_t triangles_per_block = 4096, triangles_at_once = 128;
+  constexpr std::int64_t triangles_per_block = 4096;
   Vector<Bounds> blocks;
   resize(blocks, (n + triangles_per_block - 1) / triangles_per_block);
   const Kernels &simd = kernels(best_instruction_set());
-  const double *const xyz = set.xyz.data();
-  parallel_for_ranges(n, triangles_per_block, n_threads, [&, xyz](const Range &block, int) {
-    Bounds of_block;
-    for (std::int64_t first = block.begin; first < block.end; first += triangles_at_once) {
-      const std::int64_t end = std::min(block.end, first + triangles_at_once);
-      double *to = corners.data() + 9 * first;
-      const std::int64_t *id = set.vertex_id.data() + 3 * first;
-      const std::int64_t *const last_id = id + 3 * (end - first);
-      for (; id != last_id; ++id, to += 3) std::memcpy(to, xyz + 3 * *id, 3 * sizeof *to);
-      double lower[3], upper[3];
-      simd.bound_corners(corners.data() + 9 * first, end - first, lower, upper);
-      of_block.add(Bounds{{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}});
-    }
-    view(blocks)[block.begin / triangles_per_block] = of_block;
+  parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &block, int) {
+    double lower[3], upper[3];
+    simd.take_corners(set.xyz.data(), set.vertex_id.data() + 3 * block.begin, block.end - block.begin,
+                      corners.data() + 9 * block.begin, lower, upper);
+    view(blocks)[block.begin / triangles_per_block] = {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
   });
   of_all = {};
   for (const Bounds &block : blocks) of_all.add(block);
@@ -152,14 +142,18 @@ void TriangleGroups::enclose(int n_threads) {
   const SurfaceFrame surface_frame{{frame.centre.x, frame.centre.y, frame.centre.z}, frame.scale};
   constexpr std::int64_t groups_per_block = 16;
   parallel_for_ranges(view(end).size(), groups_per_block, n_threads, [&](const Range &range, int) {
-    for (std::int64_t g = range.begin; g < range.end; ++g) {
-      const std::int32_t first = g == 0 ? 0 : view(end)[g - 1];
-      GroupBounds &of_group = view(bounds)[g];
-      of_group.n = view(end)[g] - first;
-      std::copy_n(order.begin() + first, of_group.n, of_group.triangle);
-      GroupCorners framed;
-      simd.frame_group(surface_frame, corners.data(), of_group.triangle, of_group.n, framed);
-      simd.make_group(framed, view(groups)[g], of_group);
+    GroupCorners framed[groups_at_once];
+    for (std::int64_t first = range.begin; first < range.end; first += groups_at_once) {
+      const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(groups_at_once, range.end - first));
+      for (std::int32_t k = 0; k < n; ++k) {
+        const std::int64_t g = first + k;
+        const std::int32_t begin = g == 0 ? 0 : view(end)[g - 1];
+        GroupBounds &of_group = view(bounds)[g];
+        of_group.n = view(end)[g] - begin;
+        std::copy_n(order.begin() + begin, of_group.n, of_group.triangle);
+        simd.frame_group(surface_frame, corners.data(), of_group.triangle, of_group.n, framed[k]);
+      }
+      simd.make_groups(framed, n, &view(groups)[first], &view(bounds)[first]);
     }
   });
 }

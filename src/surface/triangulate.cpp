@@ -43,7 +43,8 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
 
 // Returns whether triangles have an area (has_zero_area), also after their corners move by up to an eighth of `shift`. May
 // return false if a corner moves.
-bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles, double shift) {
+bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
+               double shift) {
   const Kernels &simd = kernels(best_instruction_set());
   for (std::int64_t i = triangles.begin; i < triangles.end; i += pairs_at_once) {
     const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(pairs_at_once, triangles.end - i));
@@ -412,7 +413,8 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   Pieces pieces = make_pieces(set, how, grids);
   triangles.connectivity = 0;
   make_room(pieces.n_vertices, pieces.n_triangles, how.motion != nullptr, triangles);
-  place_pieces(set, how, grids, pieces, triangles, [](PieceBuilder &builder, std::int64_t) { builder.add_triangles(); });
+  place_pieces(set, how, grids, pieces, triangles,
+               [](PieceBuilder &builder, std::int64_t) { builder.add_triangles(); });
   Vector<std::size_t> vanished = vanished_patches(pieces.all, grids);
   if (!vanished.empty()) return vanished;
   close_gaps(pieces.all, how.plan != nullptr, triangles);

@@ -114,8 +114,9 @@ void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *tri
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 
-/* Bounds n triangles (9 doubles each). */
-void kernels_bound_corners(int set, int64_t n, const double *corners, double *lower, double *upper);
+/* Takes the corners (9, n) of triangles given by the ids of vertices (3, n), and bounds them. */
+void kernels_take_corners(int set, const double *vertices, const int64_t *vertex_id, int64_t n, double *corners,
+                          double *lower, double *upper);
 /* Takes n of them, up to 16, to a frame: framed(16, 9). */
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
                          int32_t n, double *framed);

@@ -128,8 +128,9 @@ void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *tri
   }
 }
 
-void kernels_bound_corners(int set, int64_t n, const double *corners, double *lower, double *upper) {
-  of(set).bound_corners(corners, n, lower, upper);
+void kernels_take_corners(int set, const double *vertices, const int64_t *vertex_id, int64_t n, double *corners,
+                          double *lower, double *upper) {
+  of(set).take_corners(vertices, vertex_id, n, corners, lower, upper);
 }
 
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
@@ -204,7 +205,7 @@ kernel_group *kernels_group(int set, int n, const double *corners) {
   GroupCorners of_group;
   for (int i = 0; i < triangles_per_group; ++i)
     for (int c = 0; c < 9; ++c) of_group.xyz[c][i] = corners[9 * (i < n ? i : 0) + c];
-  of(set).make_group(of_group, group->group, group->bounds);
+  of(set).make_groups(&of_group, 1, &group->group, &group->bounds);
   return group;
 }
 
