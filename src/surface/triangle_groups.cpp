@@ -151,6 +151,13 @@ void TriangleGroups::enclose(int n_threads) {
         GroupBounds &of_group = view(bounds)[g];
         of_group.n = view(end)[g] - begin;
         std::copy_n(order.begin() + begin, of_group.n, of_group.triangle);
+        // The corners of the next group's triangles lie apart, so they are requested ahead.
+        const std::int32_t next = g + 1 < range.end ? view(end)[g + 1] : view(end)[g];
+        for (std::int32_t i = view(end)[g]; i < next; ++i) {
+          const double *ahead = corners.data() + 9 * std::int64_t{view(order)[i]};
+          __builtin_prefetch(ahead);
+          __builtin_prefetch(ahead + 8);
+        }
         simd.frame_group(surface_frame, corners.data(), of_group.triangle, of_group.n, framed[k]);
       }
       simd.make_groups(framed, n, &view(groups)[first], &view(bounds)[first]);
