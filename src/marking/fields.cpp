@@ -172,16 +172,18 @@ class TriangleFields {
 };
 
 // Puts the numbers of each vertex that the fields need beside each other.
-void gather_at_vertices(const TriangleSet &set, std::int32_t fields, FieldScratch &scratch) {
+void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
   resize(scratch.at_vertices, set.n_vertices());
-  const double *velocity = set.velocity.data(), *uv = set.uv.data();
-  for (VertexNumbers &at : scratch.at_vertices) {
-    at = {};
-    if (has_velocity) std::copy_n(velocity, 3, at.number), velocity += 3;
-    if (has_uv) std::copy_n(uv, 2, at.number + uv_in_numbers), uv += 2;
-  }
+  constexpr std::int64_t vertices_per_block = 4096;
+  parallel_for_ranges(set.n_vertices(), vertices_per_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      VertexNumbers &at = view(scratch.at_vertices)[i] = {};
+      if (has_velocity) std::copy_n(set.velocity.data() + 3 * i, 3, at.number);
+      if (has_uv) std::copy_n(set.uv.data() + 2 * i, 2, at.number + uv_in_numbers);
+    }
+  });
 }
 
 // Writes the fields of a node whose distance is by sampling or minimisation. It finds the point once more.
@@ -240,8 +242,8 @@ bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_no
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
                  NodeFields &made) {
   made.resize(fields, list.size());
-  if (fields == 0) return;
-  gather_at_vertices(request.surface.triangles(), fields, scratch);
+  if (fields == 0 || list.size() == 0) return;
+  gather_at_vertices(request.surface.triangles(), fields, request.n_threads, scratch);
   const TriangleFields of_triangles(request, fields, list, scratch, made);
   const bool has_triangles = !request.surface.other_distance();
   constexpr std::int64_t nodes_per_block = 512;
