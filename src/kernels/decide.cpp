@@ -322,7 +322,7 @@ RIIS_INLINE double sum_of(Doubles x) {
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
   const Doubles length = root(dot(a, a));
   const Doubles::Mask has_one = length > Doubles::all(1e-12);
-  a = choose(has_one, (Doubles::all(1) / length) * a, a);
+  a = choose(has_one, (Doubles::all(1) / choose(has_one, length, Doubles::all(1))) * a, a);
   return has_one;
 }
 
@@ -330,14 +330,15 @@ struct Axes {
   alignas(64) double of[3][3][Doubles::n];
 };
 
-// Chooses unit vectors across the triangles of eight groups, along their first edges, and across both. Any three at right angles are
-// right; these make a small box. `across` is the sum of the triangles' normals, each as long as twice its area.
+// Chooses unit vectors across the triangles of eight groups, along their first edges, and across both. Any three at right angles
+// are right; these make a small box. `across` is the sum of the triangles' normals, each as long as twice its area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // The largest component is the unit, so that the squares for small triangles do not vanish.
   const Doubles largest = greatest(greatest(magnitude(across.x), magnitude(across.y)), magnitude(across.z));
-  const Doubles inverse = one / largest;
-  across = choose(inverse < Doubles::all(__builtin_inf()), inverse * across, {zero, zero, one});
+  const Doubles::Mask has_largest = largest > Doubles::all(1e-300);
+  const Doubles inverse = one / choose(has_largest, largest, one);
+  across = choose(has_largest, inverse * across, {zero, zero, one});
   normalize(across);
   const auto take_across_away = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, across) * across; };
   along = take_across_away(along);

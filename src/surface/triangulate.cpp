@@ -41,8 +41,8 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
   return !is_on_diagonal && std::max(diagonal, other) > min_edge;
 }
 
-// Returns whether triangles have an area (has_zero_area), also after their corners move by up to an eighth of `shift`. May
-// return false if a corner moves.
+// Returns false if one of these triangles may have no area (has_zero_area), or may have none after its corners move by up to an
+// eighth of `shift`.
 bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
                double shift) {
   const Kernels &simd = kernels(best_instruction_set());
@@ -406,8 +406,17 @@ double error_bound_of(const PatchSet &set, const Triangulation &how, const Vecto
   return (error_bound + set.deviation) * how.placement.scale;
 }
 
+// Returns whether two pieces are images of one patch that leave out the same triangles.
+bool have_same_triangles(const Piece &a, const Piece &b) {
+  const std::int64_t between = b.first_vertex - a.first_vertex;
+  return a.levelled == b.levelled && std::equal(a.left_out.begin(), a.left_out.end(), b.left_out.begin(),
+                                                b.left_out.end(), [&](const LeftOut &p, const LeftOut &q) {
+                                                  return q.corner - p.corner == between && q.a - p.a == between;
+                                                });
+}
+
 // Makes the triangles of these grids. Returns the patches of which triangles are missed; the triangles are complete if
-// there are none. Writes the triangles that were left out by a plan, and the end of each piece, where they are wanted.
+// there are none. Writes the triangles that were left out by a plan, and those of each image, where they are wanted.
 Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                           TriangleSet &triangles, Connectivity *made = nullptr) {
   Pieces pieces = make_pieces(set, how, grids);
@@ -422,8 +431,9 @@ Vector<std::size_t> build(const PatchSet &set, const Triangulation &how, const V
   if (made)
     for (const Piece &piece : pieces.all) {
       made->left_out.insert(made->left_out.end(), piece.left_out.begin(), piece.left_out.end());
-      const std::int64_t first = made->end_of_piece.empty() ? 0 : made->end_of_piece.back();
-      made->end_of_piece.push_back(first + piece.n_triangles);
+      const bool is_first = made->images.empty();
+      made->images.push_back({(is_first ? 0 : made->images.back().end) + piece.n_triangles,
+                              !is_first && have_same_triangles(*(&piece - 1), piece)});
     }
   return vanished;
 }
@@ -453,13 +463,13 @@ bool place(const PatchSet &set, const Triangulation &how, const Vector<LevelledG
   resize(triangles.xyz, 3 * pieces.n_vertices);
   resize(triangles.uv, 2 * pieces.n_vertices);
   resize(triangles.velocity, how.motion ? 3 * pieces.n_vertices : 0);
-  // Images of a patch are congruent, so the triangles of the first one are enough, with a margin for rounding. An image with a
-  // seam has points of another.
+  // Images of a patch are congruent. So the areas of one image are enough, with a margin for rounding, if the others have the same
+  // triangles. An image with a seam has points of another.
   std::atomic<bool> all_have_area{true};
   place_pieces(set, how, grids, pieces, triangles, [&](PieceBuilder &, std::int64_t i) {
     const Piece &piece = view(pieces.all)[i];
-    if (i > 0 && view(pieces.all)[i - 1].levelled == piece.levelled && !piece.seam) return;
-    const Range of_piece{i == 0 ? 0 : view(planned.end_of_piece)[i - 1], view(planned.end_of_piece)[i]};
+    if (view(planned.images)[i].is_as_before && !piece.seam) return;
+    const Range of_piece{i == 0 ? 0 : view(planned.images)[i - 1].end, view(planned.images)[i].end};
     const Patch &patch = set.patches[static_cast<std::size_t>(piece.levelled - grids.data())];
     const double rounding = rounding_of_places(piece.levelled->grid, patch, how.placement);
     if (!have_area(triangles.xyz.data(), planned.vertex_id, of_piece, 16 * rounding))

@@ -28,7 +28,12 @@ struct Connectivity {
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  Vector<std::int64_t> end_of_piece;  // behind the triangles of each image of each patch
+  // Of each image of each patch: the end of its triangles, and whether they are those of the image before.
+  struct OfImage {
+    std::int64_t end;
+    bool is_as_before;
+  };
+  Vector<OfImage> images;
   std::uint64_t number = 0;  // of the plan
 };
 
