@@ -411,7 +411,7 @@ class Restart(Files):
         k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
         values = {check.K_NAME: k, check.KU_NAME: numpy.stack([k, k, k], axis=1),
                   "p": self.random.random(N), "U": self.random.random((N, 3))}
-        cases = [self.folder / name for name in ("beat", "beat-restart", "none", "none-restart")]
+        cases = [self.folder / name for name in ("beat", "beat-restart", "flow", "flow-restart")]
         for case in cases:
             parts = [numpy.arange(0, N, 2), numpy.arange(1, N, 2)]
             for folder, ids in zip(self.parts(case, parts), parts):
@@ -446,7 +446,7 @@ class Restart(Files):
         def change(values):
             values[3] += 1e-5
         self.refused("p of ", 1, "0.22", "p", change)
-        self.refused("none-restart at 0.24 differs by less than 1e-6 of the largest: 1.0e-05", 3, "0.24", "U", change)
+        self.refused("flow-restart at 0.24 differs by less than 1e-6 of the largest: 1.0e-05", 3, "0.24", "U", change)
 
     def test_a_small_difference_of_the_flow(self):
         def spoil(cases):
@@ -474,7 +474,7 @@ class Restart(Files):
         self.stopped("beat at 0.22 is not 0 in every cell", check.restart, *self.restart(spoil))
 
     def test_a_missing_field_or_time(self):
-        self.stopped("none/processor0/0.24/p: No such file or directory", check.restart,
+        self.stopped("flow/processor0/0.24/p: No such file or directory", check.restart,
                      *self.restart(lambda cases: (cases[2] / "processor0/0.24/p").unlink()))
         self.stopped("beat-restart has written two times after its start, not ['0.22']", check.restart,
                      *self.restart(lambda cases: shutil.rmtree(cases[1] / "processor0/0.24")))
