@@ -212,6 +212,20 @@ class Marks(Files):
         self.write(serial / "constant/polyMesh/owner", "FoamFile { }\n")
         self.stopped("polyMesh/owner has no note with nCells", check.marks, serial, other)
 
+    def test_files_of_another_kind(self):
+        for path, words in ((f"processor1/0.003/{check.K_NAME}", "has no internalField"),
+                            ("processor1/constant/polyMesh/cellProcAddressing", "has no list of labels")):
+            serial, other = self.cases()
+            self.write(other / path, "FoamFile { format ascii; }\n")
+            with self.subTest(path=path):
+                self.stopped(f"two/{path} {words}", check.marks, serial, other)
+
+    def test_a_run_without_steps(self):
+        serial, other = self.cases()
+        for time in self.TIMES:
+            shutil.rmtree(serial / time)
+        self.stopped("serial has no written time", check.marks, serial, other)
+
     def test_nan_needs_a_uniform_pressure(self):
         case = self.case("serial", [numpy.arange(N)], False)
         pressure, owner = self.folder / "p", case / "constant/polyMesh/owner"
