@@ -487,6 +487,14 @@ class Restart(Files):
                     self.write(case / f"processor{rank}/0.22" / check.K_NAME, text_of(numpy.zeros(N // 2), True))
         self.stopped("beat at 0.22 is not 0 in every cell", check.restart, *self.restart(spoil))
 
+    def test_a_restart_with_another_mesh(self):
+        def spoil(cases):
+            self.parts(cases[1], [numpy.arange(0, N, 2), numpy.arange(1, N - 2, 2)])
+            for time in self.TIMES:
+                path = cases[1] / "processor1" / time / check.K_NAME
+                self.write(path, text_of(foam.field(path, N // 2)[:-1], True))
+        self.stopped("beat-restart have as many cells: 400 and 399", check.restart, *self.restart(spoil))
+
     def test_a_missing_field_or_time(self):
         self.stopped("flow/processor0/0.24/p: No such file or directory", check.restart,
                      *self.restart(lambda cases: (cases[2] / "processor0/0.24/p").unlink()))
