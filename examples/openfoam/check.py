@@ -78,6 +78,7 @@ def zones(closed, case, model):
     levels = 200
     k = foam.global_field(closed, foam.times(closed)[-1], K_NAME)
     n = len(k)
+    require((k >= 0).all() and (k > 0).any(), f"K of {closed} is at least 0, and not 0 in every cell")
     level = numpy.minimum((k / k.max() * levels).astype(int), levels - 1)
     head = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
     nu = 3.3e-6  # of case/constant/transportProperties

@@ -321,6 +321,39 @@ class Drops(Files):
         self.refused("closed has no file postProcessing/aorticValve/*/leaflets.vtk", path.unlink)
 
 
+class Zones(Files):
+    def zones(self, k, model="powerLaw"):
+        closed, case = self.folder / "closed", self.folder / model
+        self.parts(closed, [numpy.arange(N)])
+        self.write(closed / "0.01" / check.K_NAME, text_of(k, True))
+        for folder in ("constant/polyMesh", "system"):
+            (case / folder).mkdir(parents=True, exist_ok=True)
+        self.printed(check.zones, closed, case, model)
+        return [(case / name).read_text() for name in ("constant/polyMesh/cellZones", "system/fvOptions")]
+
+    def test_every_marked_cell_is_in_a_zone_with_its_resistance(self):
+        k = numpy.where(numpy.arange(N) < 150, 1e5 * self.random.random(N), 0)
+        for model, key, unit in (("powerLaw", r"C0 (\S+);", 1), ("DarcyForchheimer", r"d \((\S+) ", 3.3e-6)):
+            zones, options = self.zones(k, model)
+            given = numpy.zeros(N)
+            found = re.findall(r"(zone\d+) \{ type cellZone; cellLabels List<label> \d+\(([^)]*)\)", zones)
+            for name, cells in found:
+                entry = re.search(rf"^{name} .*", options, re.MULTILINE).group(0)
+                given[numpy.array(cells.split(), int)] += check.RHO * unit * float(re.search(key, entry).group(1))
+            with self.subTest(model=model):
+                self.assertEqual(sum(len(cells.split()) for _, cells in found), 150)
+                self.assertLess(abs(given - k).max(), k.max() / 200)
+
+    def test_bad_k(self):
+        k = numpy.where(numpy.arange(N) < 150, 1.0, 0.0)
+        for change in (0.0 * k, numpy.where(numpy.arange(N) == 399, -1.0, k)):
+            with self.assertRaisesRegex(SystemExit, "closed is at least 0, and not 0 in every cell"):
+                self.zones(change)
+        k[3] = numpy.nan
+        with self.assertRaisesRegex(SystemExit, "has values that are not finite, first in cell 3"):
+            self.zones(k)
+
+
 class Sizes(Files):
     def sizes(self, drops):
         cases = []
