@@ -179,7 +179,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
       points[j] = {Floats::all(xyz[0][lane]), Floats::all(xyz[1][lane]), Floats::all(xyz[2][lane])};
     }
     distances_to_group(group, points, margin, distances + i);
-    count_pairs(int64_t{n_together} * bounds.n);
+    count(&Counts::pairs, int64_t{n_together} * bounds.n);
   }
   float nearest[n];
   least_lanes(distances, nearest);
