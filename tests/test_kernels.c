@@ -637,6 +637,32 @@ static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
   assert_true(n_pairs_compared > 100000 && n_near > 5000 && n_cleared > 100);
 }
 
+/* --- The order of nodes ---------------------------------------------------------------------------------------------- */
+
+static void keys_are_ranked(void **state) {
+  (void)state;
+  enum { n_keys = 64 };
+  for (int trial = 0; trial < 5000; ++trial) {
+    int32_t key[n_keys], n_less[n_keys];
+    const int32_t n = (int32_t)(random_bits(&rng) % (n_keys + 1));
+    const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many are equal, or few */
+    for (int i = 0; i < n_keys; ++i)
+      key[i] = (int32_t)((int64_t)(random_bits(&rng) % n_values) - (trial % 2 ? 5 : INT64_C(1) << 31));
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      memset(n_less, 0x77, sizeof n_less);
+      kernels_rank(set, key, n, n_less);
+      for (int i = 0; i < n_keys; ++i) {
+        int32_t expected = 0;
+        for (int32_t k = 0; k < n; ++k) expected += key[k] < key[i];
+        if (n_less[i] != expected)
+          fail_msg("%s, trial %d: %d of %d keys are less than %d, not %d", kernels_name(set), trial, expected, n,
+                   key[i], n_less[i]);
+      }
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
@@ -647,6 +673,7 @@ int main(void) {
       cmocka_unit_test(corners_are_bounded_and_framed),
       cmocka_unit_test(triangles_without_area_are_noticed),
       cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
+      cmocka_unit_test(keys_are_ranked),
   };
   rng = random_start("test_kernels");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -63,6 +63,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
     Boxes &region = view(clusters.regions)[r];
     region = no_boxes();
     const Range of_region = clusters.clusters_of(r);
+    const std::int64_t end = std::min(clusters.leaves_of(of_region.end - 1).end * nodes_per_leaf, n_nodes);
     for (std::int64_t c = of_region.begin; c < of_region.end; ++c) {
       Boxes &cluster = view(clusters.clusters)[c];
       cluster = no_boxes();
@@ -71,6 +72,9 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
         Leaf &leaf = clusters.leaves.get()[l];
         double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
+        // The next leaf's nodes lie anywhere in the caller's memory. Those of the next region are another thread's.
+        for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i)
+          nodes.prefetch(node_of(i));
         NodeBox box;
         for (int i = 0; i < nodes_per_leaf; ++i) {
           const std::uint32_t node = node_of(std::min(first + i, last));

@@ -314,14 +314,38 @@ class NodeSorter {
     });
   }
 
+  // Sorts a short part by its longest axis, where counting in bins would take longer.
+  static void sort_whole(const Part &part, const Item *from, Item *to) {
+    const NodeBox box = box_of(from, part);
+    const int axis = box.longest_axis();
+    const float extent = box.upper[axis] - box.lower[axis];
+    // A key has the place along the axis in its upper bits. The number below makes all keys different.
+    constexpr std::int32_t most = (1 << 24) - 1;
+    float per_unit = extent > 0 ? static_cast<float>(most) / extent : 0;
+    if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
+    static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);
+    alignas(64) std::array<std::int32_t, keys_at_once> key{}, rank;
+    const auto n = static_cast<std::int32_t>(part.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+      const auto place = static_cast<std::int32_t>((from[part.begin + i].x[axis] - box.lower[axis]) * per_unit);
+      view(key)[i] = std::min(place, most) * keys_at_once + i;
+    }
+    kernels(best_instruction_set()).rank(key.data(), n, rank.data());
+    for (std::int32_t i = 0; i < n; ++i) to[part.begin + view(rank)[i]] = from[part.begin + i];
+  }
+
   // Sorts down to leaves, on one thread.
   void sort_alone(const Part &part, Item *at, Item *other) {
     if (part.size() <= nodes_per_leaf) {
       if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);
       return;
     }
-    OneBlock block(part);
-    sort_once(part, at, other, block);
+    if (part.size() <= keys_at_once)
+      sort_whole(part, at, other);
+    else {
+      OneBlock block(part);
+      sort_once(part, at, other, block);
+    }
     for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
   }
 
