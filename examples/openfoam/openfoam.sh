@@ -54,7 +54,7 @@ openfoam() {
   step "a heartbeat on 2 ranks, without it" openfoam_beat beat-still no
   of_check beat "$of_cases/beat" "$of_cases/beat-still" | tee "$of_out/beat.txt"
   step "restart in mid-cycle" openfoam_restart
-  of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/none" "$of_cases/none-restart" | tee "$of_out/restart.txt"
+  of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/beat-none" "$of_cases/beat-none-restart" | tee "$of_out/restart.txt"
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
   say "left: out/openfoam/beat.png, out/openfoam/velocity.png; for ParaView $of_cases/beat (after reconstructPar)"
 }
@@ -230,8 +230,8 @@ openfoam_beat() {
 openfoam_restart() {
   local before=0.16 time=0.2 end=0.24
   cp -r "$of_cases/beat" "$of_cases/beat-restart" && of_go_on beat-restart "$time" "$end" &&
-    cp -r "$of_cases/beat" "$of_cases/none" && rm "$of_cases/none/system/fvOptions" && of_go_on none "$before" "$end" &&
-    cp -r "$of_cases/none" "$of_cases/none-restart" && of_go_on none-restart "$time" "$end"
+    cp -r "$of_cases/beat" "$of_cases/beat-none" && rm "$of_cases/beat-none/system/fvOptions" && of_go_on beat-none "$before" "$end" &&
+    cp -r "$of_cases/beat-none" "$of_cases/beat-none-restart" && of_go_on beat-none-restart "$time" "$end"
 }
 
 # of_go_on NAME TIME END: runs a case on 2 ranks from a time that it has written.
