@@ -7,10 +7,8 @@
 #include "SHA1Digest.H"
 #include "dictionary.H"
 
-Foam::SHA1Digest Foam::dictionary::digest() const
-{
+Foam::SHA1Digest Foam::dictionary::digest() const {
   OStringStream text;
-  for (const entry& one : *this)
-    text << one;
+  for (const entry& one : *this) text << one;
   return SHA1(text.str()).digest();
 }
