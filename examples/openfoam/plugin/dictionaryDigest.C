@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The digest of a dictionary, for LD_PRELOAD. OpenFOAM asks for it before the first step of every function object. The 1912 of Debian
+// 13 ends there with 'error in IOstream "sha1"', because gcc 12 and later do not compile its stream OSHA1stream as it was meant. This
+// digest goes through a string instead. OpenFOAM compares digests only with others of the same run.
+#include "OStringStream.H"
+#include "SHA1.H"
+#include "SHA1Digest.H"
+#include "dictionary.H"
+
+Foam::SHA1Digest Foam::dictionary::digest() const {
+  OStringStream text;
+  for (const entry& one : *this) text << one;
+  return SHA1(text.str()).digest();
+}
