@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run openfoam, which reads this file: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. They use
-# its $build, $n_jobs, $packages, install_missing, python_of_packages, say and step.
+# its $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step.
 
 openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
   bzip2 xz-utils python3-numpy python3-matplotlib)
@@ -62,23 +62,15 @@ openfoam() {
 
 # Says why nothing runs if the distribution lacks the package.
 openfoam_has_package() {
-  local as_root=()
   if ! command -v dpkg-query >/dev/null; then
     say "OpenFOAM is left out: this is no Debian system, and the plug-in is built for Debian's package openfoam"
     return 1
   fi
-  [[ $(dpkg-query -W -f='${db:Status-Status}' openfoam 2>/dev/null) != installed ]] || return 0
-  if ! openfoam_candidate; then
-    ((EUID == 0)) || as_root=(sudo)
-    "${as_root[@]}" apt-get -qq update || true
-  fi
-  openfoam_candidate || {
+  is_on_offer openfoam || {
     say "OpenFOAM is left out: this distribution has no package openfoam"
     return 1
   }
 }
-
-openfoam_candidate() { apt-cache policy openfoam | grep -q 'Candidate: [0-9]'; }
 
 # Debian's packages have no headers, so its source package gives them: OPENFOAM_SOURCE. Says why nothing runs if it cannot be had.
 openfoam_has_source() {
