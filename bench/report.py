@@ -310,6 +310,12 @@ def design_values(data):
     }
 
 
+def few_processors(data):
+    """The number of the machine's processors if these are too few for 4 to 16 threads."""
+    n = data.machine["machine"]["processors"] if data.machine else 0
+    return str(n) if 0 < n < 4 else ""
+
+
 def marking_values(data):
     if not data.marking:
         return None
@@ -328,6 +334,7 @@ def marking_values(data):
         "thick_share": f"{100 * counts['marked_with_0.3'] / counts['nodes']:.1f}",
         "pair_ns": f"{pair_ns(data):.2f}",
         "marked_ns": grouped(round(1e6 * data.marking["times"]["step, 1 thread"]["least_ms"] / counts["marked"])),
+        "few_processors": few_processors(data),
         "are_a_million": counts["nodes"] > 9e5,
         "times_table": table(["what", "least, ms", "median, ms", "turns"], rows),
         "bars_table": table(["bar", "value", "wanted", ""], bars),
