@@ -4,8 +4,6 @@
 // of nodes.
 #include <riis/riis.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
@@ -14,26 +12,11 @@
 
 #include "cylinder.hpp"
 #include "memory.hpp"
+#include "shortest.hpp"
 
 namespace {
 
 using namespace bench;
-
-// Returns the seconds of the shortest call. Makes at least five calls, for at least a second.
-double shortest(
-    const std::function<void()> &call, const std::function<void()> &before = [] {}) {
-  using Clock = std::chrono::steady_clock;
-  double least = 1e300, sum = 0;
-  for (int n = 0; n < 5 || (sum < 1 && n < 1000); ++n) {
-    before();
-    const Clock::time_point start = Clock::now();
-    call();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    least = std::min(least, seconds);
-    sum += seconds;
-  }
-  return least;
-}
 
 std::string time_text(double seconds) {
   char text[32];

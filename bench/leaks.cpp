@@ -8,16 +8,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "cylinder.hpp"
+#include "shortest.hpp"
 
 namespace {
 
@@ -197,18 +196,6 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   return static_cast<double>(n_open) / static_cast<double>(n_disc);
 }
 
-double shortest(
-    const std::function<void()> &call, const std::function<void()> &before = [] {}) {
-  double least = 1e300;
-  for (int i = 0; i < 7; ++i) {
-    before();
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return 1e3 * least;
-}
-
 // Prints milliseconds of a marking by clusters, a first search for leaks, a search when the edges are known, labels of regions,
 // and the passage from the first node to the last one.
 void print_cost(double thickness, const CylinderMesh &nodes) {
@@ -223,23 +210,26 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;
   check(riis_mesh_prepare(mesh.get(), 1));
-  const double marking = shortest([&] { check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get())); });
+  const double marking =
+      1e3 * shortest([&] { check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get())); });
   riis_leaks leaks;
   const auto find = [&] {
     check(riis_find_leaks(surface.get(), mesh.get(), &options, result.get(), &leaks, sizeof leaks));
   };
-  const double first = shortest(find, [&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); });
+  const double first = 1e3 * shortest(find, [&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); });
   std::vector<std::int64_t> label(static_cast<std::size_t>(nodes.n_nodes()));
-  const double labelling = shortest([&] {
-    check(riis_label_open_regions(mesh.get(), &options, result.get(), nodes.n_nodes(), label.data(), nullptr));
-  });
+  const double labelling =
+      1e3 * shortest([&] {
+        check(riis_label_open_regions(mesh.get(), &options, result.get(), nodes.n_nodes(), label.data(), nullptr));
+      });
   const std::int64_t from = 0, to = nodes.n_nodes() - 1;
   riis_passage passage;
-  const double passing = shortest([&] {
-    check(riis_find_passage(surface.get(), mesh.get(), &options, 1, &from, 1, &to, &passage, sizeof passage));
-  });
+  const double passing =
+      1e3 * shortest([&] {
+        check(riis_find_passage(surface.get(), mesh.get(), &options, 1, &from, 1, &to, &passage, sizeof passage));
+      });
   std::printf("| %g | %lld | %.2f | %.1f | %.3f | %.1f | %.1f |\n", thickness, static_cast<long long>(leaks.n_edges),
-              marking, first, shortest(find), labelling, passing);
+              marking, first, 1e3 * shortest(find), labelling, passing);
 }
 
 }  // namespace

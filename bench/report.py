@@ -269,26 +269,32 @@ def query_ns(data):
     return 1e6 * least / data.marking["counts"]["asked_by_paper"]
 
 
+def stage_shares(case):
+    """The share of each stage in the sum of all stages of a step."""
+    spent = {stage: case["nanoseconds"][stage] for stage, _, _ in STEP_STAGES}
+    return {stage: ns / sum(spent.values()) for stage, ns in spent.items()}
+
+
 def floor_values(data):
-    """What of a step the bars that are not met would leave, and what its parts take: by the shares of design_steps.json."""
+    """What of a step the bars that are not met would leave, and what its parts take, by the shares of the roofline."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
     queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
-    if not all((step, fine, queries, cgal)):
+    if not data.roofline or not all((step, fine, queries, cgal)):
         return None
-    share = {name: [part[name] / 100 for part in data.design["profile"]] for name in ("coarse", "fine")}
-    filtered, needed = share["coarse"][0] * step, sum(share["coarse"][:2]) * step
+    share = {name: stage_shares(data.roofline[name]) for name in ("coarse", "fine")}
     fine_ratio = fine / least["step, 2 threads"]
-    without = fine_ratio * (1 - share["fine"][-1]) / (1 - share["coarse"][-1])
-    times = {
-        "filter_ms": filtered, "step_ms": step, "decided_ms": needed, "by_queries_ms": queries / 8, "by_cgal_ms": cgal / 17,
-        "fine_ratio": fine_ratio, "ratio_without_surfaces": without,
+    values = {
+        "filter_ms": share["coarse"]["filter"] * step, "step_ms": step,
+        "decided_ms": (share["coarse"]["filter"] + share["coarse"]["decide"]) * step,
+        "by_queries_ms": queries / 8, "by_cgal_ms": cgal / 17, "fine_ratio": fine_ratio,
+        "ratio_without_surfaces": fine_ratio * (1 - share["fine"]["update"]) / (1 - share["coarse"]["update"]),
     }  # fmt: skip
-    return {name: f"{value:.1f}" for name, value in times.items()}
+    return {"instructions": data.roofline["instructions"], **{name: f"{value:.1f}" for name, value in values.items()}}
 
 
 def design_values(data):
-    """What changes of the design bought, and where the time of a step is: measured once, kept in design_steps.json."""
+    """What changes of the design bought: measured once, kept in design_steps.json."""
     if not data.marking:
         return None
     design = data.design
@@ -296,16 +302,18 @@ def design_values(data):
         [step["what"]] + [f"{step[name]['step']:.2f}" if name in step else "" for name in ("coarse", "fine")]
         for step in design["steps"]
     ]
-    shares = [[part["what"]] + [f"{part[name]:.0f} %" for name in ("coarse", "fine")] for part in design["profile"]]
     return {
         "nodes": design["nodes"],
         **{f"{name}_triangles": design["triangles"][name] for name in ("coarse", "fine")},
         "date": design["date"],
         "design_table": table(["with", "coarse", "fine"], rows),
-        "shares_table": table(["what", "coarse", "fine"], shares),
-        "query_ns": f"{query_ns(data):.0f}",
-        "floor": floor_values(data),
     }
+
+
+def few_processors(data):
+    """The number of the machine's processors if these are too few for 4 to 16 threads."""
+    n = data.machine["machine"]["processors"] if data.machine else 0
+    return str(n) if 0 < n < 4 else ""
 
 
 def marking_values(data):
@@ -326,11 +334,14 @@ def marking_values(data):
         "thick_share": f"{100 * counts['marked_with_0.3'] / counts['nodes']:.1f}",
         "pair_ns": f"{pair_ns(data):.2f}",
         "marked_ns": grouped(round(1e6 * data.marking["times"]["step, 1 thread"]["least_ms"] / counts["marked"])),
+        "few_processors": few_processors(data),
         "are_a_million": counts["nodes"] > 9e5,
         "times_table": table(["what", "least, ms", "median, ms", "turns"], rows),
         "bars_table": table(["bar", "value", "wanted", ""], bars),
         "left_out": [{"text": text} for text in data.marking.get("left_out", [])],
         "has_missed": bool(missed),
+        "query_ns": f"{query_ns(data):.0f}",
+        "floor": floor_values(data),
         "missed": [{"name": bar["name"], "factor": f"{max(bar['value'] / bar['bar'], bar['bar'] / bar['value']):.2f}"} for bar in missed],
     }
 

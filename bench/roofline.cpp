@@ -85,7 +85,7 @@ riis::Kernels measuring(const riis::Kernels &kernels) {
   return with_clocks;
 }
 
-// Memory that a stage was given, every piece once.
+// Sums the bytes of the pieces of memory that a stage was given. Each piece counts once.
 class Touched {
  public:
   void add(const void *piece, std::size_t size) {
@@ -103,7 +103,7 @@ class Touched {
   std::size_t bytes_ = 0;
 };
 
-// What the counting kernels below count.
+// The counts that the counting kernels below fill.
 struct Counted {
   Touched boxes, filter, decide, leaves;
   riis::Counts in_boxes{0, 0}, in_filter{0, 0}, in_decide{0, 0};

@@ -12,8 +12,6 @@
 
 #include "cluster_checks.h"
 
-static double power_of_ten(double from, double to) { return pow(10, random_between(&rng, from, to)); }
-
 static void check(const riis_surface *surface, int64_t n, const double *xyz, double limit) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_options options = mark_options();
@@ -159,7 +157,7 @@ static void nodes_at_the_limit_are_found(void **state) {
   for (int k = 0; k < 2; ++k) {
     int n_tried = 0;
     for (int i = 0; i < 300; ++i) {
-      point_near(surfaces[k], power_of_ten(-3, 0.5), xyz);
+      point_near(surfaces[k], random_power_of_ten(&rng, -3, 0.5), xyz);
       const double distance = closest_to(surfaces[k], xyz[0], xyz[1], xyz[2]).distance;
       if (distance <= options.half_thickness * 1.01) continue;
       most_within = 0;
@@ -239,15 +237,16 @@ static void surfaces_from_arrays(void **state) {
   for (int trial = 0; trial < 150; ++trial) {
     const int owned_before = n_owned();
     const int64_t n_triangles = 8 + (int64_t)(random_bits(&rng) % (max_triangles - 8));
-    const double unit = trial % 3 ? 1 : power_of_ten(-45, 45), far = trial % 2   ? 0
-                                                                     : trial % 4 ? 300
-                                                                                 : power_of_ten(0, 13);
+    const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -45, 45),
+                 far = trial % 2   ? 0
+                       : trial % 4 ? 300
+                                   : random_power_of_ten(&rng, 0, 13);
     double origin[3];
     for (int c = 0; c < 3; ++c) origin[c] = far * random_between(&rng, -1, 1);
     for (int64_t i = 0; i < n_triangles; ++i) {
       double *p = corners + 9 * i, along[3], across[3];
-      const double size = trial % 5 == 0 && far == 0 ? power_of_ten(-5, 0) : 0.1,
-                   height = far > 0 ? 0.1 : power_of_ten(trial % 5 == 1 ? -11 : -3, 0);
+      const double size = trial % 5 == 0 && far == 0 ? random_power_of_ten(&rng, -5, 0) : 0.1,
+                   height = far > 0 ? 0.1 : random_power_of_ten(&rng, trial % 5 == 1 ? -11 : -3, 0);
       for (int c = 0; c < 3; ++c) {
         const double at = random_between(&rng, -1, 1) + (i % 2 ? 5 * (trial % 7 == 0) : 0);
         along[c] = size * random_between(&rng, -1, 1), across[c] = size * height * random_between(&rng, -1, 1);
@@ -259,18 +258,18 @@ static void surfaces_from_arrays(void **state) {
     const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);
     riis_surface_options options = surface_options();
     options.zero_area = RIIS_ZERO_AREA_SKIP;
-    options.half_thickness = unit * power_of_ten(-4, -1);
+    options.half_thickness = unit * random_power_of_ten(&rng, -4, -1);
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create_from_arrays(&arrays, &options, &surface);
     if (status == RIIS_INVALID_SURFACE) continue; /* only triangles without an area */
     CHECK_OK(status);
     own(surface);
-    const double off = unit * power_of_ten(-6, 0.5);
+    const double off = unit * random_power_of_ten(&rng, -6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
     for (int i = 0; i < n; i += 50) /* some far away, so that the mesh is larger than the surface or as large */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
-    check(surface, n, xyz, fmax(options.half_thickness, off * power_of_ten(-1, 1)));
+    check(surface, n, xyz, fmax(options.half_thickness, off * random_power_of_ten(&rng, -1, 1)));
     free_owned_after(owned_before);
   }
   assert_int_equal(most_within, n);
@@ -287,7 +286,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
     const int owned_before = n_owned();
     for (int i = 0; i < n_triangles; ++i) {
       double *p = corners + 9 * i;
-      const double size = power_of_ten(-8, -5), at = random_between(&rng, 0, 1e-4);
+      const double size = random_power_of_ten(&rng, -8, -5), at = random_between(&rng, 0, 1e-4);
       for (int c = 0; c < 3; ++c)
         p[c] = at, p[3 + c] = at + size, p[6 + c] = at + size * random_between(&rng, 0.2, 0.8);
       p[6] = p[7] = p[8];

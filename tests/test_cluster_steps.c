@@ -42,6 +42,29 @@ static void nodes_and_valve_move(void **state) {
   }
 }
 
+/* Nodes that moved before they were sorted, without riis_mesh_update. Clusters are those of the nodes of now, however far they
+ * are. */
+static void nodes_that_moved_without_a_word(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  riis_mark_options options = mark_options();
+  riis_mark_result *result = new_result(), *expected = new_result();
+  for (int trial = 0; trial < 40; ++trial) {
+    const int owned_before = n_owned();
+    const double far = trial % 4 ? random_power_of_ten(&rng, -12, 50) : 0;
+    for (int i = 0; i < 3 * max_nodes; ++i) xyz[i] = random_between(&rng, -far, far);
+    riis_mesh *mesh = mesh_of(max_nodes, xyz);
+    for (int i = 0; i < max_nodes; ++i) point_near(surface, 0.2, xyz + 3 * i);
+    options.search = RIIS_SEARCH_CLUSTERS;
+    options.n_threads = 1 + trial % 2;
+    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
+    CHECK_OK(riis_mark_nodes(surface, mesh_of(max_nodes, xyz), &options, expected));
+    assert_true(same_results(result, expected));
+    assert_true(marked_in(result).n > max_nodes / 10);
+    free_owned_after(owned_before);
+  }
+}
+
 static void non_finite_coordinates(void **state) {
   (void)state;
   enum { n = 3000 };
@@ -218,11 +241,9 @@ static void a_mesh_that_threads_sort_together(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nodes_and_valve_move),
-      cmocka_unit_test(non_finite_coordinates),
-      cmocka_unit_test(what_auto_is),
-      cmocka_unit_test(several_callers_of_one_mesh),
-      cmocka_unit_test(a_mesh_that_threads_sort_together),
+      cmocka_unit_test(nodes_and_valve_move),        cmocka_unit_test(nodes_that_moved_without_a_word),
+      cmocka_unit_test(non_finite_coordinates),      cmocka_unit_test(what_auto_is),
+      cmocka_unit_test(several_callers_of_one_mesh), cmocka_unit_test(a_mesh_that_threads_sort_together),
   };
   rng = random_start("test_cluster_steps");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,7 +10,6 @@ enum { n_lanes = 8 };
 static void random_numbers(int n, double size, double *x) {
   for (int i = 0; i < n; ++i) x[i] = random_between(&rng, -size, size);
 }
-static double power_of_ten(double from, double to) { return pow(10, random_between(&rng, from, to)); }
 static double product(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static void difference(const double *a, const double *b, double *c) {
   for (int i = 0; i < 3; ++i) c[i] = a[i] - b[i];
@@ -25,7 +24,7 @@ static void numbers_are_mixed_by_weights(void **state) {
   for (int trial = 0; trial < 5000; ++trial) {
     double numbers[n_numbers * n_vertices], weights[3 * n_lanes], mixed[n_numbers * n_lanes];
     int64_t id[3 * n_lanes];
-    random_numbers(n_numbers * n_vertices, power_of_ten(-100, 100), numbers);
+    random_numbers(n_numbers * n_vertices, random_power_of_ten(&rng, -100, 100), numbers);
     random_numbers(3 * n_lanes, 1, weights);
     for (int i = 0; i < 3 * n_lanes; ++i) {
       id[i] = (int64_t)(random_bits(&rng) % n_vertices);
@@ -84,7 +83,7 @@ static void triangles_are_measured(void **state) {
     double vertices[3 * n_vertices], measures[n_measures * n_lanes];
     int64_t id[3 * n_lanes];
     const int n = 1 + (int)(random_bits(&rng) % n_lanes);
-    random_numbers(3 * n_vertices, power_of_ten(-30, 30), vertices);
+    random_numbers(3 * n_vertices, random_power_of_ten(&rng, -30, 30), vertices);
     for (int i = 0; i < 3 * n; ++i) id[i] = (i + trial) % n_vertices;
     for (int set = 0; set < n_kernel_sets; ++set) {
       if (!kernels_there(set)) continue;

@@ -8,7 +8,6 @@
 static random_source rng;
 
 static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
-static double power_of_ten(double from, double to) { return pow(10, random_between(&rng, from, to)); }
 static void random_point(double size, double *p) {
   for (int c = 0; c < 3; ++c) p[c] = size * random_between(&rng, -1, 1);
 }
@@ -60,8 +59,8 @@ static double largest_of(const double *x, int n) {
 enum { n_kinds = 6 };
 static void random_triangle(int kind, double *abc) {
   double q[3][3], axis[3][3], origin[3];
-  const double size = kind == 3 ? power_of_ten(-60, -1) : power_of_ten(-2, -0.5),
-               height = kind == 1 || kind == 2 ? power_of_ten(-12, 0) : random_between(&rng, 0.1, 1);
+  const double size = kind == 3 ? random_power_of_ten(&rng, -60, -1) : random_power_of_ten(&rng, -2, -0.5),
+               height = kind == 1 || kind == 2 ? random_power_of_ten(&rng, -12, 0) : random_between(&rng, 0.1, 1);
   random_frame(axis);
   random_point(0.4, origin);
   if (kind == 0)
@@ -103,10 +102,10 @@ static void random_point_near(const double *abc, double reach, double *p) {
       for (int c = 0; c < 3; ++c) offset[c] = n[c] / length;
   }
   if (kind == 7) { /* in the triangle's plane, beyond a tip, along the median from there */
-    const double beyond = power_of_ten(-6, 0.5);
+    const double beyond = random_power_of_ten(&rng, -6, 0.5);
     w[from] = 1 + 2 * beyond, w[to] = w[(from + 2) % 3] = -beyond;
   }
-  const double off = (random_bits(&rng) % 4 == 0 || kind == 7) ? 0 : reach * sign() * power_of_ten(-9, 0);
+  const double off = (random_bits(&rng) % 4 == 0 || kind == 7) ? 0 : reach * sign() * random_power_of_ten(&rng, -9, 0);
   for (int c = 0; c < 3; ++c) p[c] = w[0] * abc[c] + w[1] * abc[3 + c] + w[2] * abc[6 + c] + off * offset[c];
 }
 
@@ -121,7 +120,8 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
   for (int trial = 0; trial < 500; ++trial) {
     /* Some trials are in other units, some far from the origin, where coordinates round. */
-    const double unit = trial % 3 ? 1 : power_of_ten(-50, 50), far = trial % 2 ? 0 : power_of_ten(0, 9);
+    const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -50, 50),
+                 far = trial % 2 ? 0 : random_power_of_ten(&rng, 0, 9);
     double origin[3];
     random_point(far, origin);
     for (int i = 0; i < n_triangles; ++i) random_triangle(trial % 7 == 0 ? 5 : i % n_kinds, corners + 9 * i);
@@ -173,7 +173,8 @@ static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
   for (int trial = 0; trial < 20000; ++trial) {
     double corners[9 * n], points[3 * n], sq[n], on[3 * n], weight[3 * n];
     double expected_sq[n], expected_on[3 * n], expected_weight[3 * n];
-    const double unit = trial % 3 ? 1 : power_of_ten(-50, 50), far = trial % 2 ? 0 : power_of_ten(0, 9);
+    const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -50, 50),
+                 far = trial % 2 ? 0 : random_power_of_ten(&rng, 0, 9);
     double origin[3];
     random_point(far, origin);
     for (int i = 0; i < n; ++i) {
@@ -255,7 +256,7 @@ static void single_precision_is_right_to_its_error(void **state) {
       for (int i = 0; i < n; ++i) random_triangle((int)(random_bits(&rng) % n_kinds), corners + 9 * i);
       kernel_group *group = kernels_group(set, n, corners);
       const framed f = random_framed();
-      const double limit = power_of_ten(-3, 1);
+      const double limit = random_power_of_ten(&rng, -3, 1);
       for (int k = 0; k < 8; ++k) {
         double p[3];
         float stored[3], as_float[3];
@@ -309,7 +310,7 @@ static void first_edge_across(int n, double *corners) {
   double axis[3][3], origin[3];
   random_frame(axis);
   random_point(0.2, origin);
-  const double height = power_of_ten(-11.7, -10);
+  const double height = random_power_of_ten(&rng, -11.7, -10);
   place(origin, axis, 0, 0, 0, corners);
   place(origin, axis, 0, 0, 0.7, corners + 3);
   place(origin, axis, 0, height, 0.7, corners + 6);
@@ -343,10 +344,10 @@ static void make_case(int set, int trial, leaf_case *c) {
   f.ratio = what == with_edge_across ? 4 : fmax(f.ratio, 0x1p-4);
   const double limit = what == all_near           ? 1
                        : what == with_edge_across ? 3
-                                                  : power_of_ten(-4, 0.5),
+                                                  : random_power_of_ten(&rng, -4, 0.5),
                spread = what == with_ties || what == with_edge_across ? 1
                         : what == all_near                            ? 1e-6
-                                                                      : power_of_ten(-3, 0);
+                                                                      : random_power_of_ten(&rng, -3, 0);
   double centre[3];
   c->n_groups = 1 + (int)(random_bits(&rng) % max_groups);
   for (int g = 0; g < c->n_groups; ++g) {
@@ -519,7 +520,7 @@ static void corners_are_bounded_and_framed(void **state) {
       double lower[3], upper[3], least[3] = {INFINITY, INFINITY, INFINITY},
                                  greatest[3] = {-INFINITY, -INFINITY, -INFINITY};
       for (int64_t i = 0; i < 3 * most; ++i) {
-        vertices[i] = random_between(&rng, -1, 1) * power_of_ten(-3, 3);
+        vertices[i] = random_between(&rng, -1, 1) * random_power_of_ten(&rng, -3, 3);
         id[i] = (int64_t)(random_bits(&rng) % most);
       }
       corners[9 * n] = 17;
@@ -559,7 +560,7 @@ static void triangles_without_area_are_noticed(void **state) {
       double vertices[9 * most];
       int64_t id[3 * most];
       const int n = 1 + (int)(random_bits(&rng) % most), which = (int)(random_bits(&rng) % (uint64_t)n);
-      const double height = power_of_ten(-14, -8), size = power_of_ten(-20, 20);
+      const double height = random_power_of_ten(&rng, -14, -8), size = random_power_of_ten(&rng, -20, 20);
       for (int i = 0; i < n; ++i) {
         const double h = i == which ? height : 0.5, foot = random_between(&rng, 0, 1);
         const double t[9] = {0, 0, 0, size, 0, 0, foot * size, h * size, 0};
@@ -586,7 +587,8 @@ static void triangles_keep_their_area_when_corners_move(void **state) {
     if (!kernels_there(set)) continue;
     int n_passed = 0, n_stopped = 0;
     for (int trial = 0; trial < 20000; ++trial) {
-      const double size = power_of_ten(-20, 20), height = power_of_ten(-13, 0), shift = size * power_of_ten(-13, 0);
+      const double size = random_power_of_ten(&rng, -20, 20), height = random_power_of_ten(&rng, -13, 0),
+                   shift = size * random_power_of_ten(&rng, -13, 0);
       const double foot = random_between(&rng, -1, 2);
       double vertices[9] = {0, 0, 0, size, 0, 0, foot * size, height * size, 0};
       const int64_t id[3] = {trial % 3, (trial + 1) % 3, (trial + 2) % 3};
@@ -626,7 +628,7 @@ static void points_are_placed(void **state) {
     for (int trial = 0; trial < 2000; ++trial) {
       double points[3 * most], placed[3 * most + 3], first[12], second[12];
       const int64_t n = (int64_t)(random_bits(&rng) % (most + 1));
-      const double scale = power_of_ten(-2, 2), untouched = 17;
+      const double scale = random_power_of_ten(&rng, -2, 2), untouched = 17;
       for (int64_t i = 0; i < n; ++i) random_point(3, points + 3 * i);
       for (int k = 0; k < 12; k += 3) random_point(2, first + k), random_point(2, second + k);
       for (int i = 0; i < 3 * most + 3; ++i) placed[i] = untouched;
@@ -708,6 +710,32 @@ static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
   assert_true(n_pairs_compared > 100000 && n_near > 5000 && n_cleared > 100);
 }
 
+/* --- The order of nodes ---------------------------------------------------------------------------------------------- */
+
+static void keys_are_ranked(void **state) {
+  (void)state;
+  enum { n_keys = 64 };
+  for (int trial = 0; trial < 5000; ++trial) {
+    int32_t key[n_keys], n_less[n_keys];
+    const int32_t n = (int32_t)(random_bits(&rng) % (n_keys + 1));
+    const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many are equal, or few */
+    for (int i = 0; i < n_keys; ++i)
+      key[i] = (int32_t)((int64_t)(random_bits(&rng) % n_values) - (trial % 2 ? 5 : INT64_C(1) << 31));
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      memset(n_less, 0x77, sizeof n_less);
+      kernels_rank(set, key, n, n_less);
+      for (int i = 0; i < n_keys; ++i) {
+        int32_t expected = 0;
+        for (int32_t k = 0; k < n; ++k) expected += key[k] < key[i];
+        if (n_less[i] != expected)
+          fail_msg("%s, trial %d: %d of %d keys are less than %d, not %d", kernels_name(set), trial, expected, n,
+                   key[i], n_less[i]);
+      }
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
@@ -720,6 +748,7 @@ int main(void) {
       cmocka_unit_test(triangles_keep_their_area_when_corners_move),
       cmocka_unit_test(points_are_placed),
       cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
+      cmocka_unit_test(keys_are_ranked),
   };
   rng = random_start("test_kernels");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -226,7 +226,7 @@ static int64_t check_case(const whole_case *c) {
 
 static void random_meshes_leak_where_the_loop_says(void **state) {
   (void)state;
-  const int n = getenv("RIIS_TEST_LONG") && *getenv("RIIS_TEST_LONG") ? 400000 : 400;
+  const int n = is_long_test() ? 400000 : 400;
   int n_leaking = 0;
   static whole_case c;
   for (int trial = 0; trial < n; ++trial) {

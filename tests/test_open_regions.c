@@ -38,7 +38,7 @@ static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const
 
 static void graphs_are_labelled_as_the_flood_fill_does(void **state) {
   (void)state;
-  const int n_trials = getenv("RIIS_TEST_LONG") && *getenv("RIIS_TEST_LONG") ? 20000 : 100;
+  const int n_trials = is_long_test() ? 20000 : 100;
   int n_many = 0;
   for (int trial = 0; trial < n_trials; ++trial) {
     const int owned_before = n_owned();

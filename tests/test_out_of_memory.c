@@ -100,8 +100,7 @@ static reference reference_of(const scenario *s) {
  * 65th on, up to a sixteenth of those before is left out at random. Returns the last one that failed. */
 static int64_t try_all(const scenario *s, int whose) {
   const reference expected = reference_of(s);
-  const char *is_long = getenv("RIIS_TEST_LONG");
-  const int is_whole = is_long && *is_long == '1';
+  const int is_whole = is_long_test();
   n_grown = 0;
   for (int64_t n = 1, last = 0;;
        last = n, n += is_whole || n <= 64 ? 1 : 1 + (int64_t)(random_bits(&rng) % (uint64_t)(n / 16)))

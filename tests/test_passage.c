@@ -131,13 +131,9 @@ static int check_graph(const test_mesh *graph, const riis_surface *surface) {
   return expected.state;
 }
 
-static int64_t n_trials(int64_t few, int64_t many) {
-  return getenv("RIIS_TEST_LONG") && *getenv("RIIS_TEST_LONG") ? many : few;
-}
-
 static void graphs_have_the_passage_of_the_serial_search(void **state) {
   (void)state;
-  int64_t n_of_state[3] = {0}, n = n_trials(200, 20000);
+  int64_t n_of_state[3] = {0}, n = is_long_test() ? 20000 : 200;
   for (int64_t trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
     const test_mesh graph = random_graph(random_integer(2, 300), random_between(&rng, 0.5, 3));
@@ -152,7 +148,7 @@ static void graphs_have_the_passage_of_the_serial_search(void **state) {
 /* Lattices round a plate have many nodes at equal distances. */
 static void meshes_have_the_passage_of_the_serial_search(void **state) {
   (void)state;
-  int64_t n_of_state[3] = {0}, n = n_trials(100, 4000);
+  int64_t n_of_state[3] = {0}, n = is_long_test() ? 4000 : 100;
   for (int64_t trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
     static const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1};

@@ -306,8 +306,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
 
 static void random_cases_equal_brute_force(void **state) {
   (void)state;
-  const char *given = getenv("RIIS_TEST_LONG");
-  const int is_long = given && strcmp(given, "1") == 0;
+  const int is_long = is_long_test();
   const int64_t n_cases = 140, n_pairs = is_long ? 10000000 : 0;
   int64_t n_meshes = 0;
   for (; n_meshes < n_cases || totals.pairs < n_pairs; ++n_meshes)

@@ -280,8 +280,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
   (void)state;
   static void (*const kinds[])(soup *) = {add_random, add_whole_numbers, add_touching, add_in_plane, add_sheets};
   enum { n_kinds = sizeof kinds / sizeof *kinds };
-  const char *is_long = getenv("RIIS_TEST_LONG");
-  const int n_trials = n_kinds * (is_long && *is_long == '1' ? 5000 : 100);
+  const int n_trials = n_kinds * (is_long_test() ? 5000 : 100);
   tally tallies[n_kinds] = {{0}};
   soup *s = own(malloc(sizeof *s));
   for (int trial = 0; trial < n_trials; ++trial) {

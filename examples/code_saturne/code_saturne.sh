@@ -88,7 +88,7 @@ saturne_build_packages=(gcc g++ gfortran cmake ninja-build pkg-config libembree-
 
 # saturne_is_there: tells whether code_saturne is installed, or a package of this distribution.
 saturne_is_there() {
-  command -v code_saturne >/dev/null || { LC_ALL=C apt-cache policy code-saturne 2>/dev/null | grep -q 'Candidate: [^(]'; }
+  command -v code_saturne >/dev/null || [[ $(version_on_offer code-saturne) ]]
 }
 
 # saturne_install_riis FOLDER: builds the library with its Fortran modules, and installs it into FOLDER/prefix.
@@ -98,7 +98,7 @@ saturne_install_riis() {
     cmake --build "$1/riis" --parallel "$(nproc)" && cmake --install "$1/riis"
 }
 
-# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, say and step.
+# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, version_on_offer, say and step.
 code_saturne_example() {
   local folder=$build/code_saturne parts=(closed open beat) python
   case $* in

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. They
-# use its $packages, install_missing, say and step.
+# use its $packages, install_missing, is_on_offer, version_on_offer, say and step.
 
 # Debian's reference BLAS makes the solver of the linear systems ten times slower than OpenBLAS.
 fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev python3 python3-dev python3-venv
@@ -37,21 +37,11 @@ fenicsx() {
 # Says why nothing runs if the distribution lacks dolfinx, or has another version.
 fenicsx_is_there() {
   local version
-  version=$(fenicsx_candidate)
-  if [[ ! $version ]] && command -v apt-get >/dev/null; then
-    local as_root=()
-    ((EUID == 0)) || as_root=(sudo)
-    "${as_root[@]}" apt-get -qq update || true
-    version=$(fenicsx_candidate)
-  fi
+  is_on_offer python3-dolfinx || true
+  version=$(version_on_offer python3-dolfinx)
   [[ $version != "$fenicsx_version".* ]] || return 0
   say "skipped: the example is for dolfinx $fenicsx_version, as in Debian 13; this distribution has ${version:-none}"
   return 1
-}
-
-# fenicsx_candidate: prints the version of the distribution's dolfinx, if it has one.
-fenicsx_candidate() {
-  LC_ALL=C apt-cache policy python3-dolfinx 2>/dev/null | sed -nE 's/^  Candidate: ([0-9]+:)?([0-9][0-9.]*).*/\2/p'
 }
 
 # fenicsx_environment FOLDER: makes FOLDER/venv with the distribution's Python, which has dolfinx, and builds the package there.

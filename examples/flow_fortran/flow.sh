@@ -1,22 +1,11 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run flow, which reads this file: compile, check, run, draw, tell. They use its $n_jobs, $logs, install_missing,
-# python_of_packages, say and step.
+# is_on_offer, python_of_packages, say and step.
 
 # Packages of Debian 12 or 13 that ./run flow needs, without recommends.
 flow_packages=(gcc g++ gfortran cmake make libembree-dev libtbb-dev libopenmpi-dev libhypre-dev python3-matplotlib ffmpeg)
 flow_build=build-flow
-
-# flow_available: tells whether HYPRE is there, or can be installed.
-flow_available() {
-  local as_root=()
-  ! command -v dpkg-query >/dev/null && return
-  [[ $(dpkg-query -W -f='${db:Status-Status}' libhypre-dev 2>/dev/null) == installed ]] && return
-  [[ $(apt-cache policy libhypre-dev 2>/dev/null) == *Candidate:\ [0-9]* ]] && return
-  ((EUID == 0)) || as_root=(sudo)
-  step "apt-get update" "${as_root[@]}" apt-get update
-  [[ $(apt-cache policy libhypre-dev 2>/dev/null) == *Candidate:\ [0-9]* ]]
-}
 
 # flow_compile: installs the library and its Fortran modules to a folder, and compiles the solver as a user's own project.
 flow_compile() {
@@ -81,7 +70,7 @@ flow() {
     esac
     shift
   done
-  if ! flow_available; then
+  if command -v dpkg-query >/dev/null && ! is_on_offer libhypre-dev; then
     say "flow is skipped: this distribution lacks the package libhypre-dev"
     return
   fi

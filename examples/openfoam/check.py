@@ -15,17 +15,24 @@ K_NAME, KU_NAME = "K.aorticValve", "KU.aorticValve"
 
 def require(holds, text):
     if not holds:
-        raise SystemExit(f"check.py: not as it must be: {text}")
+        raise SystemExit(f"check.py: this does not hold: {text}")
 
 
 def constant(case, key):
     """A number of the valve in a case's fvOptions."""
-    return float(re.search(rf"{key}\s+(\S+?);", (pathlib.Path(case) / "system/fvOptions").read_text()).group(1))
+    path = pathlib.Path(case) / "system/fvOptions"
+    found = re.search(rf"{key}\s+(\S+?);", foam.text(path))
+    if not found:
+        raise SystemExit(f"{path} has no entry {key}")
+    return float(found.group(1))
 
 
 def flat_drop(case, flow):
     """(R / eps) u in Pa, and the area of the leaflets."""
-    size = foam.area(*foam.triangles(sorted(pathlib.Path(case).glob("postProcessing/aorticValve/*/leaflets.vtk"))[-1])[:2])
+    leaflets = sorted(pathlib.Path(case).glob("postProcessing/aorticValve/*/leaflets.vtk"))
+    if not leaflets:
+        raise SystemExit(f"{case} has no file postProcessing/aorticValve/*/leaflets.vtk")
+    size = foam.area(*foam.triangles(leaflets[-1])[:2])
     return constant(case, "resistance") / constant(case, "halfThickness") * flow / size, size
 
 
@@ -43,7 +50,9 @@ def marks(serial, *others):
     for case in (serial,) + others:
         n_ranks = len(foam.parts(case))
         require(foam.times(case) == times, f"{case} has the times {times}, not {foam.times(case)}")
-        moved = (foam.global_field(case, "0", "C") != centres).any(axis=1)
+        others_centres = foam.global_field(case, "0", "C")
+        require(len(others_centres) == len(centres), f"{case} has {len(centres)} cells as {serial}, not {len(others_centres)}")
+        moved = (others_centres != centres).any(axis=1)
         same, different, unexplained, largest, counts = True, 0, 0, 0.0, []
         for time in times:
             for name in (K_NAME, KU_NAME):
@@ -56,7 +65,7 @@ def marks(serial, *others):
                     different += int(bits.sum())
                     largest = max(largest, float(numpy.abs(here - there).max() / here.max()))
         require(min(counts) > 100 and max(counts) != min(counts), f"the valve moves through cells: {counts} are marked")
-        library, whole = numpy.nanmedian(foam.steps(case)[1:, 4:6], axis=0)
+        library, whole = numpy.median(foam.steps(case)[1:, 4:6], axis=0)
         print(f"  {n_ranks:>5} {len(times):>5} {min(counts):>6,}-{max(counts):<6,} {1e3 * library:>6.2f} ms {1e3 * whole:>4.0f} ms"
               f" {'yes' if same else 'no':>10} {moved.sum():>13,} {different:>10,} {unexplained:>13,} {largest:>10.1e}")
         require(same, f"{case} marks the cells that {serial} marks")
@@ -69,6 +78,7 @@ def zones(closed, case, model):
     levels = 200
     k = foam.global_field(closed, foam.times(closed)[-1], K_NAME)
     n = len(k)
+    require((k >= 0).all() and (k > 0).any(), f"K of {closed} is at least 0, and not 0 in every cell")
     level = numpy.minimum((k / k.max() * levels).astype(int), levels - 1)
     head = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
     nu = 3.3e-6  # of case/constant/transportProperties
@@ -96,6 +106,8 @@ def zones(closed, case, model):
 def drop(case):
     """Pressure upstream less that downstream, in Pa, of each step, and the flow of the last step."""
     upstream, downstream = foam.table(case, "upstream"), foam.table(case, "downstream")
+    require(upstream[:, 0].tolist() == downstream[:, 0].tolist(),
+            f"the tables upstream and downstream of {case} have the same times")
     return RHO * (upstream[:, 1] - downstream[:, 1]), foam.table(case, "flow")[-1, 1]
 
 
@@ -115,10 +127,14 @@ def drops(cases):
         last[name] = values[-1]
         print(f"  {text:<34} {values[0]:>10.1f} {values[1]:>10.1f} {values[-1]:>10.1f} {100 * values[-1] / closed[-1]:>8.2f}%")
     print(f"  {'(R / eps) u, u = flow / area':<34} {flat:>10.1f} {flat:>10.1f} {flat:>10.1f} {100 * flat / closed[-1]:>8.2f}%")
-    require(abs(last["powerLaw"] / closed[-1] - 1) < 5e-3, "OpenFOAM's powerLaw porosity gives the same drop to 0.5 %")
-    require(abs(closed[1] / closed[-1] - 1) < 0.05, "the drop is there at once: the second step has it to 5 %")
-    require(0.4 < closed[-1] / flat < 1.1, "the drop is between 0.4 and 1.1 of (R / eps) u")
-    require(last["open"] - last["none"] < 1e-3 * closed[-1], "the open valve is near to no valve: within 0.1 % of the closed one")
+    require(abs(last["powerLaw"] / closed[-1] - 1) < 5e-3,
+            f"OpenFOAM's powerLaw porosity and riis give the same drop to 0.5 %: {last['powerLaw']:.1f} and {closed[-1]:.1f} Pa")
+    require(abs(closed[1] / closed[-1] - 1) < 0.05,
+            f"the second step has the drop of the last one to 5 %: {closed[1]:.1f} and {closed[-1]:.1f} Pa")
+    require(0.4 < closed[-1] / flat < 1.1, f"the drop is between 0.4 and 1.1 of (R / eps) u: it is {closed[-1] / flat:.3f} of it")
+    require(abs(last["open"] - last["none"]) < 1e-3 * abs(closed[-1]),
+            f"the open valve and no valve differ by less than 0.1 % of the closed one:"
+            f" {last['open']:.1f} and {last['none']:.1f} Pa")
 
 
 def sizes(*cases):
@@ -130,11 +146,14 @@ def sizes(*cases):
         values, flow = drop(case)
         n = foam.n_cells(case / "constant/polyMesh")
         log = case.parent.parent / case.name.replace("closed", "mesh") / "checkMesh.log"
-        mesh = float(re.search(r"Total volume = ([0-9.e+-]+?)\.? ", log.read_text()).group(1))
+        volume = re.search(r"Total volume = ([0-9.e+-]+?)\.? ", foam.text(log))
+        if not volume:
+            raise SystemExit(f"{log} has no Total volume")
         shares.append(values[-1] / flat_drop(case, flow)[0])
-        cells = constant(case, "halfThickness") / (mesh / n) ** (1 / 3)
+        cells = constant(case, "halfThickness") / (float(volume.group(1)) / n) ** (1 / 3)
         print(f"  {case.name.split('-')[1]:>9} {n:>9,} {int(foam.steps(case)[-1, 2]):>8,} {cells:>8.2f} {shares[-1]:>20.3f}")
-    require(all(a < b for a, b in zip(shares, shares[1:])) and shares[-1] < 1.05, "finer meshes come nearer to (R / eps) u")
+    require(all(a < b for a, b in zip(shares, shares[1:])) and shares[-1] < 1.05,
+            f"finer meshes come nearer to (R / eps) u: they have {', '.join(f'{share:.3f}' for share in shares)} of it")
 
 
 def beat(*cases):
@@ -146,16 +165,22 @@ def beat(*cases):
         name = "with their velocity" if not str(case).endswith("still") else "without it"
         rows, flow = foam.steps(case), foam.table(case, "flow")
         opening, q = rows[:, 1], flow[:, 1] * 1e6
+        require(len(rows) == len(flow) > 2,
+                f"the log and the table flow of {case} have a row for each step: {len(rows)} and {len(flow)}")
         dt = flow[1, 0] - flow[0, 0]
         rising, falling = numpy.diff(opening) > 0, numpy.diff(opening) < 0
-        require(rising.any() and falling.any(), "the valve opens and closes")
-        require(opening.max() > 0.999 and opening[-1] == 0, f"it opens fully and ends closed, not {opening.max()}, {opening[-1]}")
-        library, whole = numpy.nanmean(rows[1:, 4]), numpy.nanmean(rows[1:, 5])
+        require(rising.any() and falling.any(), f"the valve of {case} opens and closes: its opening is {opening[0]} at first,"
+                f" {opening.max()} at most and {opening[-1]} at the end")
+        require(opening.max() > 0.999 and opening[-1] == 0, f"the valve of {case} opens fully and ends closed: its opening is"
+                f" {opening.max()} at most and {opening[-1]} at the end")
+        library, whole = rows[1:, 4].mean(), rows[1:, 5].mean()
         print(f"  {name:<22} {rows[:-1][rising][0, 0]:>7.3f} s {rows[:-1][falling][0, 0]:>7.3f} s {int(rows[:, 2].min()):>13,}"
               f" {q.max():>8.1f} ml/s {q.min():>6.1f} ml/s {q[q > 0].sum() * dt:>5.2f} ml {-q[q < 0].sum() * dt:>5.2f} ml"
               f" {1e3 * library:>6.2f} ms {1e3 * whole:>4.0f} ms {100 * library / whole:>5.2f}%")
         leak = q[(rows[:, 0] > 0.002) & (rows[:, 0] < 0.02)]
-        require(abs(leak).max() < 0.02 * q.max(), "the closed valve holds: it lets less than 2 % of the largest flow through")
+        require(len(leak), f"{case} has steps between 0.002 and 0.02 s, while the valve is closed")
+        require(abs(leak).max() < 0.02 * q.max(), f"the closed valve of {case} lets less than 2 % of the largest flow through:"
+                f" {abs(leak).max():.2f} of {q.max():.1f} ml/s")
 
 
 def restart(whole, again, none, none_again):
@@ -169,23 +194,27 @@ def restart(whole, again, none, none_again):
             words = []
             for field in fields:
                 a, b = foam.global_field(first, time, field), foam.global_field(second, time, field)
+                require(len(a) == len(b), f"{first} and {second} have as many cells: {len(a)} and {len(b)}")
+                require((a != 0).any(), f"{field} of {first} at {time} is not 0 in every cell")
                 difference = numpy.abs(a - b).max() / numpy.abs(a).max()
                 words.append(f"{field} {'the same bits' if (a == b).all() else f'differs by {difference:.1e}'}")
                 if field in (K_NAME, KU_NAME):
-                    require((a == b).all() and (a != 0).any(), f"{field} at {time} has the same bits")
-                require(difference < 1e-6, f"{field} at {time} differs by less than 1e-6")
+                    cells = int((a != b).reshape(len(a), -1).any(axis=1).sum())
+                    require(cells == 0, f"{field} at {time} has the same bits in {first} and {second}: {cells} cells differ")
+                require(difference < 1e-6,
+                        f"{field} of {second} at {time} differs by less than 1e-6 of the largest: {difference:.1e}")
             print(f"  {name:<16} {time:>6} s: {', '.join(words)}")
 
 
 def nan(pressure, owner):
     """Puts NaN into every cell of a pressure that is uniform in its file."""
     count = foam.n_cells(pathlib.Path(owner).parent)
-    text = pathlib.Path(pressure).read_bytes()
+    data = pathlib.Path(pressure).read_bytes()
     values = b"nonuniform List<scalar> %d(" % count + struct.pack("<d", float("nan")) * count + b")"
     old = b"internalField uniform 0;"
-    require(text.count(old) == 1, f"{pressure} has the line {old}")
+    require(data.count(old) == 1, f"{pressure} has the line '{old.decode()}' once")
     pathlib.Path(pressure).write_bytes(
-        text.replace(b"format ascii;", b'format binary; arch "LSB;label=32;scalar=64";').replace(old, b"internalField " + values + b";"))
+        data.replace(b"format ascii;", b'format binary; arch "LSB;label=32;scalar=64";').replace(old, b"internalField " + values + b";"))
 
 
 def pictures(case, still, out):
@@ -197,6 +226,6 @@ def pictures(case, still, out):
 if __name__ == "__main__":
     commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "beat": beat, "restart": restart, "nan": nan,
                 "pictures": pictures}
-    if len(sys.argv) < 2 or sys.argv[1] not in commands:
+    if len(sys.argv) < 3 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
     commands[sys.argv[1]](*sys.argv[2:])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads OpenFOAM's fields, lists and tables, as text or binary."""
+"""Reads OpenFOAM's fields, lists and tables, as text or binary. Ends with the file's name and a reason if one is not readable."""
 import pathlib
 import re
 
@@ -8,28 +8,59 @@ import numpy
 TYPES = {"scalar": ("<f8", 1), "vector": ("<f8", 3), "label": ("<i4", 1)}
 
 
-def _values(data, start, kind, count, binary):
+def _bytes(path):
+    try:
+        return pathlib.Path(path).read_bytes()
+    except OSError as error:
+        raise SystemExit(f"{path}: {error.strerror}") from None
+
+
+def text(path):
+    return _bytes(path).decode()
+
+
+def _number(word, place):
+    try:
+        value = float(word)
+    except ValueError:
+        value = numpy.nan
+    if not numpy.isfinite(value):
+        raise SystemExit(f"{place} has '{word}' in the place of a finite number")
+    return value
+
+
+def _is_binary(data):
+    return re.search(rb"format\s+binary;", data) is not None
+
+
+def _values(path, data, start, kind, count, binary):
+    """The list of values whose bracket opens behind start."""
     dtype, width = TYPES[kind]
-    begin = data.index(b"(", start) + 1
+    begin = data.find(b"(", start) + 1
     if binary:
-        values = numpy.frombuffer(data, dtype, count * width, begin)
+        size = numpy.dtype(dtype).itemsize
+        values = numpy.frombuffer(data, dtype, min(count * width, (len(data) - begin) // size), begin)
     else:
-        end = data.index(b"\n)", begin) if count else begin
-        text = data[begin:end].replace(b"(", b" ").replace(b")", b" ")
-        values = numpy.array(text.split(), dtype)
-    return values.reshape(count, width) if width > 1 else values.reshape(count)
+        end = data.find(b"\n)", begin) if count else begin
+        words = data[begin:end if end >= 0 else len(data)].replace(b"(", b" ").replace(b")", b" ").split()
+        try:
+            values = numpy.array(words, dtype)
+        except ValueError as error:
+            raise SystemExit(f"{path} has a list with another word than numbers: {error}") from None
+    if len(values) != count * width:
+        raise SystemExit(f"{path} has {len(values)} numbers in a list of {count} times {width}")
+    return values.reshape(count, width) if width > 1 else values
 
 
 def field(path, n_cells):
     """The values in the cells: (n_cells) or (n_cells, 3)."""
-    data = pathlib.Path(path).read_bytes()
-    binary = re.search(rb"format\s+binary;", data) is not None
+    data = _bytes(path)
     found = re.search(rb"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)", data)
     if found:
         count = int(found.group(2))
         if count != n_cells:
             raise SystemExit(f"{path} has {count} cells, and the mesh has {n_cells}")
-        return _values(data, found.end(), found.group(1).decode(), count, binary)
+        return _values(path, data, found.end(), found.group(1).decode(), count, _is_binary(data))
     found = re.search(rb"internalField\s+uniform\s+\(?([^;)]*)\)?;", data)
     if not found:
         raise SystemExit(f"{path} has no internalField")
@@ -39,15 +70,19 @@ def field(path, n_cells):
 
 def labels(path):
     """A list of labels, such as constant/polyMesh/owner."""
-    data = pathlib.Path(path).read_bytes()
-    binary = re.search(rb"format\s+binary;", data) is not None
-    found = re.search(rb"\n(\d+)\s*\(", data[data.index(b"}"):])
-    return _values(data, data.index(b"}") + found.start(1), "label", int(found.group(1)), binary)
+    data = _bytes(path)
+    found = re.search(rb"\}.*?\n(\d+)\s*(?=\()", data, re.DOTALL)
+    if not found:
+        raise SystemExit(f"{path} has no list of labels")
+    return _values(path, data, found.end(), "label", int(found.group(1)), _is_binary(data))
 
 
 def n_cells(mesh):
     """The number of cells, from the note in constant/polyMesh/owner."""
-    note = re.search(rb"nCells:\s*(\d+)", (pathlib.Path(mesh) / "owner").read_bytes())
+    path = pathlib.Path(mesh) / "owner"
+    note = re.search(rb"nCells:\s*(\d+)", _bytes(path))
+    if not note:
+        raise SystemExit(f"{path} has no note with nCells")
     return int(note.group(1))
 
 
@@ -62,9 +97,18 @@ def parts(case):
 
 def global_field(case, time, name):
     """A field of a serial or a decomposed case, by the global ids of the cells."""
-    pieces = [(ids, field(folder / time / name, len(ids))) for folder, ids in parts(case)]
-    total = sum(len(ids) for ids, _ in pieces)
-    values = numpy.full((total,) + pieces[0][1].shape[1:], numpy.nan)
+    pieces = []
+    for folder, ids in parts(case):
+        path = folder / time / name
+        values = field(path, len(ids))
+        odd = numpy.flatnonzero(~numpy.isfinite(values.reshape(len(ids), -1)).all(axis=1))
+        if len(odd):
+            raise SystemExit(f"{path} has values that are not finite, first in cell {odd[0]}")
+        pieces.append((ids, values))
+    all_ids = numpy.concatenate([ids for ids, _ in pieces])
+    if (numpy.sort(all_ids) != numpy.arange(len(all_ids))).any():
+        raise SystemExit(f"{case}: its ranks do not have each of {len(all_ids)} cells once")
+    values = numpy.empty((len(all_ids),) + pieces[0][1].shape[1:])
     for ids, piece in pieces:
         values[ids] = piece
     return values
@@ -72,35 +116,58 @@ def global_field(case, time, name):
 
 def times(case):
     """The names of the written times, ascending, without that of the start."""
-    names = [path.name for path in parts(case)[0][0].iterdir() if re.fullmatch(r"[0-9.e-]+", path.name)]
-    return sorted((name for name in names if float(name) > 0), key=float)
+    folder = parts(case)[0][0]
+    names = [path.name for path in folder.iterdir() if re.fullmatch(r"[0-9.e-]+", path.name) and float(path.name) > 0]
+    if not names:
+        raise SystemExit(f"{folder} has no written time")
+    return sorted(names, key=float)
 
 
 def table(case, name):
     """A table of a function object: times and values."""
+    paths = sorted(pathlib.Path(case).glob(f"postProcessing/{name}/*/surfaceFieldValue.dat"))
     rows = []
-    for path in sorted(pathlib.Path(case).glob(f"postProcessing/{name}/*/surfaceFieldValue.dat")):
-        rows += [line.split()[:2] for line in path.read_text().splitlines() if not line.startswith("#")]
-    return numpy.array(rows, float)
+    for path in paths:
+        for i, line in enumerate(text(path).splitlines()):
+            words = line.split()
+            if line.startswith("#"):
+                continue
+            if len(words) < 2:
+                raise SystemExit(f"{path}: line {i + 1} has {len(words)} columns, and needs 2")
+            rows.append([_number(word, f"{path}: line {i + 1}") for word in words[:2]])
+    if not rows:
+        raise SystemExit(f"{case} has no rows in a file postProcessing/{name}/*/surfaceFieldValue.dat")
+    return numpy.array(rows)
 
 
 def steps(case):
-    """What the solver's log says of each step: time, opening, cells, seconds of the library and of the whole step."""
-    text = (pathlib.Path(case) / "log.pimpleFoam").read_text()
-    rows, before = [], None
-    for block in re.split(r"\nTime = ", text)[1:]:
-        time = float(block.split()[0])
+    """What the solver's log says of each step: time, opening, cells, seconds of the library and of the whole step.
+
+    The integral of K stands between cells and seconds. The first step has NaN in the place of the last.
+    """
+    path = pathlib.Path(case) / "log.pimpleFoam"
+    rows, before = [], numpy.nan
+    for block in re.split(r"\nTime = ", text(path))[1:]:
+        time = block.split()[0]
         riis = re.search(r"riis \w+: opening (\S+), (\d+) cells marked, integral of K (\S+) kg/s, (\S+) s in the library", block)
-        clock = float(re.search(r"ExecutionTime = (\S+) s", block).group(1))
-        row = [time] + ([float(word) for word in riis.groups()] if riis else [numpy.nan] * 4)
-        rows.append(row + [clock - before if before is not None else numpy.nan])
-        before = clock
+        clock = re.search(r"ExecutionTime = (\S+) s", block)
+        for found, what in ((riis, "cells marked"), (clock, "ExecutionTime")):
+            if not found:
+                raise SystemExit(f"{path}: the step of time {time} has no line with {what}")
+        numbers = [_number(word, f"{path}: the step of time {time}") for word in (time, *riis.groups(), clock.group(1))]
+        rows.append(numbers[:-1] + [numbers[-1] - before])
+        before = numbers[-1]
+    if not rows:
+        raise SystemExit(f"{path} has no time step")
     return numpy.array(rows)
 
 
 def triangles(path):
     """The points (n, 3), triangles (m, 3) and vectors at the points (n, 3) of a .vtk of triangles; no vectors are None."""
-    words = pathlib.Path(path).read_text().split()
+    words = text(path).split()
+    for word in ("POINTS", "POLYGONS"):
+        if word not in words:
+            raise SystemExit(f"{path} has no {word}")
     at, count = words.index("POINTS") + 3, int(words[words.index("POINTS") + 1])
     points = numpy.array(words[at:at + 3 * count], float).reshape(-1, 3)
     at, n = words.index("POLYGONS") + 3, int(words[words.index("POLYGONS") + 1])

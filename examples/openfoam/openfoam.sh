@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run openfoam, which reads this file: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. They use
-# its $build, $n_jobs, $packages, install_missing, python_of_packages, say and step.
+# its $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step.
 
 openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
   bzip2 xz-utils python3-numpy python3-matplotlib)
@@ -10,10 +10,10 @@ openfoam_here=examples/openfoam
 # openfoam [--short | --size CENTIMETRES]
 openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
-  case ${1:-} in
+  case $* in
     '') ;;
     --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
-    --size) of_size=${2:-} ;;
+    --size | '--size '*) of_size=${*:2} ;;
     *)
       echo "./run openfoam: '$*' is not an option" >&2
       exit 2
@@ -32,6 +32,7 @@ openfoam() {
   step "build the library and the plug-in" openfoam_build
   openfoam_environment
   step "mesh the root" openfoam_mesh "$of_size"
+  openfoam_digests
 
   local python
   python=$(python_of_packages)
@@ -40,44 +41,36 @@ openfoam() {
   rm -rf "$of_cases" "$of_out"
   mkdir -p "$of_cases" "$of_out"
 
-  step "bad input" openfoam_refusals
+  step "bad input, which must be refused" openfoam_refusals
   cat "$of_out/refusals.txt"
   step "marks of 1, 2 and 4 ranks" openfoam_marks
   of_check marks "$of_cases/marks-1" "$of_cases/marks-2" "$of_cases/marks-4" | tee "$of_out/marks.txt"
-  step "the closed valve, OpenFOAM's porosity, the open valve, no valve" openfoam_drops
+  step "a steady flow: closed valve, OpenFOAM's porosity, open valve, no valve" openfoam_drops
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
   if [[ ${1:-} != --short ]]; then
-    step "the closed valve in four meshes" openfoam_sizes
+    step "a steady flow through the closed valve in four meshes" openfoam_sizes
     of_check sizes "$of_cases"/closed-0.* | tee "$of_out/sizes.txt"
   fi
   step "a heartbeat on 2 ranks, with the leaflets' velocity" openfoam_beat beat yes
-  step "a heartbeat on 2 ranks, without it" openfoam_beat beat-still no
+  step "a heartbeat on 2 ranks, without the leaflets' velocity" openfoam_beat beat-still no
   of_check beat "$of_cases/beat" "$of_cases/beat-still" | tee "$of_out/beat.txt"
-  step "restart in mid-cycle" openfoam_restart
-  of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/none" "$of_cases/none-restart" | tee "$of_out/restart.txt"
+  step "a restart in mid-cycle, with the valve and without one" openfoam_restart
+  of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/flow" "$of_cases/flow-restart" | tee "$of_out/restart.txt"
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
-  say "left: out/openfoam/beat.png, out/openfoam/velocity.png; for ParaView $of_cases/beat (after reconstructPar)"
+  say "left: out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
 # Says why nothing runs if the distribution lacks the package.
 openfoam_has_package() {
-  local as_root=()
   if ! command -v dpkg-query >/dev/null; then
     say "OpenFOAM is left out: this is no Debian system, and the plug-in is built for Debian's package openfoam"
     return 1
   fi
-  [[ $(dpkg-query -W -f='${db:Status-Status}' openfoam 2>/dev/null) != installed ]] || return 0
-  if ! openfoam_candidate; then
-    ((EUID == 0)) || as_root=(sudo)
-    "${as_root[@]}" apt-get -qq update || true
-  fi
-  openfoam_candidate || {
+  is_on_offer openfoam || {
     say "OpenFOAM is left out: this distribution has no package openfoam"
     return 1
   }
 }
-
-openfoam_candidate() { apt-cache policy openfoam | grep -q 'Candidate: [0-9]'; }
 
 # Debian's packages have no headers, so its source package gives them: OPENFOAM_SOURCE. Says why nothing runs if it cannot be had.
 openfoam_has_source() {
@@ -95,6 +88,7 @@ openfoam_has_source() {
 }
 
 # openfoam_source VERSION FOLDER: the system's own apt entries, as entries for sources in a private folder. The system's lists stay.
+# --tar-only: the headers are all in the original archive, so Debian's own files are not needed.
 openfoam_source() {
   local folder=$2 file apt_options part
   mkdir -p "$folder/apt/parts" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
@@ -107,7 +101,7 @@ openfoam_source() {
   apt_options=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$folder/apt/parts" -o "Dir::State::lists=$folder/apt/lists"
     -o "Dir::Cache=$folder/apt/cache" -o APT::Sandbox::User=)
   apt-get "${apt_options[@]}" update &&
-    (cd "$folder" && apt-get "${apt_options[@]}" source --download-only "openfoam=$1") &&
+    (cd "$folder" && apt-get "${apt_options[@]}" source --download-only --tar-only "openfoam=$1") &&
     tar -xf "$folder"/openfoam_*.orig.tar.* -C "$folder" --strip-components=1 --wildcards \
       '*/wmake' '*/src/OpenFOAM' '*/src/OSspecific' '*/src/finiteVolume' '*/src/meshTools' || return
   for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools; do
@@ -129,9 +123,28 @@ openfoam_build() {
 openfoam_environment() {
   export WM_PROJECT_DIR=/usr/share/openfoam
   export LD_LIBRARY_PATH=$of_work/plugin${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-  # Ranks may be more than processors, and may belong to root.
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+  # Ranks may be more than processors, and may belong to root. The second line is for Open MPI 4, the third for 5.
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+  export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 }
+
+# Debian 13's OpenFOAM ends at the first function object (plugin/dictionaryDigest.C). Leaves what its programs need in $of_with.
+openfoam_digests() {
+  local digest=$of_work/plugin/libfoamDigest.so log=$of_work/function_object.log
+  of_with=()
+  (openfoam_function_object) >"$log" 2>&1 && return
+  if grep -qF 'error in IOstream "sha1"' "$log"; then
+    say "this OpenFOAM fails in every function object, with riis or without: its programs run with LD_PRELOAD=$digest"
+    of_with=(env "LD_PRELOAD=$digest")
+    (openfoam_function_object) >"$log" 2>&1 && return
+  fi
+  tail -n 40 "$log"
+  say "a function object of OpenFOAM's own fails: $log"
+  exit 1
+}
+
+openfoam_function_object() { "${of_with[@]}" postProcess -case "$of_work/mesh-$of_size" -func writeCellCentres -time 0; }
 
 # openfoam_mesh SIZE: OpenFOAM's mesh with edges of SIZE centimetres, in mesh-SIZE.
 openfoam_mesh() {
@@ -170,14 +183,24 @@ of_set() {
 
 # of_run NAME RANKS: runs the case; log.pimpleFoam has what it printed.
 of_run() {
-  local folder=$of_cases/$1 parts=([1]='1 1 1' [2]='2 1 1' [4]='2 2 1')
+  local parts=([1]='1 1 1' [2]='2 1 1' [4]='2 2 1')
   if (($2 == 1)); then
-    timeout 3600 pimpleFoam -case "$folder" >"$folder/log.pimpleFoam" 2>&1
+    of_logged "$1" pimpleFoam timeout 3600 "${of_with[@]}" pimpleFoam -case "$of_cases/$1"
   else
     of_set "$1" system/decomposeParDict numberOfSubdomains "$2" simpleCoeffs/n "(${parts[$2]})" &&
-      decomposePar -case "$folder" >"$folder/log.decomposePar" 2>&1 &&
-      timeout 3600 mpirun -n "$2" pimpleFoam -case "$folder" -parallel >"$folder/log.pimpleFoam" 2>&1
+      of_logged "$1" decomposePar "${of_with[@]}" decomposePar -case "$of_cases/$1" &&
+      of_logged "$1" pimpleFoam timeout 3600 mpirun -n "$2" "${of_with[@]}" pimpleFoam -case "$of_cases/$1" -parallel
   fi
+}
+
+# of_logged NAME PROGRAM COMMAND...: runs the command with its output in log.PROGRAM of the case. Shows the log's end if it fails.
+of_logged() {
+  local log=$of_cases/$1/log.$2
+  shift 2
+  "$@" >"$log" 2>&1 && return
+  printf 'failed: %s; the end of %s:\n' "$*" "$log" >&2
+  tail -n 20 "$log" >&2
+  return 1
 }
 
 # An opening valve, with every step written. The cell centres are OpenFOAM's own.
@@ -191,9 +214,9 @@ openfoam_marks() {
         '{ law times; openingStart -0.01; openingSeconds 0.04; closingStart 0.1; closingSeconds 0.04; }' &&
       of_run "$name" "$ranks" || return
     if ((ranks == 1)); then
-      postProcess -case "$of_cases/$name" -func writeCellCentres -time 0
+      "${of_with[@]}" postProcess -case "$of_cases/$name" -func writeCellCentres -time 0
     else
-      timeout 600 mpirun -n "$ranks" postProcess -case "$of_cases/$name" -parallel -func writeCellCentres -time 0
+      timeout 600 mpirun -n "$ranks" "${of_with[@]}" postProcess -case "$of_cases/$name" -parallel -func writeCellCentres -time 0
     fi || return
   done
 }
@@ -237,16 +260,22 @@ openfoam_beat() {
 # and is restarted at the same time.
 openfoam_restart() {
   local before=0.16 time=0.2 end=0.24
-  cp -r "$of_cases/beat" "$of_cases/beat-restart" && of_go_on beat-restart "$time" "$end" &&
-    cp -r "$of_cases/beat" "$of_cases/none" && rm "$of_cases/none/system/fvOptions" && of_go_on none "$before" "$end" &&
-    cp -r "$of_cases/none" "$of_cases/none-restart" && of_go_on none-restart "$time" "$end"
+  of_copy beat beat-restart && of_go_on beat-restart "$time" "$end" &&
+    of_copy beat flow && rm "$of_cases/flow/system/fvOptions" && of_go_on flow "$before" "$end" &&
+    of_copy flow flow-restart && of_go_on flow-restart "$time" "$end"
+}
+
+# of_copy NAME COPY: cp would put the case into a copy that is there already.
+of_copy() {
+  [[ ! -e $of_cases/$2 ]] || { echo "the case $of_cases/$2 is there already" >&2 && return 1; }
+  cp -r "$of_cases/$1" "$of_cases/$2"
 }
 
 # of_go_on NAME TIME END: runs a case on 2 ranks from a time that it has written.
 of_go_on() {
   of_forget_after "$1" "$2" &&
     of_set "$1" system/controlDict startTime "$2" endTime "$3" &&
-    timeout 3600 mpirun -n 2 pimpleFoam -case "$of_cases/$1" -parallel >"$of_cases/$1/log.pimpleFoam" 2>&1
+    of_logged "$1" pimpleFoam timeout 3600 mpirun -n 2 "${of_with[@]}" pimpleFoam -case "$of_cases/$1" -parallel
 }
 
 # of_forget_after NAME TIME: removes what a case has of later times.
@@ -261,17 +290,17 @@ of_forget_after() {
 # of_refused TEXT NAME WORDS: the case must stop with the words, and leave no time folder.
 of_refused() {
   local name=$2 log=$of_cases/$2/log.pimpleFoam left
-  if of_run "$name" 1; then
-    echo "$1: the solver ran" >&2
+  if of_run "$name" 1 2>/dev/null; then
+    echo "$1: it was not refused, and the solver ran to its end" >&2
     return 1
   fi
   grep -qF -- "$3" "$log" || {
-    echo "$1: '$3' is not in $log" >&2
+    echo "$1: the solver ended, but its log lacks the words '$3': $log" >&2
     return 1
   }
   left=$(find "$of_cases/$name" -maxdepth 1 -name '[0-9]*' ! -name 0 ! -name 0.02)
   [[ ! $left ]] || {
-    echo "$1: left $left" >&2
+    echo "$1: the solver ended, but it had written $left" >&2
     return 1
   }
   printf '  %-34s refused: %s\n' "$1" "$3" >>"$of_out/refusals.txt"

@@ -84,7 +84,7 @@ class Pose:
 
 
 class Seen(NamedTuple):
-    """What the points see of a valve; the directions make distances smooth where points change sides."""
+    """The points' places relative to a valve. Directions make distances smooth where points change sides."""
 
     difference: Reals  # (n, 3), from the closest point
     direction: Reals  # (n, 3), unit, on the side of the normal

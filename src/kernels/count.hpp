@@ -16,19 +16,11 @@ extern Counts counts_of_kernels;
 
 namespace {
 
-inline __attribute__((always_inline)) void count_operations(int64_t n) {
+inline __attribute__((always_inline)) void count(int64_t Counts::*which, int64_t n) {
 #if defined(RIIS_COUNT_OPERATIONS)
-  counts_of_kernels.operations += n;
+  counts_of_kernels.*which += n;
 #else
-  static_cast<void>(n);
-#endif
-}
-
-inline __attribute__((always_inline)) void count_pairs(int64_t n) {
-#if defined(RIIS_COUNT_OPERATIONS)
-  counts_of_kernels.pairs += n;
-#else
-  static_cast<void>(n);
+  static_cast<void>(which), static_cast<void>(n);
 #endif
 }
 

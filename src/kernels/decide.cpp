@@ -32,7 +32,7 @@ RIIS_INLINE Doubles magnitude(Doubles a) {
   return r;
 }
 RIIS_INLINE Doubles root(Doubles a) {
-  count_operations(Doubles::n);
+  count(&Counts::operations, Doubles::n);
   Doubles r;
   for (int i = 0; i < Doubles::n_registers; ++i) {
 #if defined(__AVX512F__)

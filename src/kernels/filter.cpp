@@ -179,7 +179,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
       points[j] = {Floats::all(xyz[0][lane]), Floats::all(xyz[1][lane]), Floats::all(xyz[2][lane])};
     }
     distances_to_group(group, points, margin, distances + i);
-    count_pairs(int64_t{n_together} * bounds.n);
+    count(&Counts::pairs, int64_t{n_together} * bounds.n);
   }
   float nearest[n];
   least_lanes(distances, nearest);
@@ -249,8 +249,23 @@ void group_distances(const TriangleGroup &group, const float *point, float margi
   for (int i = 0; i < 16; ++i) distance_sq[i] = d[i];
 }
 
+void rank(const int32_t *key, int32_t n, int32_t *n_less) {
+  typedef IntRegister InMemory __attribute__((may_alias));
+  const auto *const keys = reinterpret_cast<const InMemory *>(key);
+  auto *const to = reinterpret_cast<InMemory *>(n_less);
+  constexpr int n_registers = keys_at_once * static_cast<int>(sizeof *key) / register_bytes;
+  constexpr int together = 4;  // registers that a key is compared with, once it is loaded
+  for (int first = 0; first < n_registers; first += together) {
+    IntRegister of[together], less[together] = {};
+    for (int k = 0; k < together; ++k) of[k] = keys[first + k];
+    for (int32_t i = 0; i < n; ++i)
+      for (int k = 0; k < together; ++k) less[k] -= key[i] < of[k];
+    for (int k = 0; k < together; ++k) to[first + k] = less[k];
+  }
+}
+
 }  // namespace
 
-const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes, filter_leaf, group_distances};
+const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes, filter_leaf, group_distances, rank};
 
 }  // namespace riis

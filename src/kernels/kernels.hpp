@@ -114,6 +114,9 @@ struct alignas(64) PlacedBy {
   double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
 };
 
+// The most keys that are ranked together: two leaves.
+constexpr int32_t keys_at_once = 2 * nodes_per_leaf;
+
 struct FilterKernels {
   // Writes a bit for each box within the reach of each candidate group. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
@@ -123,6 +126,9 @@ struct FilterKernels {
   int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
   // Computes squares of the distances, in single precision, of a point (in the surface's frame) to the triangles of a group.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
+  // Counts for each key how many of the first n keys are less, n <= keys_at_once. If these differ, that is the key's place in
+  // ascending order. Both arrays are aligned to 64 bytes, and have room for keys_at_once.
+  void (*rank)(const int32_t *key, int32_t n, int32_t *n_less);
 };
 
 struct DecisionKernels {

@@ -146,7 +146,7 @@ typedef Lanes<double, DoubleRegister, 8> Doubles;
   for (int i = 0; i < Lanes<S, R, n>::n_registers; ++i) r.part[i] = expression; \
   return r
 #define RIIS_ARITHMETIC(result, expression) \
-  count_operations(n);                      \
+  count(&Counts::operations, n);            \
   RIIS_LANEWISE(result, expression)
 
 // clang-format off
@@ -260,7 +260,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
 
 // Writes the least of the lanes of each of four Floats.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
-  count_operations(4 * (Floats::n - 1));
+  count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(RIIS_SSE2)
   __m128 m[4];
   for (int i = 0; i < 4; ++i) {

@@ -63,6 +63,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
     Boxes &region = view(clusters.regions)[r];
     region = no_boxes();
     const Range of_region = clusters.clusters_of(r);
+    const std::int64_t end = std::min(clusters.leaves_of(of_region.end - 1).end * nodes_per_leaf, n_nodes);
     for (std::int64_t c = of_region.begin; c < of_region.end; ++c) {
       Boxes &cluster = view(clusters.clusters)[c];
       cluster = no_boxes();
@@ -71,6 +72,9 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
         Leaf &leaf = clusters.leaves.get()[l];
         double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
+        // The next leaf's nodes lie anywhere in the caller's memory. Those of the next region are another thread's.
+        for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i)
+          nodes.prefetch(node_of(i));
         NodeBox box;
         for (int i = 0; i < nodes_per_leaf; ++i) {
           const std::uint32_t node = node_of(std::min(first + i, last));
@@ -93,6 +97,21 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   });
 }
 
+// The caller may have moved nodes since they were given, without a word. The errors of single precision are bounded for
+// coordinates that are at most 1.
+bool are_within_frame(const Clusters &clusters) {
+  return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {
+    return std::all_of(box.lower, box.lower + 3, [](float x) { return x >= -1; }) &&
+           std::all_of(box.upper, box.upper + 3, [](float x) { return x <= 1; });
+  });
+}
+
+Bounds bounds_of(const StridedPoints &nodes) {
+  Bounds bounds;
+  for (std::int64_t i = 0; i < nodes.n; ++i) bounds.add(node_at(nodes, i));
+  return bounds;
+}
+
 }  // namespace
 
 Range Clusters::leaves_of(std::int64_t cluster) const {
@@ -109,19 +128,24 @@ int Clusters::n_nodes_of(std::int64_t leaf) const {
   return static_cast<int>(std::min<std::int64_t>(nodes_per_leaf, n_nodes - leaf * nodes_per_leaf));
 }
 
-void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
-  clusters.frame = frame_of(nodes, n_threads, clusters.blocks);
+void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters) {
+  clusters.frame = frame_around(bounds);
   NodeSorter<std::uint32_t> sorter(items_of<std::uint32_t>(nodes, clusters.frame, n_threads), n_threads);
   const NodeItems<std::uint32_t> &sorted = sorter.sort();
   fill(nodes, clusters, n_threads, [&](std::int64_t i) { return view(sorted)[i].node; });
+  if (!are_within_frame(clusters)) place_clusters(nodes, bounds_of(nodes), n_threads, clusters);
 }
 
-void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters) {
-  clusters.frame = frame_of(nodes, n_threads, clusters.blocks);
+void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters) {
   // Each leaf is read and written in place: a node's number is read before it is overwritten.
   const Leaf *leaves = clusters.leaves.get();
-  fill(nodes, clusters, n_threads,
-       [leaves](std::int64_t i) { return leaves[i / nodes_per_leaf].node[i % nodes_per_leaf]; });
+  const auto place = [&](const Bounds &around) {
+    clusters.frame = frame_around(around);
+    fill(nodes, clusters, n_threads,
+         [leaves](std::int64_t i) { return leaves[i / nodes_per_leaf].node[i % nodes_per_leaf]; });
+  };
+  place(bounds);
+  if (!are_within_frame(clusters)) place(bounds_of(nodes));
 }
 
 }  // namespace riis

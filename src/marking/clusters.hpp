@@ -35,8 +35,7 @@ struct Clusters {
   struct Box {
     float lower[3], upper[3];
   };
-  std::vector<Box> boxes;      // one per region
-  std::vector<Bounds> blocks;  // memory that frame_of reuses
+  std::vector<Box> boxes;  // one per region
 
   Range leaves_of(std::int64_t cluster) const;
   Range clusters_of(std::int64_t region) const;
@@ -47,8 +46,9 @@ struct Clusters {
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
 // Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. Clusters with n_nodes 0 have not been made yet.
-void sort_into_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
+//   bounds  of the nodes when they were given
+void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 // Keeps the order and updates places and boxes to the nodes' new coordinates.
-void place_clusters(const StridedPoints &nodes, int n_threads, Clusters &clusters);
+void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 
 }  // namespace riis

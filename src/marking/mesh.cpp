@@ -20,7 +20,7 @@ const NodeBalls &Mesh::balls(int n_threads) const {
   const std::lock_guard<std::mutex> lock(balls_mutex_);
   if (!has_balls_.load(std::memory_order_relaxed)) {
     // Nodes that moved keep their order, which stays good as long as they do not mix.
-    if (balls_.order.empty()) sort_into_balls(nodes_, n_threads, balls_);
+    if (balls_.order.empty()) sort_into_balls(nodes_, bounds_, n_threads, balls_);
     enclose(nodes_, n_threads, balls_);
     has_balls_.store(true, std::memory_order_release);
   }
@@ -32,9 +32,9 @@ const Clusters &Mesh::clusters(int n_threads) const {
   const std::lock_guard<std::mutex> lock(clusters_mutex_);
   if (!has_clusters_.load(std::memory_order_relaxed)) {
     if (clusters_.n_nodes == 0)
-      sort_into_clusters(nodes_, n_threads, clusters_);
+      sort_into_clusters(nodes_, bounds_, n_threads, clusters_);
     else
-      place_clusters(nodes_, n_threads, clusters_);
+      place_clusters(nodes_, bounds_, n_threads, clusters_);
     was_marked_.store(true, std::memory_order_relaxed);
     has_clusters_.store(true, std::memory_order_release);
   }

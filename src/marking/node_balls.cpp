@@ -50,10 +50,8 @@ Range NodeBalls::balls_of(std::int64_t large_ball) const {
   return {large_ball * balls_per_large_ball, std::min((large_ball + 1) * balls_per_large_ball, view(balls).size())};
 }
 
-void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
-  std::vector<Bounds> blocks;
-  NodeSorter<std::int64_t> sorter(items_of<std::int64_t>(nodes, frame_of(nodes, n_threads, blocks), n_threads),
-                                  n_threads);
+void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls) {
+  NodeSorter<std::int64_t> sorter(items_of<std::int64_t>(nodes, frame_around(bounds), n_threads), n_threads);
   const NodeItems<std::int64_t> &sorted = sorter.sort();
   balls.order.resize(sorted.size());
   for_each(nodes.n, n_threads, [&](std::int64_t i) { view(balls.order)[i] = view(sorted)[i].node; });
@@ -63,8 +61,9 @@ void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls) {
   resize(balls.balls, n_parts(view(balls.order).size(), NodeBalls::nodes_per_ball));
   resize(balls.large_balls, n_parts(view(balls.balls).size(), NodeBalls::balls_per_large_ball));
   for_each(view(balls.balls).size(), n_threads, [&](std::int64_t ball) {
-    view(balls.balls)[ball] = ball_around(
-        balls.nodes_of(ball), [&](std::int64_t at) { return Ball{node_at(nodes, view(balls.order)[at]), 0}; });
+    view(balls.balls)[ball] = ball_around(balls.nodes_of(ball), [&](std::int64_t at) {
+      return Ball{node_at(nodes, view(balls.order)[at]), 0};
+    });
   });
   for_each(view(balls.large_balls).size(), n_threads, [&](std::int64_t large_ball) {
     view(balls.large_balls)[large_ball] =

@@ -27,7 +27,7 @@ struct NodeBalls {
 };
 
 // Makes the order. Both functions fail with RIIS_INVALID_MESH for an unusable coordinate.
-void sort_into_balls(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
+void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls);
 
 // Makes the balls and large balls from the order.
 void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);

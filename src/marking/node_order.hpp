@@ -28,31 +28,24 @@ inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
   return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
 }
 
-// The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1.
+// The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1. A
+// coordinate far outside becomes 2, which is a number in single precision.
 struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
   void operator()(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
-    x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
+    const auto inside = [](double a) { return static_cast<float>(std::min(std::max(a, -2.0), 2.0)); };
+    x[0] = inside(q.x), x[1] = inside(q.y), x[2] = inside(q.z);
   }
 };
 
-// `blocks` is memory that the call reuses.
-inline NodeFrame frame_of(const StridedPoints &nodes, int n_threads, std::vector<Bounds> &blocks) {
-  resize(blocks, (nodes.n + nodes_per_sorting_block - 1) / nodes_per_sorting_block);
-  parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
-    Bounds bounds;
-    for (std::int64_t i = range.begin; i < range.end; ++i) bounds.add(node_at(nodes, i));
-    view(blocks)[range.begin / nodes_per_sorting_block] = bounds;
-  });
-  Bounds all;
-  for (const Bounds &block : blocks) all.add(block);
-  const Vec3 extent = all.half_extent();
+inline NodeFrame frame_around(const Bounds &nodes) {
+  const Vec3 extent = nodes.half_extent();
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
-  return {all.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};  // a denormal extent would make it infinite
+  return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};  // a denormal extent would make it infinite
 }
 
 // A box in the frame of the mesh, in single precision.
@@ -314,14 +307,38 @@ class NodeSorter {
     });
   }
 
+  // Sorts a short part by its longest axis, where counting in bins would take longer.
+  static void sort_whole(const Part &part, const Item *from, Item *to) {
+    const NodeBox box = box_of(from, part);
+    const int axis = box.longest_axis();
+    const float extent = box.upper[axis] - box.lower[axis];
+    // A key has the place along the axis in its upper bits. The number below makes all keys different.
+    constexpr std::int32_t most = (1 << 24) - 1;
+    float per_unit = extent > 0 ? static_cast<float>(most) / extent : 0;
+    if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
+    static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);
+    alignas(64) std::array<std::int32_t, keys_at_once> key{}, rank;
+    const auto n = static_cast<std::int32_t>(part.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+      const auto place = static_cast<std::int32_t>((from[part.begin + i].x[axis] - box.lower[axis]) * per_unit);
+      view(key)[i] = std::min(place, most) * keys_at_once + i;
+    }
+    kernels(best_instruction_set()).rank(key.data(), n, rank.data());
+    for (std::int32_t i = 0; i < n; ++i) to[part.begin + view(rank)[i]] = from[part.begin + i];
+  }
+
   // Sorts down to leaves, on one thread.
   void sort_alone(const Part &part, Item *at, Item *other) {
     if (part.size() <= nodes_per_leaf) {
       if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);
       return;
     }
-    OneBlock block(part);
-    sort_once(part, at, other, block);
+    if (part.size() <= keys_at_once)
+      sort_whole(part, at, other);
+    else {
+      OneBlock block(part);
+      sort_once(part, at, other, block);
+    }
     for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
   }
 

@@ -25,10 +25,12 @@ inline int default_thread_count() noexcept {
 // have stopped, the exception of the lowest block is thrown again here. It is the one that a single thread meets,
 // because all blocks before it were handed out before it and run to their end. No setting of the caller's OpenMP
 // changes. Inside a caller's parallel region, the loop runs on as many threads as nesting allows. One thread is the
-// calling thread, without OpenMP: the run-time of OpenMP ends the process if it has no memory.
+// calling thread, without OpenMP: the run-time of OpenMP ends the process if it has no memory. A loop of fewer blocks than
+// threads leaves some idle: GCC's run-time ends the threads that a smaller team leaves out, and the next loop waits for new
+// ones.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  if (n_threads > n_blocks) n_threads = n_blocks < 1 ? 1 : static_cast<int>(n_blocks);
+  if (n_blocks <= 1) n_threads = 1;
   if (n_threads == 1) {
     for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
     return 1;

@@ -217,7 +217,7 @@ constexpr double most_of_allowed = 0.9;
 // Needs are found on so many steps for each of the largest number of segments that a curve has, and on no more than the most.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// Every fourth state says how many steps each line needs. Then all states check the lines.
+// One of so many states says how many steps each line needs. Then all states check the lines.
 constexpr std::size_t states_per_need = 4;
 
 // Halves the steps of a list that are too large. `is_too_large` has an entry for each step.

@@ -189,7 +189,8 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   rtcCommitGeometry(in.geometry.get());
   check("take the triangles");
   // Embree builds with TBB, which would otherwise call as many threads as there are processors.
-  Arena(n_threads).run([&] { rtcCommitScene(in.scene.get()); });
+  constexpr std::size_t few = 1024;  // Embree builds fewer on one thread, and others would only be woken
+  Arena(in.groups.groups.size() < few ? 1 : n_threads).run([&] { rtcCommitScene(in.scene.get()); });
   check("build the scene");
 }
 

@@ -11,6 +11,7 @@
 #include "marks.h"
 #include "program.h"
 #include "scratch.h"
+#include "test_support.h"
 #include "vtk_shim.h"
 
 /* The example's own control points, and its valve_with(). */
@@ -168,7 +169,7 @@ static const double rounding = 1e-13; /* cm; leaflets that meet may overlap by t
 
 static void test_no_crossing(void **state) {
   (void)state;
-  const int n_steps = getenv("RIIS_TEST_LONG") && *getenv("RIIS_TEST_LONG") ? 100 : 20;
+  const int n_steps = is_long_test() ? 100 : 20;
   for (int i = 0; i <= n_steps; ++i) {
     show(EXAMPLE_JSON, (double)i / n_steps);
     if (deepest_crossing() > rounding)

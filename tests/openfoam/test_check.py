@@ -3,6 +3,9 @@
 import contextlib
 import io
 import pathlib
+import re
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -18,7 +21,6 @@ import check  # noqa: E402
 import foam_files as foam  # noqa: E402
 
 N = 400
-TIMES = ("0.001", "0.002", "0.003", "0.004")
 
 
 def text_of(values, binary):
@@ -31,60 +33,98 @@ def text_of(values, binary):
     return (head + "\n" + "\n".join(rows) + "\n)\n;\n").encode()
 
 
-class Check(unittest.TestCase):
+class Files(unittest.TestCase):
+    """Cases in a folder of their own, and what a check says of them."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        random = numpy.random.default_rng(7)
-        self.centres = random.random((N, 3))
-        # More cells in each step, as of an opening valve.
-        self.k = [numpy.where(numpy.arange(N) < 150 + 10 * i, random.random(N) + 1, 0) for i in range(len(TIMES))]
+        self.random = numpy.random.default_rng(7)
 
     def write(self, path, data):
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
+        path.write_bytes(data if isinstance(data, bytes) else data.encode())
+
+    def parts(self, case, parts):
+        """The meshes of ranks that have these cells. Returns their folders."""
+        folders = []
+        for rank, ids in enumerate(parts):
+            folder = case / f"processor{rank}" if len(parts) > 1 else case
+            listed = "\n".join(map(str, ids))
+            mesh = folder / "constant/polyMesh"
+            self.write(mesh / "owner", f'FoamFile {{ note "nPoints: 9 nCells: {len(ids)} nFaces: 9"; }}\n')
+            self.write(mesh / "cellProcAddressing", f"FoamFile {{ format ascii; }}\n\n{len(ids)}\n(\n{listed}\n)\n")
+            folders.append(folder)
+        return folders
+
+    def table(self, case, name, times, values):
+        rows = "".join(f"{time!r}\t{value!r}\n" for time, value in zip(map(float, times), map(float, values)))
+        self.write(case / f"postProcessing/{name}/0/surfaceFieldValue.dat",
+                   f"# Region type : patch {name}\n# Time  areaAverage(p)\n{rows}")
+
+    def log(self, case, times, opening, cells):
+        self.write(case / "log.pimpleFoam", "Create time\n" + "".join(
+            f"\nTime = {float(time)!r}\n\nriis aorticValve: opening {float(x)!r}, {n} cells marked, integral of K 1 kg/s, 0.001 s"
+            f" in the library\nExecutionTime = {1 + i / 4} s\n" for i, (time, x, n) in enumerate(zip(times, opening, cells))))
+
+    def valve(self, case):
+        """The dictionary of a valve, and leaflets of 8 cm2."""
+        self.write(case / "system/fvOptions", "aorticValve { resistance 1e3; halfThickness 1e-3; }\n")
+        self.write(case / "postProcessing/aorticValve/0.01/leaflets.vtk",
+                   "# vtk\nPOINTS 3 double\n0 0 0\n0.04 0 0\n0 0.04 0\nPOLYGONS 1 4\n3 0 1 2\n")
+
+    def replace(self, path, old, new):
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new, 1))
+
+    def printed(self, what, *paths):
+        text = io.StringIO()
+        with contextlib.redirect_stdout(text):
+            what(*map(str, paths))
+        return text.getvalue()
+
+    def stopped(self, words, what, *paths):
+        with self.assertRaises(SystemExit) as refusal:
+            self.printed(what, *paths)
+        self.assertIn(words, str(refusal.exception))
+
+
+class Marks(Files):
+    TIMES = ("0.001", "0.002", "0.003", "0.004")
+
+    def setUp(self):
+        super().setUp()
+        self.centres = self.random.random((N, 3))
+        # More cells in each step, as of an opening valve.
+        self.k = [numpy.where(numpy.arange(N) < 150 + 10 * i, self.random.random(N) + 1, 0) for i in range(len(self.TIMES))]
 
     def case(self, name, parts, binary, change=lambda part_ids, k, centres, i: None):
         case = self.folder / name
-        for rank, ids in enumerate(parts):
-            folder = case / f"processor{rank}" if len(parts) > 1 else case
-            mesh = folder / "constant/polyMesh"
-            self.write(mesh / "owner", f'FoamFile {{ note "nPoints: 9 nCells: {len(ids)} nFaces: 9"; }}\n'.encode())
-            listed = "\n".join(map(str, ids))
-            self.write(mesh / "cellProcAddressing", f"FoamFile {{ format ascii; }}\n\n{len(ids)}\n(\n{listed}\n)\n".encode())
+        for ids, folder in zip(parts, self.parts(case, parts)):
             centres = self.centres[ids].copy()
-            for i, time in enumerate(TIMES):
+            for i, time in enumerate(self.TIMES):
                 k = self.k[i][ids].copy()
                 change(ids, k, centres, i)
                 self.write(folder / time / check.K_NAME, text_of(k, binary))
                 self.write(folder / time / check.KU_NAME, text_of(numpy.stack([k, k, k], axis=1), binary))
             self.write(folder / "0/C", text_of(centres, binary))
-        log = "".join(f"\nTime = {time}\n\nriis v: opening 0.5, 150 cells marked, integral of K 1 kg/s, 0.001 s in the library\n"
-                      f"ExecutionTime = {1 + i} s\n" for i, time in enumerate(TIMES))
-        (case / "log.pimpleFoam").write_text(log)
+        self.log(case, self.TIMES, [0.5] * 4, [150] * 4)
         return case
 
-    def marks(self, *cases):
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            check.marks(*map(str, cases))
-        return printed.getvalue()
-
-    def two_ranks(self, change, binary=True):
+    def cases(self, change=lambda *_: None, binary=True):
         ids = numpy.random.default_rng(8).permutation(N)
-        serial = self.case("serial", [numpy.arange(N)], False)
-        return self.marks(serial, self.case("two", [numpy.sort(ids[:170]), numpy.sort(ids[170:])], binary, change))
+        return (self.case("serial", [numpy.arange(N)], False),
+                self.case("two", [numpy.sort(ids[:170]), numpy.sort(ids[170:])], binary, change))
+
+    def refused(self, change, words):
+        self.stopped(words, check.marks, *self.cases(change))
 
     def test_equal_marks(self):
         for binary in (False, True):
             with self.subTest(binary=binary):
-                self.assertIn(" 2     4    150-180 ", self.two_ranks(lambda *_: None, binary))
-
-    def refused(self, change, words):
-        with self.assertRaises(SystemExit) as refusal:
-            self.two_ranks(change)
-        self.assertIn(words, str(refusal.exception))
+                self.assertIn(" 2     4    150-180 ", self.printed(check.marks, *self.cases(binary=binary)))
 
     def test_another_mark(self):
         def change(ids, k, centres, i):
@@ -101,38 +141,409 @@ class Check(unittest.TestCase):
         def change(ids, k, centres, i):
             k[ids == 7] = numpy.nextafter(k[ids == 7], 9)
             centres[ids == 7] = numpy.nextafter(self.centres[7], 9)
-        self.two_ranks(change)
+        self.printed(check.marks, *self.cases(change))
 
     def test_a_large_difference_of_k(self):
         def change(ids, k, centres, i):
             k[ids == 7] *= 1.001
             centres[ids == 7] = numpy.nextafter(self.centres[7], 9)
-        self.refused(change, "K differs by at most 1e-9 of its largest value")
+        self.refused(change, "K differs by at most 1e-9 of its largest value, not ")
+
+    def test_nan_in_a_cell_without_k(self):
+        def change(ids, k, centres, i):
+            k[ids == 399] = numpy.nan
+            centres[ids == 399] = numpy.nextafter(self.centres[399], 9)
+        self.refused(change, f"0.001/{check.K_NAME} has values that are not finite, first in cell ")
+
+    def test_a_valve_that_does_not_move(self):
+        self.k = [self.k[0]] * 4
+        self.refused(lambda *_: None, "the valve moves through cells: [150, 150, 150, 150] are marked")
+
+    def test_too_few_times(self):
+        self.TIMES = self.TIMES[:3]
+        self.refused(lambda *_: None, "serial has written more than three steps, not ['0.001', '0.002', '0.003']")
 
     def test_a_missing_time(self):
-        serial = self.case("serial", [numpy.arange(N)], False)
-        other = self.case("two", [numpy.arange(200), numpy.arange(200, N)], True)
+        serial, other = self.cases()
         for rank in (0, 1):
             for name in (check.K_NAME, check.KU_NAME):
                 (other / f"processor{rank}/0.004" / name).unlink()
             (other / f"processor{rank}/0.004").rmdir()
-        with self.assertRaisesRegex(SystemExit, "has the times"):
-            self.marks(serial, other)
+        self.stopped("two has the times", check.marks, serial, other)
+
+    def test_a_missing_field(self):
+        serial, other = self.cases()
+        (other / f"processor1/0.003/{check.KU_NAME}").unlink()
+        self.stopped(f"processor1/0.003/{check.KU_NAME}: No such file or directory", check.marks, serial, other)
+
+    def test_fields_that_end_early(self):
+        for binary, width, left in ((True, 1, 169), (False, 3, 170)):
+            serial, other = self.cases(binary=binary)
+            path = other / f"processor0/0.003/{check.K_NAME if binary else check.KU_NAME}"
+            data = path.read_bytes()
+            if binary:
+                path.write_bytes(data[:data.index(b"(") + 1 + 170 * 8 - 3])
+            else:
+                path.write_bytes(re.sub(rb"\n\([^)\n]+\)", b"\n(1)", data))
+            with self.subTest(binary=binary):
+                self.stopped(f"has {left} numbers in a list of 170 times {width}", check.marks, serial, other)
+
+    def test_a_word_in_a_field(self):
+        serial, other = self.cases(binary=False)
+        self.replace(other / f"processor0/0.003/{check.K_NAME}", "\n0.0\n", "\nnone\n")
+        self.stopped(f"0.003/{check.K_NAME} has a list with another word than numbers: ", check.marks, serial, other)
+
+    def test_ranks_with_the_same_cell(self):
+        serial = self.case("serial", [numpy.arange(N)], False)
+        other = self.case("two", [numpy.arange(201), numpy.arange(199, N - 2)], True)
+        self.stopped("two: its ranks do not have each of 400 cells once", check.marks, serial, other)
+
+    def test_another_mesh(self):
+        serial = self.case("serial", [numpy.arange(N)], False)
+        other = self.case("two", [numpy.arange(200), numpy.arange(200, N - 1)], True)
+        self.stopped("two has 400 cells as ", check.marks, serial, other)
 
     def test_a_field_of_another_mesh(self):
         case = self.case("serial", [numpy.arange(N)], False)
-        with self.assertRaisesRegex(SystemExit, "has 400 cells, and the mesh has 399"):
-            foam.field(case / "0.001" / check.K_NAME, N - 1)
+        self.stopped("has 400 cells, and the mesh has 399", lambda path: foam.field(path, N - 1), case / "0.001" / check.K_NAME)
+
+    def test_a_mesh_without_its_number_of_cells(self):
+        serial, other = self.cases()
+        self.write(serial / "constant/polyMesh/owner", "FoamFile { }\n")
+        self.stopped("polyMesh/owner has no note with nCells", check.marks, serial, other)
+
+    def test_files_of_another_kind(self):
+        for path, words in ((f"processor1/0.003/{check.K_NAME}", "has no internalField"),
+                            ("processor1/constant/polyMesh/cellProcAddressing", "has no list of labels")):
+            serial, other = self.cases()
+            self.write(other / path, "FoamFile { format ascii; }\n")
+            with self.subTest(path=path):
+                self.stopped(f"two/{path} {words}", check.marks, serial, other)
+
+    def test_a_run_without_steps(self):
+        serial, other = self.cases()
+        for time in self.TIMES:
+            shutil.rmtree(serial / time)
+        self.stopped("serial has no written time", check.marks, serial, other)
 
     def test_nan_needs_a_uniform_pressure(self):
         case = self.case("serial", [numpy.arange(N)], False)
-        pressure = self.folder / "p"
+        pressure, owner = self.folder / "p", case / "constant/polyMesh/owner"
         pressure.write_text("FoamFile { format ascii; }\ninternalField uniform 1;\n")
-        with self.assertRaisesRegex(SystemExit, "has the line"):
-            check.nan(pressure, case / "constant/polyMesh/owner")
+        self.stopped("has the line 'internalField uniform 0;' once", check.nan, pressure, owner)
         pressure.write_text("FoamFile { format ascii; }\ninternalField uniform 0;\n")
-        check.nan(pressure, case / "constant/polyMesh/owner")
+        check.nan(pressure, owner)
         self.assertTrue(numpy.isnan(foam.field(pressure, N)).all())
+
+
+class Drops(Files):
+    FLOW = 4e-5  # m3/s through 8 cm2: (R / eps) u is 50,000 Pa
+
+    def setUp(self):
+        super().setUp()
+        self.drop = {"closed": numpy.full(10, 36000.0), "powerLaw": numpy.full(10, 36010.0),
+                     "DarcyForchheimer": numpy.full(10, 39000.0), "open": numpy.full(10, 30.0), "none": numpy.full(10, 20.0)}
+        self.drop["closed"][:2] = 40000, 35900
+
+    def refused(self, words, change=lambda: None):
+        times = 1e-3 * numpy.arange(1, 11)
+        for name, drop in self.drop.items():
+            case = self.folder / name
+            self.table(case, "upstream", times, 5 + drop / check.RHO)
+            self.table(case, "downstream", times, numpy.full(10, 5.0))
+            self.table(case, "flow", times, numpy.full(10, self.FLOW))
+        self.valve(self.folder / "closed")
+        change()
+        if words:
+            self.stopped(words, check.drops, self.folder)
+
+    def at(self, path):
+        return self.folder / "closed" / path
+
+    def test_good_drops(self):
+        self.refused(None)
+        printed = self.printed(check.drops, self.folder)
+        self.assertRegex(printed, r"closed valve, riis +40000\.0 +35900\.0 +36000\.0 +100\.00%")
+        self.assertRegex(printed, r"u = flow / area +50000\.0 +50000\.0 +50000\.0 +138\.89%")
+
+    def test_20_percent_off(self):
+        for factor, words in ((0.8, "36010.0 and 28800.0 Pa"), (1.2, "36010.0 and 43200.0 Pa")):
+            with self.subTest(factor=factor):
+                self.drop["closed"] = numpy.full(10, factor * 36000)
+                self.refused("OpenFOAM's powerLaw porosity and riis give the same drop to 0.5 %: " + words)
+
+    def test_a_drop_that_builds_up(self):
+        self.drop["closed"][1] *= 0.8
+        self.refused("the second step has the drop of the last one to 5 %: 28720.0 and 36000.0 Pa")
+
+    def test_both_far_from_the_flat_valve(self):
+        for factor, words in ((0.5, "it is 0.360 of it"), (1.6, "it is 1.152 of it")):
+            with self.subTest(factor=factor):
+                self.drop["closed"] = numpy.full(10, factor * 36000)
+                self.drop["powerLaw"] = numpy.full(10, factor * 36000)
+                self.refused("the drop is between 0.4 and 1.1 of (R / eps) u: " + words)
+
+    def test_an_open_valve_that_holds(self):
+        self.drop["open"][-1] = 100
+        self.refused("the open valve and no valve differ by less than 0.1 % of the closed one: 100.0 and 20.0 Pa")
+
+    def test_a_run_that_ended_early(self):
+        self.drop["open"] = self.drop["open"][:9]
+        self.refused("the tables upstream and downstream of ")
+        self.refused("open has 10 steps, not 9",
+                     lambda: self.table(self.folder / "open", "downstream", 1e-3 * numpy.arange(1, 10), [5] * 9))
+
+    def test_a_missing_table(self):
+        self.refused("closed has no rows in a file postProcessing/flow/*/surfaceFieldValue.dat",
+                     lambda: self.at("postProcessing/flow/0/surfaceFieldValue.dat").unlink())
+
+    def test_a_table_without_rows(self):
+        self.refused("closed has no rows in a file postProcessing/flow/",
+                     lambda: self.table(self.folder / "closed", "flow", [], []))
+
+    def test_bad_rows(self):
+        for new, words in (("0.001\n", "line 3 has 1 columns, and needs 2"),
+                           ("0.001\tnan\n", "line 3 has 'nan' in the place of a finite number"),
+                           ("0.001\tinf\n", "line 3 has 'inf' in the place of a finite number"),
+                           ("0.001\tx\n", "line 3 has 'x' in the place of a finite number")):
+            path = self.at("postProcessing/flow/0/surfaceFieldValue.dat")
+            with self.subTest(new=new):
+                self.refused("flow/0/surfaceFieldValue.dat: " + words, lambda: self.replace(path, "0.001\t4e-05\n", new))
+
+    def test_a_valve_without_its_numbers(self):
+        self.refused("system/fvOptions has no entry resistance",
+                     lambda: self.replace(self.at("system/fvOptions"), "resistance", "r"))
+        self.refused("system/fvOptions: No such file or directory", lambda: self.at("system/fvOptions").unlink())
+
+    def test_missing_leaflets(self):
+        path = self.at("postProcessing/aorticValve/0.01/leaflets.vtk")
+        self.refused("leaflets.vtk has no POLYGONS", lambda: self.replace(path, "POLYGONS", "LINES"))
+        self.refused("closed has no file postProcessing/aorticValve/*/leaflets.vtk", path.unlink)
+
+
+class Zones(Files):
+    def zones(self, k, model="powerLaw"):
+        closed, case = self.folder / "closed", self.folder / model
+        self.parts(closed, [numpy.arange(N)])
+        self.write(closed / "0.01" / check.K_NAME, text_of(k, True))
+        for folder in ("constant/polyMesh", "system"):
+            (case / folder).mkdir(parents=True, exist_ok=True)
+        self.printed(check.zones, closed, case, model)
+        return [(case / name).read_text() for name in ("constant/polyMesh/cellZones", "system/fvOptions")]
+
+    def test_every_marked_cell_is_in_a_zone_with_its_resistance(self):
+        k = numpy.where(numpy.arange(N) < 150, 1e5 * self.random.random(N), 0)
+        for model, key, unit in (("powerLaw", r"C0 (\S+);", 1), ("DarcyForchheimer", r"d \((\S+) ", 3.3e-6)):
+            zones, options = self.zones(k, model)
+            given = numpy.zeros(N)
+            found = re.findall(r"(zone\d+) \{ type cellZone; cellLabels List<label> \d+\(([^)]*)\)", zones)
+            for name, cells in found:
+                entry = re.search(rf"^{name} .*", options, re.MULTILINE).group(0)
+                given[numpy.array(cells.split(), int)] += check.RHO * unit * float(re.search(key, entry).group(1))
+            with self.subTest(model=model):
+                self.assertEqual(sum(len(cells.split()) for _, cells in found), 150)
+                self.assertLess(abs(given - k).max(), k.max() / 200)
+
+    def test_bad_k(self):
+        k = numpy.where(numpy.arange(N) < 150, 1.0, 0.0)
+        for change in (0.0 * k, numpy.where(numpy.arange(N) == 399, -1.0, k)):
+            with self.assertRaisesRegex(SystemExit, "closed is at least 0, and not 0 in every cell"):
+                self.zones(change)
+        k[3] = numpy.nan
+        with self.assertRaisesRegex(SystemExit, "has values that are not finite, first in cell 3"):
+            self.zones(k)
+
+
+class Sizes(Files):
+    def sizes(self, drops):
+        cases = []
+        for size, drop in zip(("0.16", "0.08"), drops):
+            case = self.folder / f"cases/closed-{size}"
+            self.parts(case, [numpy.arange(N)])
+            self.valve(case)
+            for name, value in (("upstream", drop / check.RHO), ("downstream", 0), ("flow", Drops.FLOW)):
+                self.table(case, name, [0.001, 0.002], [value, value])
+            self.log(case, [0.001, 0.002], [0, 0], [50, 50])
+            self.write(self.folder / f"mesh-{size}/checkMesh.log", "    Total volume = 4e-07.  Cell volumes OK.\n")
+            cases.append(case)
+        return cases
+
+    def test_finer_meshes_come_nearer(self):
+        printed = self.printed(check.sizes, *self.sizes((36000, 45000)))
+        self.assertRegex(printed, r"0\.16 +400 +50 +1\.00 +0\.720\n +0\.08 +400 +50 +1\.00 +0\.900")
+
+    def test_finer_meshes_that_do_not(self):
+        for drops, words in (((36000, 35000), "0.720, 0.700"), ((36000, 54000), "0.720, 1.080")):
+            with self.subTest(drops=drops):
+                self.stopped(f"finer meshes come nearer to (R / eps) u: they have {words} of it", check.sizes, *self.sizes(drops))
+
+    def test_a_mesh_without_a_volume(self):
+        cases = self.sizes((36000, 45000))
+        path = self.folder / "mesh-0.08/checkMesh.log"
+        path.write_text("Mesh OK.\n")
+        self.stopped("mesh-0.08/checkMesh.log has no Total volume", check.sizes, *cases)
+        path.unlink()
+        self.stopped("mesh-0.08/checkMesh.log: No such file or directory", check.sizes, *cases)
+
+
+class Beat(Files):
+    def setUp(self):
+        super().setUp()
+        self.times = 0.002 * numpy.arange(1, 101)
+        self.opening = numpy.interp(self.times, [0.04, 0.08, 0.12, 0.16], [0, 1, 1, 0])
+        self.q = numpy.where(self.opening > 0, 3e-4 * self.opening, 1e-6)
+
+    def beat(self):
+        case = self.folder / "beat"
+        self.log(case, self.times, self.opening, [100] * len(self.times))
+        self.table(case, "flow", self.times, self.q)
+        return case
+
+    def refused(self, words):
+        self.stopped(words, check.beat, self.beat())
+
+    def test_a_good_beat(self):
+        self.assertRegex(self.printed(check.beat, self.beat()), r"with their velocity +0\.040 s +0\.120 s +100 +300\.0 ml/s")
+
+    def test_a_valve_that_never_opens(self):
+        self.opening[:] = 0
+        self.refused("beat opens and closes: its opening is 0.0 at first, 0.0 at most and 0.0 at the end")
+
+    def test_a_valve_that_never_closes(self):
+        self.opening[50:] = 1
+        self.refused("beat opens and closes: its opening is 0.0 at first, 1.0 at most and 1.0 at the end")
+
+    def test_a_valve_that_opens_by_half(self):
+        self.opening *= 0.5
+        self.refused("beat opens fully and ends closed: its opening is 0.5 at most and 0.0 at the end")
+
+    def test_a_beat_that_ends_with_an_open_valve(self):
+        self.opening[-1] = 0.25
+        self.refused("beat opens fully and ends closed: its opening is 1.0 at most and 0.25 at the end")
+
+    def test_a_closed_valve_that_leaks(self):
+        self.q[:10] = -9e-6
+        self.refused("beat lets less than 2 % of the largest flow through: 9.00 of 300.0 ml/s")
+
+    def test_a_beat_that_starts_late(self):
+        self.times, self.opening, self.q = (values[12:] for values in (self.times, self.opening, self.q))
+        self.refused("beat has steps between 0.002 and 0.02 s, while the valve is closed")
+
+    def test_a_flow_that_is_short(self):
+        self.q = self.q[:99]
+        self.refused("beat have a row for each step: 100 and 99")
+
+    def test_an_opening_that_is_nan(self):
+        self.opening[30] = numpy.nan
+        self.refused("log.pimpleFoam: the step of time 0.062 has 'nan' in the place of a finite number")
+
+    def test_logs_that_lack_something(self):
+        for old, new, words in (("riis aorticValve", "", "the step of time 0.002 has no line with cells marked"),
+                                ("\nExecutionTime = 25.75 s", "", "the step of time 0.2 has no line with ExecutionTime")):
+            case = self.beat()
+            self.replace(case / "log.pimpleFoam", old, new)
+            with self.subTest(old=old):
+                self.stopped("log.pimpleFoam: " + words, check.beat, case)
+        (case / "log.pimpleFoam").write_text("Create time\n")
+        self.stopped("log.pimpleFoam has no time step", check.beat, case)
+        (case / "log.pimpleFoam").unlink()
+        self.stopped("log.pimpleFoam: No such file or directory", check.beat, case)
+
+
+class Restart(Files):
+    TIMES = ("0.2", "0.22", "0.24")
+
+    def restart(self, change=lambda cases: None):
+        """Two equal runs with a valve, two without one. change may spoil them."""
+        k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
+        values = {check.K_NAME: k, check.KU_NAME: numpy.stack([k, k, k], axis=1),
+                  "p": self.random.random(N), "U": self.random.random((N, 3))}
+        cases = [self.folder / name for name in ("beat", "beat-restart", "flow", "flow-restart")]
+        for case in cases:
+            parts = [numpy.arange(0, N, 2), numpy.arange(1, N, 2)]
+            for folder, ids in zip(self.parts(case, parts), parts):
+                for time in self.TIMES:
+                    for name, all_values in values.items():
+                        self.write(folder / time / name, text_of(all_values[ids], True))
+        change(cases)
+        return cases
+
+    def refused(self, words, case, time, name, change):
+        """change gets the values of the second rank, and changes them."""
+        def spoil(cases):
+            path = cases[case] / "processor1" / time / name
+            values = foam.field(path, N // 2).copy()
+            change(values)
+            self.write(path, text_of(values, True))
+        self.stopped(words, check.restart, *self.restart(spoil))
+
+    def test_the_same_bits(self):
+        printed = self.printed(check.restart, *self.restart())
+        same = ", ".join(f"{name} the same bits" for name in (check.K_NAME, check.KU_NAME, "p", "U"))
+        self.assertIn("0.22 s: " + same, printed)
+        self.assertRegex(printed, r"without a valve +0\.24 s: p the same bits, U the same bits")
+
+    def test_one_changed_bit_of_k(self):
+        def change(values):
+            values[3] = numpy.nextafter(values[3], 9)
+        self.refused(f"{check.K_NAME} at 0.24 has the same bits in ", 1, "0.24", check.K_NAME, change)
+        self.refused("beat-restart: 1 cells differ", 1, "0.22", check.KU_NAME, change)
+
+    def test_one_changed_pressure(self):
+        def change(values):
+            values[3] += 1e-5
+        self.refused("p of ", 1, "0.22", "p", change)
+        self.refused("flow-restart at 0.24 differs by less than 1e-6 of the largest: 1.0e-05", 3, "0.24", "U", change)
+
+    def test_a_small_difference_of_the_flow(self):
+        def spoil(cases):
+            path = cases[1] / "processor1/0.22/p"
+            values = foam.field(path, N // 2).copy()
+            values[3] += 1e-9
+            self.write(path, text_of(values, True))
+        printed = self.printed(check.restart, *self.restart(spoil))
+        self.assertRegex(printed, r"0\.22 s: .*, p differs by 1\.0e-09, U the same bits")
+
+    def test_nan(self):
+        def change(values):
+            values[3] = numpy.nan
+        for name in (check.K_NAME, "p", "U"):
+            for case in (0, 1):
+                with self.subTest(name=name, case=case):
+                    self.refused(f"processor1/0.22/{name} has values that are not finite, first in cell 3",
+                                 case, "0.22", name, change)
+
+    def test_a_valve_that_is_not_there(self):
+        def spoil(cases):
+            for case in cases[:2]:
+                for rank in (0, 1):
+                    self.write(case / f"processor{rank}/0.22" / check.K_NAME, text_of(numpy.zeros(N // 2), True))
+        self.stopped("beat at 0.22 is not 0 in every cell", check.restart, *self.restart(spoil))
+
+    def test_a_restart_with_another_mesh(self):
+        def spoil(cases):
+            self.parts(cases[1], [numpy.arange(0, N, 2), numpy.arange(1, N - 2, 2)])
+            for time in self.TIMES:
+                path = cases[1] / "processor1" / time / check.K_NAME
+                self.write(path, text_of(foam.field(path, N // 2)[:-1], True))
+        self.stopped("beat-restart have as many cells: 400 and 399", check.restart, *self.restart(spoil))
+
+    def test_a_missing_field_or_time(self):
+        self.stopped("flow/processor0/0.24/p: No such file or directory", check.restart,
+                     *self.restart(lambda cases: (cases[2] / "processor0/0.24/p").unlink()))
+        self.stopped("beat-restart has written two times after its start, not ['0.22']", check.restart,
+                     *self.restart(lambda cases: shutil.rmtree(cases[1] / "processor0/0.24")))
+
+
+class Words(unittest.TestCase):
+    def test_the_command_line(self):
+        program = [sys.executable, "-B", check.__file__]
+        for words in ((), ("beats", "x"), ("beat",)):
+            with self.subTest(words=words):
+                run = subprocess.run(program + list(words), capture_output=True, text=True)
+                self.assertEqual((run.returncode, run.stderr[:40]), (1, "usage: check.py marks|zones|drops|sizes|"))
+        run = subprocess.run(program + ["beat", "/nowhere"], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stderr), (1, "/nowhere/log.pimpleFoam: No such file or directory\n"))
 
 
 if __name__ == "__main__":

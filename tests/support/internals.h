@@ -124,6 +124,8 @@ void kernels_frame_group(int set, const double *centre, double scale, const doub
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);
 /* For fields: the sides of 8 points (3, 8) of planes through points (3, 8) with normals (3, 8). */
+/* key and n_less have room for 64. */
+void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less);
 void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side);
 /* Measures n triangles, up to 8: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
  * the second corner. */

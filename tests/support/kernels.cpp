@@ -175,6 +175,13 @@ void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers,
   for (int i = 0; i < pairs_at_once; ++i) std::copy_n(made[i].number, 8, mixed + 8 * i);
 }
 
+void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less) {
+  alignas(64) std::int32_t aligned_key[keys_at_once], aligned_less[keys_at_once];
+  std::copy(key, key + keys_at_once, aligned_key);
+  of(set).rank(aligned_key, n, aligned_less);
+  std::copy(aligned_less, aligned_less + keys_at_once, n_less);
+}
+
 void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side) {
   PointsAndTriangles pairs;
   PointsOnTriangles located;

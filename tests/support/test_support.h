@@ -73,6 +73,12 @@ static inline random_source random_start(const char *name) {
   return random;
 }
 
+/* RIIS_TEST_LONG=1 asks tests of random input for many more trials. */
+static inline int is_long_test(void) {
+  const char *given = getenv("RIIS_TEST_LONG");
+  return given && strcmp(given, "1") == 0;
+}
+
 static inline uint64_t random_bits(random_source *random) {
   uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -82,6 +88,11 @@ static inline uint64_t random_bits(random_source *random) {
 
 static inline double random_between(random_source *random, double low, double high) {
   return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
+}
+
+/* 10^x, with x uniform. */
+static inline double random_power_of_ten(random_source *random, double from, double to) {
+  return pow(10, random_between(random, from, to));
 }
 
 #endif
