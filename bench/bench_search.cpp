@@ -235,8 +235,10 @@ void search_paper_neighbor(benchmark::State &state) {
 void search_groups(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const double *xyz = mesh.xyz().data();
+  const riis::StridedPoints nodes{mesh.n_nodes(), xyz, xyz + 1, xyz + 2, 3};
+  const riis::Bounds bounds = riis::check_points(nodes, "node", RIIS_INVALID_MESH);
   for (auto _ : state) {
-    const riis::Mesh fresh(riis::StridedPoints{mesh.n_nodes(), xyz, xyz + 1, xyz + 2, 3}, riis::Bounds());
+    const riis::Mesh fresh(nodes, bounds);
     benchmark::DoNotOptimize(&fresh.balls(threads_of(state)));
   }
   state.counters["nodes"] = static_cast<double>(mesh.n_nodes());

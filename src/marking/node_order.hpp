@@ -36,7 +36,7 @@ struct NodeFrame {
 
   void operator()(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
-    const auto inside = [](double a) { return static_cast<float>(std::min(std::max(a, -2.0), 2.0)); };
+    const auto inside = [](double a) { return static_cast<float>(std::min(std::max(-2.0, a), 2.0)); };
     x[0] = inside(q.x), x[1] = inside(q.y), x[2] = inside(q.z);
   }
 };
