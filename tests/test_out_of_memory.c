@@ -8,6 +8,7 @@
 
 #include "failing_memory.h"
 #include "handles.h"
+#include "sanitized.h"
 #include "searches.h"
 
 #include "digests.h"
@@ -96,14 +97,21 @@ static reference reference_of(const scenario *s) {
   return made;
 }
 
-/* Makes allocations 1, 2, ... fail until the call has no more. A call that samples a surface has more than a thousand: from the
- * 65th on, up to a sixteenth of those before is left out at random. Returns the last one that failed. */
+/* Each of the first allocations of a call fails, then some at random: after allocation n the next one is at most n / share on. A
+ * call that samples a surface has more than a thousand. A sanitizer makes each trial slow. */
+#if defined(IS_SANITIZED)
+enum { n_first = 32, share = 4 };
+#else
+enum { n_first = 64, share = 16 };
+#endif
+
+/* Makes allocations 1, 2, ... fail until the call has no more. Returns the last one that failed. */
 static int64_t try_all(const scenario *s, int whose) {
   const reference expected = reference_of(s);
   const int is_whole = is_long_test();
   n_grown = 0;
   for (int64_t n = 1, last = 0;;
-       last = n, n += is_whole || n <= 64 ? 1 : 1 + (int64_t)(random_bits(&rng) % (uint64_t)(n / 16)))
+       last = n, n += is_whole || n <= n_first ? 1 : 1 + (int64_t)(random_bits(&rng) % (uint64_t)(n / share)))
     if (try_one(s, &expected, whose, n, 1, 1) == 0 || try_one(s, &expected, whose, n, 0, 1) == 0) return last;
 }
 
