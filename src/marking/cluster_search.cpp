@@ -249,7 +249,7 @@ void ClusterScratch::prepare(int n_threads) {
     std::size_t largest = 0;
     for (const Thread &thread : threads)
       largest = std::max({largest, 2 * (thread.*member).size(), (thread.*member).capacity()});
-    for (Thread &thread : threads) (thread.*member).reserve(largest);
+    for (Thread &thread : threads) (thread.*member).reserve(rounded_room(largest));
   };
   make_room(&Thread::candidates);
   make_room(&Thread::bits);

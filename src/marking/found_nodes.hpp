@@ -30,6 +30,13 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
+// Rounds a list's room up to a power of two. Then a step that needs a little more than all before it needs no new memory.
+inline std::size_t rounded_room(std::size_t n) {
+  std::size_t room = n > 0;
+  while (room < n) room *= 2;
+  return room;
+}
+
 // One list per thread, each in no particular order.
 struct FoundNodes {
   std::vector<std::vector<FoundNode>> by_thread;
@@ -41,7 +48,7 @@ struct FoundNodes {
     for (const auto &found : by_thread) largest = std::max({largest, 2 * found.size(), found.capacity()});
     for (auto &found : by_thread) {
       found.clear();
-      found.reserve(largest);
+      found.reserve(rounded_room(largest));
     }
   }
 
