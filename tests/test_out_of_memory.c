@@ -97,8 +97,8 @@ static reference reference_of(const scenario *s) {
   return made;
 }
 
-/* Each of the first allocations of a call fails, then some at random: after allocation n the next one is at most n / share on. A
- * call that samples a surface has more than a thousand. A sanitizer makes each trial slow. */
+/* Each of the first allocations of a call fails, then some at random. From allocation n, at most n / share are left out. A call
+ * that samples a surface has more than a thousand allocations, and a sanitizer makes each trial slow. */
 #if defined(IS_SANITIZED)
 enum { n_first = 32, share = 4 };
 #else

@@ -244,20 +244,17 @@ class ClusterSearch {
 
 void ClusterScratch::prepare(int n_threads) {
   if (view(threads).size() < n_threads) resize(threads, n_threads);
-  // The threads' shares differ from step to step, so each list gets room for twice the longest, as in FoundNodes.
-  const auto make_room = [this](auto member) {
-    std::size_t largest = 0;
-    for (const Thread &thread : threads)
-      largest = std::max({largest, 2 * (thread.*member).size(), (thread.*member).capacity()});
-    for (Thread &thread : threads) (thread.*member).reserve(rounded_room(largest));
+  const auto make_room_for = [this](auto member) {
+    make_room(
+        threads, [member](Thread & thread) -> auto & { return thread.*member; });
   };
-  make_room(&Thread::candidates);
-  make_room(&Thread::bits);
-  make_room(&Thread::items);
-  make_room(&Thread::near_groups);
-  make_room(&Thread::leaf_bits);
-  make_room(&Thread::leaf_groups);
-  make_room(&Thread::lower_bounds);
+  make_room_for(&Thread::candidates);
+  make_room_for(&Thread::bits);
+  make_room_for(&Thread::items);
+  make_room_for(&Thread::near_groups);
+  make_room_for(&Thread::leaf_bits);
+  make_room_for(&Thread::leaf_groups);
+  make_room_for(&Thread::lower_bounds);
   for (Thread &thread : threads) {
     thread.items.clear();
     thread.near_groups.clear();

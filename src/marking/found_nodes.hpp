@@ -30,26 +30,27 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Rounds a list's room up to a power of two. Then a step that needs a little more than all before it needs no new memory.
-inline std::size_t rounded_room(std::size_t n) {
-  std::size_t room = n > 0;
-  while (room < n) room *= 2;
-  return room;
+// Gives the list of each thread room for twice the longest one, because the threads' shares differ from step to step. The room is
+// a power of two. Then a step that needs a little more than all before it needs no new memory.
+template <class Threads, class ListOf>
+void make_room(Threads &threads, const ListOf &list_of) {
+  std::size_t largest = 0, room = 1;
+  for (auto &thread : threads) largest = std::max({largest, 2 * list_of(thread).size(), list_of(thread).capacity()});
+  if (largest == 0) return;
+  while (room < largest) room *= 2;
+  for (auto &thread : threads) list_of(thread).reserve(room);
 }
 
 // One list per thread, each in no particular order.
 struct FoundNodes {
   std::vector<std::vector<FoundNode>> by_thread;
 
-  // Empties the lists. The threads' shares differ from step to step, so each list gets room for twice the longest one.
+  // Empties the lists, and makes room for the next ones.
   void prepare(int n_threads) {
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
-    std::size_t largest = 0;
-    for (const auto &found : by_thread) largest = std::max({largest, 2 * found.size(), found.capacity()});
-    for (auto &found : by_thread) {
-      found.clear();
-      found.reserve(rounded_room(largest));
-    }
+    make_room(
+        by_thread, [](auto &found) -> auto & { return found; });
+    for (auto &found : by_thread) found.clear();
   }
 
   std::int64_t size() const {

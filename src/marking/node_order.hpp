@@ -125,15 +125,18 @@ class NodeSorter {
     std::int64_t begin, end;
     std::int64_t size() const { return end - begin; }
   };
+  // Divides n by an extent. Returns 0 if the quotient would be infinite.
+  static float per_unit_of(float n, float extent) {
+    const float per_unit = extent > 0 ? n / extent : 0;
+    return per_unit <= std::numeric_limits<float>::max() ? per_unit : 0;
+  }
   struct Bins {
     int n, axis;
     float from, per_unit;
 
     Bins(const NodeBox &box, std::int64_t size)
         : n(size <= small_size ? n_small_bins : n_bins), axis(box.longest_axis()), from(box.lower[axis]) {
-      const float extent = box.upper[axis] - from;
-      per_unit = extent > 0 ? static_cast<float>(n) / extent : 0;
-      if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
+      per_unit = per_unit_of(static_cast<float>(n), box.upper[axis] - from);
     }
     int operator()(const Item &item) const {
       const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
@@ -311,11 +314,9 @@ class NodeSorter {
   static void sort_whole(const Part &part, const Item *from, Item *to) {
     const NodeBox box = box_of(from, part);
     const int axis = box.longest_axis();
-    const float extent = box.upper[axis] - box.lower[axis];
     // A key has the place along the axis in its upper bits. The number below makes all keys different.
     constexpr std::int32_t most = (1 << 24) - 1;
-    float per_unit = extent > 0 ? static_cast<float>(most) / extent : 0;
-    if (!(per_unit <= std::numeric_limits<float>::max())) per_unit = 0;
+    const float per_unit = per_unit_of(static_cast<float>(most), box.upper[axis] - box.lower[axis]);
     static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);
     alignas(64) std::array<std::int32_t, keys_at_once> key{}, rank;
     const auto n = static_cast<std::int32_t>(part.size());
