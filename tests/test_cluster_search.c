@@ -11,6 +11,7 @@
 #include "searches.h"
 
 #include "cluster_checks.h"
+#include "sanitized.h"
 
 static void check(const riis_surface *surface, int64_t n, const double *xyz, double limit) {
   riis_mesh *mesh = mesh_of(n, xyz);
@@ -234,7 +235,7 @@ static void surfaces_from_arrays(void **state) {
   static int32_t ids[3 * max_triangles];
   for (int i = 0; i < 3 * max_triangles; ++i) ids[i] = i;
   most_within = 0;
-  for (int trial = 0; trial < 150; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(150); ++trial) {
     const int owned_before = n_owned();
     const int64_t n_triangles = 8 + (int64_t)(random_bits(&rng) % (max_triangles - 8));
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -45, 45),

@@ -5,6 +5,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 #include "searches.h"
 
 static const double half_thickness = 0.1;
@@ -427,7 +428,7 @@ static void searches_agree(void **state) {
     for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method) {
       const int owned_before = n_owned();
       riis_surface *surface = measured(valves[of], method, method == RIIS_DISTANCE_SAMPLING ? 0.2 : 0.01);
-      test_mesh nodes = lattice_around(surface, 0.11, 0.2);
+      test_mesh nodes = lattice_around(surface, is_sanitized() ? 0.15 : 0.11, 0.2);
       riis_mesh *mesh = mesh_from(&nodes);
       uint8_t *mask = own(malloc((size_t)nodes.n));
       for (int64_t i = 0; i < nodes.n; ++i) mask[i] = random_bits(&rng) % 4 != 0;

@@ -7,6 +7,7 @@
 
 #include "handles.h"
 
+#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -119,7 +120,7 @@ static void check_distances(riis_valve *valve) {
   options = surface_options();
   options.tolerance = 0.002;
   riis_surface *fine = new_surface(valve, &options);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < fewer_if_sanitized(20); ++i) {
     set_opening(valve, i < 2 ? i : between(0, 1));
     CHECK_OK(riis_surface_update(fixed, valve, NULL));
     CHECK_OK(riis_surface_update(fine, valve, NULL));

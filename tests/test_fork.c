@@ -13,6 +13,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 
 enum { n_forks = 1000, child_passed = 17, seconds_for_a_child = 20 };
 
@@ -72,11 +73,11 @@ static void forked_processes_copy_valves(void **state) {
   riis_valve *valve = new_valve("mitral");
   atomic_store(&is_over, 0);
   assert_int_equal(pthread_create(&thread, NULL, go_on_stepping, &status_of_thread), 0);
-  for (int i = 0; i < n_forks; ++i) n_passed += child_copies_valves(valve);
+  for (int i = 0; i < fewer_if_sanitized(n_forks); ++i) n_passed += child_copies_valves(valve);
   atomic_store(&is_over, 1);
   assert_int_equal(pthread_join(thread, NULL), 0);
   CHECK_OK(status_of_thread);
-  assert_int_equal(n_passed, n_forks);
+  assert_int_equal(n_passed, fewer_if_sanitized(n_forks));
 }
 
 int main(void) {

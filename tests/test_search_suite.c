@@ -11,6 +11,7 @@
 #include "searches.h"
 
 #include "random_meshes.h"
+#include "sanitized.h"
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
@@ -307,7 +308,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
 static void random_cases_equal_brute_force(void **state) {
   (void)state;
   const int is_long = is_long_test();
-  const int64_t n_cases = 140, n_pairs = is_long ? 10000000 : 0;
+  const int64_t n_cases = fewer_if_sanitized(140), n_pairs = is_long ? 10000000 : 0;
   int64_t n_meshes = 0;
   for (; n_meshes < n_cases || totals.pairs < n_pairs; ++n_meshes)
     one_case((int)(n_meshes % n_kinds), (int64_t)pow(10, random_between(&rng, 0.5, is_long ? 4.7 : 4)),
@@ -336,7 +337,7 @@ static void random_cases_equal_brute_force(void **state) {
   assert_int_equal(totals.different_distances, 0);
   assert_int_equal(totals.different_marks, 0);
   /* The cases are not trivial. */
-  assert_true(totals.pairs >= (is_long ? n_pairs : 50000));
+  assert_true(totals.pairs >= (is_long ? n_pairs : fewer_if_sanitized(50000)));
   assert_true(totals.pairs_within > totals.pairs / 50);
   assert_true(totals.undecided < totals.pairs / 1000);
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "handles.h"
+#include "sanitized.h"
 #include "searches.h"
 #include "tbb_region.h"
 
@@ -50,7 +51,7 @@ static void expect_same_as_outside(int region) {
   assert_true(marked_in(expected).n > 1000);
   int most_at_once = 0;
   for (int count = 0; count < 4; ++count)
-    for (int repeat = 0; repeat < 3; ++repeat) {
+    for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat) {
       /* Every time a mesh that none has searched: one of the tasks makes the groups. */
       free_one_owned(mesh);
       mesh = mesh_from(&nodes);

@@ -7,6 +7,7 @@
 
 #include "handles.h"
 #include "mitral_oracle.h"
+#include "sanitized.h"
 
 static patch_set set;
 
@@ -281,7 +282,7 @@ static void so_it_does_for_other_aortic_valves(void **state) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
   int n_tried = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
     const int owned_before = n_owned();
     riis_parameter parameter;
     int64_t n_parameters;
@@ -358,7 +359,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
     free_owned_after(owned_before);
   }
   printf("%d mitral valves: at most %.2f of the bound\n", n_tried, worst);
-  assert_true(n_tried > 40);
+  assert_true(n_tried > fewer_if_sanitized(40));
 }
 
 /* One triangulation for all openings, at openings that it was not chosen at. */
@@ -369,7 +370,7 @@ static void so_does_a_fixed_triangulation(void **state) {
   double worst = 0;
   int n_tried = 0, n_refused = 0;
   options.triangulation = RIIS_TRIANGULATION_FIXED;
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
     const int owned_before = n_owned();
     mitral_parameters parameters[2];
     riis_valve *valve = random_mitral(parameters, &rng);
@@ -402,7 +403,7 @@ static void so_does_a_fixed_triangulation(void **state) {
     free_owned_after(owned_before);
   }
   printf("%d states of fixed triangulations: at most %.2f of the bound; %d refused\n", n_tried, worst, n_refused);
-  assert_true(n_tried > 20 && n_refused <= 4);
+  assert_true(n_tried > fewer_if_sanitized(20) && n_refused <= 4);
 }
 
 /* Curves that are off by a deviation leave the rest of the tolerance to the triangles, and the bound counts both. */

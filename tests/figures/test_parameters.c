@@ -123,8 +123,9 @@ static void test_pictures_of_the_documents(void **state) {
   }
 }
 
-/* Replaces the first `old` after the mark by `text`, and expects that the drawing is refused with the message. */
-static void expect_refused_drawing(const char *mark, const char *old, const char *text, const char *message) {
+/* Replaces the first `old` after the mark by `text`, and expects that the kind's drawing is refused with the message. */
+static void expect_refused_drawing(const char *kind, const char *mark, const char *old, const char *text,
+                                   const char *message) {
   char *json = scratch_read(scratch_path("curves.json"), NULL);
   char *found = strstr(json, mark);
   assert_non_null(found);
@@ -135,7 +136,7 @@ static void expect_refused_drawing(const char *mark, const char *old, const char
   scratch_write_text("changed.json", changed);
   free(changed);
   free(json);
-  assert_int_equal(draw("changed.json", ""), 1);
+  assert_int_equal(draw("changed.json", kind), 1);
   char *printed = scratch_read(scratch_path("printed"), NULL);
   if (!strstr(printed, message)) fail_msg("'%s' is not in '%s'", message, printed);
   free(printed);
@@ -145,21 +146,23 @@ static void test_untrue_drawings_are_refused(void **state) {
   (void)state;
   const char *more =
       "\"parameters\": [ {\"name\": \"left.tilt\", \"unit\": \"degree\", \"values\": [3], \"description\": \"\"},";
-  expect_refused_drawing("\"aortic\"", "\"parameters\": [", more, "aortic valve: not drawn: left.tilt");
-  expect_refused_drawing("\"mitral\"", "\"parameters\": [", more, "mitral valve: not drawn: left.tilt");
-  expect_refused_drawing("\"mitral\"", "\"name\": \"surface_angle\"", "\"name\": \"face_angle\"",
+  expect_refused_drawing("aortic", "\"aortic\"", "\"parameters\": [", more, "aortic valve: not drawn: left.tilt");
+  expect_refused_drawing("mitral", "\"mitral\"", "\"parameters\": [", more, "mitral valve: not drawn: left.tilt");
+  expect_refused_drawing("mitral", "\"mitral\"", "\"name\": \"surface_angle\"", "\"name\": \"face_angle\"",
                          "surface_angle is no parameter");
-  expect_refused_drawing("\"trileaflet\"", "\"parameters\": [", more, "trileaflet valve: not drawn: left.tilt");
-  expect_refused_drawing("\"bileaflet\"", "\"parameters\": [", more, "bileaflet valve: not drawn: left.tilt");
-  expect_refused_drawing("\"trileaflet\"", "\"name\": \"leaflet_radius_out\"", "\"name\": \"leaflet_radius\"",
-                         "leaflet_radius_out is no parameter");
-  expect_refused_drawing("\"name\": \"root_radius\"", "1.29", "1.28",
+  expect_refused_drawing("trileaflet", "\"trileaflet\"", "\"parameters\": [", more,
+                         "trileaflet valve: not drawn: left.tilt");
+  expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"parameters\": [", more,
+                         "bileaflet valve: not drawn: left.tilt");
+  expect_refused_drawing("trileaflet", "\"trileaflet\"", "\"name\": \"leaflet_radius_out\"",
+                         "\"name\": \"leaflet_radius\"", "leaflet_radius_out is no parameter");
+  expect_refused_drawing("aortic", "\"name\": \"root_radius\"", "1.29", "1.28",
                          "aortic valve: root_radius is 1.28, but what the drawing shows as it is 1.29");
-  expect_refused_drawing("\"name\": \"leaflet_arc_angle\"", "120.0", "119.0",
+  expect_refused_drawing("mitral", "\"name\": \"leaflet_arc_angle\"", "120.0", "119.0",
                          "leaflet_arc_angle is 119.0, but what the drawing shows as it is 120");
-  expect_refused_drawing("\"name\": \"anterior_ratio\"", "0.41", "0.42",
+  expect_refused_drawing("mitral", "\"name\": \"anterior_ratio\"", "0.41", "0.42",
                          "anterior_ratio is 0.42, but what the drawing shows as it is 0.4");
-  expect_refused_drawing("\"name\": \"left.leaflet_power\"", "2.77", "2.7",
+  expect_refused_drawing("aortic", "\"name\": \"left.leaflet_power\"", "2.77", "2.7",
                          "leaflet_power is 2.7, but what the drawing shows as it is 2.7");
 }
 
@@ -213,11 +216,11 @@ static void test_new_kinds_are_compared(void **state) {
     expect_compared("trileaflet", "\"trileaflet\"", trileaflet[i]);
   for (size_t i = 0; i < sizeof bileaflet / sizeof *bileaflet; ++i)
     expect_compared("bileaflet", "\"bileaflet\"", bileaflet[i]);
-  expect_refused_drawing("\"bileaflet\"", "\"gap\": 0.1", "\"gap\": 0.2",
+  expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"gap\": 0.1", "\"gap\": 0.2",
                          "gap is 0.2, but what the drawing shows as it is 0.1");
-  expect_refused_drawing("\"bileaflet\"", "\"hinge_height\": 0.14", "\"hinge_height\": 0.2",
+  expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"hinge_height\": 0.14", "\"hinge_height\": 0.2",
                          "hinge_height is 0.2, but what the drawing shows as it is 0.1");
-  expect_refused_drawing("\"bileaflet\"", "\"ring_height\": 1.4", "\"ring_height\": 1.5",
+  expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"ring_height\": 1.4", "\"ring_height\": 1.5",
                          "ring_height is 1.5, but what the drawing shows as it is 1.4");
 }
 
