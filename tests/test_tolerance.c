@@ -307,7 +307,7 @@ static void so_it_does_for_other_aortic_valves(void **state) {
     free_owned_after(owned_before);
   }
   printf("%d aortic valves: at most %.2f of the bound\n", n_tried, worst);
-  assert_true(n_tried > 20);
+  assert_true(n_tried > fewer_if_sanitized(20));
 }
 
 /* A valve between two states. All parameters of each change at once by up to a quarter. */
@@ -334,7 +334,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
   int n_tried = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
     const int owned_before = n_owned();
     mitral_parameters parameters[2];
     riis_valve *valve = random_mitral(parameters, &rng);

@@ -207,6 +207,14 @@ class RowMaker {
   std::vector<PlainMemory> blocks_;  // of entries, then of columns
 };
 
+// For lists within the limits.
+template <class Lists>
+OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
+  OwnAdjacency made;
+  RowMaker<std::uint32_t, std::int32_t, Lists>(lists, n_threads).make(made.offsets, made.columns_32);
+  return made;
+}
+
 // There are at most n_entries entries.
 template <class Lists>
 OwnAdjacency adjacency_of_lists(const Lists &lists, std::int64_t n_entries, int n_threads, const NarrowLimits &limits) {
@@ -216,7 +224,7 @@ OwnAdjacency adjacency_of_lists(const Lists &lists, std::int64_t n_entries, int 
   else if (n_entries > limits.n_entries)
     RowMaker<std::uint64_t, std::int32_t, Lists>(lists, n_threads).make(made.offsets, made.columns_32);
   else
-    RowMaker<std::uint32_t, std::int32_t, Lists>(lists, n_threads).make(made.offsets, made.columns_32);
+    made = narrow_adjacency_of_lists(lists, n_threads);
   return made;
 }
 

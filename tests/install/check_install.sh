@@ -81,8 +81,9 @@ check_by_cmake() { # prefix, all|few
   rm -rf "$work/cmake"
   quietly configure_consumer "$source/examples" "$work/cmake" "$1"
   grep -q "^riis_DIR:PATH=$1/" "$work/cmake/CMakeCache.txt" || problem "another riis was found than that in $1"
-  local example targets=()
+  local example examples=("${all_examples[@]}") targets=()
   if [ "$2" = few ]; then
+    examples=("${few_examples[@]}")
     targets=(--target "${examples[@]}")
     ! has Fortran || targets+=("${examples[@]/%/_fortran}")
   fi
@@ -125,8 +126,9 @@ flags() { # pkg-config arguments
   PKG_CONFIG_PATH=$pkg_config_path "$PKG_CONFIG" "$@"
 }
 
-check_by_pkg_config() { # prefix, more pkg-config options
-  local pkg_config_path out=$work/pkg_config
+check_by_pkg_config() { # prefix, all|few, more pkg-config options
+  local pkg_config_path out=$work/pkg_config examples=("${all_examples[@]}")
+  [ "$2" = all ] || examples=("${few_examples[@]}")
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"
@@ -139,25 +141,25 @@ check_by_pkg_config() { # prefix, more pkg-config options
       quietly "$FC" "${fortran_flags[@]}" -J "$work/fortran" -c "$file/$source_name.f90" -o "$work/fortran/$source_name.o"
     done
   fi
-  if has Fortran; then
+  if has Fortran && [ "$2" = all ]; then
     # Built like codes that do not use modules.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" "$source/tests/fortran/f77_checks.f" -o "$out/test_f77" \
-      $(flags --cflags --libs "${@:2}" riis-fortran)
+      $(flags --cflags --libs "${@:3}" riis-fortran)
   fi
   for example in "${examples[@]}"; do
     file=$source/examples/$example
     more=${more_flags[$example]:-}
     # The flags must split into words.
     # shellcheck disable=SC2046,SC2086
-    quietly "$CC" "${c_flags[@]}" "$file.c" -o "$out/$example" $more $(flags --cflags --libs "${@:2}" riis)
+    quietly "$CC" "${c_flags[@]}" "$file.c" -o "$out/$example" $more $(flags --cflags --libs "${@:3}" riis)
     if has Fortran; then
       # shellcheck disable=SC2046,SC2086
       quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" $more \
-        $(flags --cflags --libs "${@:2}" riis-fortran)
+        $(flags --cflags --libs "${@:3}" riis-fortran)
       # shellcheck disable=SC2046,SC2086
       quietly "$FC" "${fortran_flags[@]}" -I "$work/fortran" "$file.f90" "$work/fortran"/*.o \
-        -o "$out/${example}_source" $more $(flags --libs "${@:2}" riis)
+        -o "$out/${example}_source" $more $(flags --libs "${@:3}" riis)
     fi
   done
   local -x LD_LIBRARY_PATH
@@ -169,9 +171,7 @@ check_by_pkg_config() { # prefix, more pkg-config options
       check_example "$example" "$out/${example}_source"
     fi
   done
-  if has Fortran; then
-    quietly "$out/test_f77"
-  fi
+  ! has Fortran || [ "$2" = few ] || quietly "$out/test_f77"
   if has VTK && [ "$kind" = shared ]; then
     # shellcheck disable=SC2046
     quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
@@ -185,8 +185,7 @@ binaries() { # prefix
 }
 
 check_prefix() { # prefix, all|few: the examples
-  local file examples=("${few_examples[@]}")
-  [ "$2" = few ] || examples=("${all_examples[@]}")
+  local file
   while read -r file; do
     # Every installed file must find its libraries by itself.
     if env -u LD_LIBRARY_PATH ldd "$file" | grep 'not found'; then
@@ -194,9 +193,9 @@ check_prefix() { # prefix, all|few: the examples
     fi
   done < <(binaries "$1")
   check_by_cmake "$1" "$2"
-  check_by_pkg_config "$1"
+  check_by_pkg_config "$1" "$2"
   if [ "$kind" = static ]; then
-    check_by_pkg_config "$1" --static
+    check_by_pkg_config "$1" few --static
   fi
   if has program; then
     quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis-mark)" --help
