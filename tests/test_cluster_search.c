@@ -104,7 +104,7 @@ static void graded_and_anisotropic_meshes(void **state) {
       options.half_thickness = fmax(1e-4, fmin(limits[k], 0.1));
       options.tolerance = 0.5;
       riis_surface *surface = valve_surface(mitral ? "mitral" : "aortic", options);
-      const int64_t counts[2][3] = {{30, 30, 30}, {5, 20, 270}};
+      const int64_t n = is_sanitized() ? 18 : 30, counts[2][3] = {{n, n, n}, {5, 20, 9 * n}};
       for (int kind = 0; kind < 2; ++kind) {
         const int n_outside = n_owned();
         const double lower[3] = {-2, -2, -2}, upper[3] = {2, 2, 2};
@@ -332,7 +332,7 @@ static void valves_far_from_the_origin(void **state) {
 
 static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
   (void)state;
-  enum { n = 500 };
+  const int n = fewer_if_sanitized(500);
   riis_surface *surface = aortic_surface(NULL);
   const struct {
     double size, at, limit;

@@ -10,6 +10,7 @@
 #include "searches.h"
 
 #include "neighbor_checks.h"
+#include "sanitized.h"
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
@@ -26,7 +27,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     assert_int_equal(stats_of(one).n_threads, 1);
     assert_true(stats_of(one).n_marked > 5000);
     int32_t most[5] = {0};
-    for (int repeat = 0; repeat < 3; ++repeat)
+    for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat)
       for (int threads = 1; threads <= 4; ++threads) {
         const int n_outside = n_owned();
         riis_mark_result *many = marked_by(surface, mesh, searches[k], threads, NULL);

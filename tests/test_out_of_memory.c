@@ -100,7 +100,7 @@ static reference reference_of(const scenario *s) {
 /* Each of the first allocations of a call fails, then some at random. From allocation n, at most n / share are left out. A call
  * that samples a surface has more than a thousand allocations, and a sanitizer makes each trial slow. */
 #if defined(IS_SANITIZED)
-enum { n_first = 16, share = 2 };
+enum { n_first = 8, share = 1 };
 #else
 enum { n_first = 64, share = 16 };
 #endif

@@ -9,6 +9,7 @@
 #include "searches.h"
 
 #include "random_meshes.h"
+#include "sanitized.h"
 
 #include "flood_fill.h"
 
@@ -329,7 +330,7 @@ static void a_pierced_leaflet_is_found_where_it_is(void **state) {
   options.tolerance = 0.01; /* small triangles, so that the hole is about the ball */
   riis_surface *valve = new_surface(aortic_with_free_edges_at(0.02), &options);
   const surface_content all = surface_content_of(valve);
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {
     const int owned_before = n_owned();
     const double radius = random_between(&rng, 0.2, 0.3), *centre;
     double reach;

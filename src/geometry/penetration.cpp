@@ -44,7 +44,7 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Edges that are closer to parallel span no face that is wider than 1e-8 of an edge.
+// Returns whether e and f, with the cross product w, span a face narrower than 1e-8 of an edge.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace riis::vtk {
 inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
                                                         {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
 
-// White, and faces are lit from both sides. It has no lights yet.
+// Returns a renderer with a white background that lights faces from both sides. It has no lights yet.
 vtkSmartPointer<vtkRenderer> white_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
