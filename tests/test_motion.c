@@ -522,8 +522,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   CHECK_OK(riis_valve_set_scalar(bad, "opening", 0.25));
   CHECK_OK(riis_valve_set_scalar(bad, "left.leaflet_radius_out", 5));
   CHECK_OK(riis_valve_set_scalar(bad, "commissure_expansion", 0.5));
-  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
-                 NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL, NULL);
 
   /* Options, those of before by their own name. */
   riis_surface_options options = surface_options();

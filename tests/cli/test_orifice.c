@@ -46,7 +46,7 @@ static void test_ring(void **state) {
       rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
-    /* The error of a circle with as many lines, and two edges along the lines that are half a spacing off. */
+    /* A circle has the first error, by the lines that cross it. Two edges along the lines may be half a spacing off. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
