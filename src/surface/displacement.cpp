@@ -183,7 +183,7 @@ ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placem
 
 ImageMotion::ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                          const Motion &motion)
-    : now_(map_of(now, placement_now)), difference_(now_), seconds_(motion.seconds) {
+    : now_(map_of(now, placement_now)), difference_(now_), seconds_(motion.seconds), scale_before_(motion.placement_before.scale) {
   const AffineMap then = map_of(before, motion.placement_before);
   difference_.linear.row_x = now_.linear.row_x - then.linear.row_x;
   difference_.linear.row_y = now_.linear.row_y - then.linear.row_y;

@@ -3,6 +3,8 @@
 // In: the patch now and before, its grid. Out: the displacement of every vertex.
 #pragma once
 
+#include <cmath>
+
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/placement.hpp"
@@ -40,6 +42,13 @@ class PatchMotion {
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
 
+  // How far O moves on each line of a patch of arcs.
+  Vector<Vec3> offset_moves() const {
+    Vector<Vec3> made;
+    for (const std::size_t i : column_) made.push_back(offsets_[i]);
+    return made;
+  }
+
  private:
   Vec3 at(std::size_t i, std::size_t j) const;
 
@@ -63,6 +72,14 @@ class ImageMotion {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
+  // Bounds the error of that velocity if the displacement and p have errors of at most these.
+  double velocity_error(double of_displacement, double of_point) const {
+    const auto norm = [](const Rotation &a) {  // Frobenius's
+      return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
+    };
+    return (scale_before_ * of_displacement + norm(difference_.linear) * of_point) / std::abs(seconds_);
+  }
+
  private:
   struct AffineMap {
     Rotation linear;  // of any scale, and mirrored or not
@@ -71,7 +88,7 @@ class ImageMotion {
   static AffineMap map_of(const PatchImage &image, const Placement &placement);
 
   AffineMap now_, difference_;
-  double seconds_;
+  double seconds_, scale_before_;
 };
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: numbers, images and kinds.

@@ -500,6 +500,14 @@ void make_finer(const PatchSet &set, const Vector<std::size_t> &patches, Vector<
 // Patches thinner than the tolerance lose their area if their sides become the same chords. Their curves have to be finer.
 constexpr int max_attempts = 12;
 
+// Keeps the grids of a motion, for the bound of the velocities' errors.
+void keep(Vector<LevelledGrid> grids, const Triangulation &how, TriangleSet &triangles) {
+  if (how.motion)
+    triangles.moved_grids = std::move(grids);
+  else
+    triangles.moved_grids.clear();
+}
+
 // Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
 TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
   check_precision(set, how.max_error);
@@ -507,7 +515,7 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
   std::optional<PatchSet> recounted;
   if (!how.plan->build.counts_as(set)) recounted = how.plan->build.counted(set);
   const PatchSet &counted = recounted ? *recounted : set;
-  const Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
+  Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (!(grids[i].error_bound <= how.max_error))
       fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
@@ -519,6 +527,7 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
     group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), triangles.grouping);
   }
   triangles.rim_sides = rim_sides(set);  // shared curves are no rims
+  keep(std::move(grids), how, triangles);
   return triangles;
 }
 
@@ -531,10 +540,11 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &asked, Triangl
   if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
   Vector<double> tightness(set.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
-    const Vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
+    Vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
     const Vector<std::size_t> vanished = build(set, how, grids, memory);
     if (vanished.empty()) {
       memory.rim_sides = rim_sides(set);
+      keep(std::move(grids), how, memory);
       return memory;
     }
     if (attempt == max_attempts) fail_for_vanished(set, vanished.front(), "");

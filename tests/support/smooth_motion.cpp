@@ -131,9 +131,10 @@ smooth_motion *smooth_motion_create(const riis_valve *now, const riis_valve *bef
 
 void smooth_motion_destroy(smooth_motion *motion) { delete motion; }
 
-void smooth_motion_at(const smooth_motion *motion, int patch_id, const double *uv, double *velocity) {
-  const Vec3 found = motion->velocity(motion->where(patch_id), uv[0], uv[1]);
-  velocity[0] = found.x, velocity[1] = found.y, velocity[2] = found.z;
+void smooth_motion_places(const smooth_motion *motion, int patch_id, const double *uv, double *now, double *before) {
+  const auto of = motion->where(patch_id);
+  put_vector(now, 0, motion->point(motion->now, of, uv[0], uv[1]));
+  put_vector(before, 0, motion->point(motion->before, of, uv[0], uv[1]));
 }
 
 double smooth_motion_nearest(const smooth_motion *motion, int patch_id, const double *uv, const double *point,
@@ -168,7 +169,6 @@ double smooth_motion_nearest(const smooth_motion *motion, int patch_id, const do
     }
     if (!is_nearer) break;
   }
-  const Vec3 found = motion->velocity(of, u, v);
-  velocity[0] = found.x, velocity[1] = found.y, velocity[2] = found.z;
+  put_vector(velocity, 0, motion->velocity(of, u, v));
   return best;
 }

@@ -14,8 +14,8 @@ typedef struct smooth_motion smooth_motion;
 /* Both states are without placement. */
 smooth_motion *smooth_motion_create(const riis_valve *now, const riis_valve *before, double seconds);
 void smooth_motion_destroy(smooth_motion *motion);
-/* Gives the velocity of the label (patch_id, u, v). */
-void smooth_motion_at(const smooth_motion *motion, int patch_id, const double *uv, double *velocity);
+/* Gives the places of the label (patch_id, u, v) in both states. */
+void smooth_motion_places(const smooth_motion *motion, int patch_id, const double *uv, double *now, double *before);
 /* Gives the velocity of the place of the smooth patch that is nearest to a point, sought from (u, v), and how far it is. */
 double smooth_motion_nearest(const smooth_motion *motion, int patch_id, const double *uv, const double *point,
                              double *velocity);
