@@ -13,6 +13,8 @@ namespace {
 
 // A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
 constexpr int max_depth = 20;
+// Narrower parts are not halved for the velocity. A curve that nearly turns on the spot has no end of bends there.
+constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts that are within max_error of them.
 class Flattening {
@@ -24,7 +26,7 @@ class Flattening {
   // Adds a part of one piece, from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
-    const bool is_bent = bend_ && bend_->off_linear(t0, t1) > max_bend_;
+    const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
     if (!is_bent && accept(
                         part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
       return;

@@ -14,10 +14,11 @@
 namespace riis {
 namespace {
 
-// The largest speed of the curves' ends by the opening: a corner of a patch moves fastest, or nearly so.
+// The largest speed by the opening, at five points of each curve: a cubic that is 0 at all of them is 0.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
-  for (const Bezier &rate : set.rates) largest = std::max({largest, length(rate.first()), length(rate.last())});
+  for (const Bezier &rate : set.rates)
+    for (int i = 0; i <= 4; ++i) largest = std::max(largest, length(evaluate(rate, 0.25 * i)));
   return largest;
 }
 
