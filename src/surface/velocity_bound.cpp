@@ -130,11 +130,18 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
+// Returns 1 if the first curve has a piece more than the second, which is at its start: the shorter one of its ends.
+std::size_t more_at_start(const Curve &curve, const Curve &other) {
+  const std::size_t n = curve.pieces().size();
+  return n == other.pieces().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
+}
+
 // A side of a patch in both states, at ascending shares, its joints among them.
 class SideInBoth {
  public:
   SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
-      : now_(now), before_(before), shares_(shares), at_now_(now, false, shares), at_before_(before, false, shares) {}
+      : now_(now), before_(before), shares_(shares), at_now_(now, false, shares), at_before_(before, false, shares),
+        more_now_(more_at_start(now, before)), more_before_(more_at_start(before, now)) {}
 
   Vec3 now(std::size_t i) const { return at_now_.point(i); }
   Vec3 before(std::size_t i) const { return at_before_.point(i); }
@@ -146,7 +153,7 @@ class SideInBoth {
 
   // Returns whether both states are in the same piece between two shares. Otherwise a joint has passed.
   bool is_same_piece(std::size_t i) const {
-    return now_.pieces().size() == before_.pieces().size() && at_now_.piece(i) == at_before_.piece(i);
+    return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_;
   }
 
   // Returns whether a piece of either state begins at a share.
@@ -177,6 +184,8 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
+  // A joint may pass an end of the curve: pieces at the start that one state has and the other has not.
+  std::size_t more_now_, more_before_;
 };
 
 void add_joints(const Curve &curve, Vector<double> &shares) {
@@ -220,7 +229,7 @@ class Shares {
 };
 
 // Ranges are halved at most so often.
-constexpr int most_rounds = 10;
+constexpr int most_rounds = 12;
 
 Vector<double> shares_of(const Vector<GridLine> &lines, double GridLine::*t) {
   Vector<double> made;
