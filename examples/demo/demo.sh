@@ -6,10 +6,10 @@
 # build_demo: compiles riis-mark. A folder that is configured for the tests keeps its configuration, so that ./run test does not
 # start again.
 build_demo() {
-  local less=(-D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_TESTS=OFF -D RIIS_BUILD_BENCH=OFF)
+  local less=(-D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_TESTS=OFF)
   ! grep -qs '^RIIS_BUILD_TESTS:BOOL=ON' "$build/CMakeCache.txt" || less=()
-  cmake --preset default "${less[@]}" &&
-    cmake --build --preset default --parallel "$n_jobs" --target riis-mark
+  cmake --preset test "${less[@]}" &&
+    cmake --build --preset test --parallel "$n_jobs" --target riis-mark
 }
 
 # demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it is there. examples/demo/fill.geo says why the surface goes

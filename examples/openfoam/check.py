@@ -156,6 +156,18 @@ def sizes(*cases):
             f"finer meshes come nearer to (R / eps) u: they have {', '.join(f'{share:.3f}' for share in shares)} of it")
 
 
+def hexahedra(*ratios):
+    """The drop across a flat closed leaflet along the faces of hexahedra, over (R / eps) u, for each eps / h. Between two cells
+    1/K is their mean. The leaflet lies anywhere between two faces."""
+    places = numpy.linspace(0, 1, 201)
+    for ratio in map(float, ratios):
+        cells = numpy.arange(-int(ratio) - 2, int(ratio) + 3)[:, None] + places
+        k = numpy.where(abs(cells) < ratio, (1 + numpy.cos(numpy.pi * cells / ratio)) / (2 * ratio), 0)
+        k = numpy.maximum(k, 1e-30)
+        shares = (2 / (1 / k[1:] + 1 / k[:-1])).sum(axis=0)
+        print(f"  eps / h {ratio:<5g} drop / ((R / eps) u) {shares.min():.3f} to {shares.max():.3f}")
+
+
 def beat(*cases):
     """The heartbeat with and without the leaflets' velocity."""
     print("A heartbeat by pressure: the valve opens when the pressure difference exceeds 0, and closes when the flow reverses.")
@@ -224,8 +236,8 @@ def pictures(case, still, out):
 
 
 if __name__ == "__main__":
-    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "beat": beat, "restart": restart, "nan": nan,
-                "pictures": pictures}
+    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "beat": beat,
+                "restart": restart, "nan": nan, "pictures": pictures}
     if len(sys.argv) < 3 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
     commands[sys.argv[1]](*sys.argv[2:])

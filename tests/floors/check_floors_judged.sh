@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
-# check_floors.sh must accept the library, and refuse an include upwards and a folder that is no floor.
+# check_floors.sh must accept the library, and refuse an include upwards, a folder that is no floor, and a part of the library
+# that the component or the program includes past the public headers.
 set -euo pipefail
 check=$(dirname "$0")/check_floors.sh
 sources=$1 scratch=$2
@@ -31,4 +32,10 @@ refuses "src/cellar is no floor"
 copy
 echo '#include "cellar/wine.hpp"' >>"$scratch/base/log.hpp"
 refuses "src/cellar is no floor"
+copy
+echo '#include "marking/mesh.hpp"' >>"$scratch/cli/report.hpp"
+refuses "includes src/marking, but src/cli has only base and the public headers"
+copy
+echo '#include "cli/report.hpp"' >>"$scratch/vtk/files.hpp"
+refuses "includes src/cli, but src/vtk has only base and the public headers"
 rm -rf "$scratch"

@@ -386,6 +386,16 @@ class Sizes(Files):
         self.stopped("mesh-0.08/checkMesh.log: No such file or directory", check.sizes, *cases)
 
 
+class Hexahedra(Files):
+    def test_drops_by_hand(self):
+        """With eps = h the middle cell alone has K, or two cells at the distance h / 2 have half of the largest K each. With
+        eps = 2 h the middle cell has twice the K of its neighbours. Many cells are the integral of K."""
+        printed = self.printed(check.hexahedra, "1", "2", "1000")
+        found = [tuple(map(float, pair)) for pair in re.findall(r"\(\(R / eps\) u\) (\S+) to (\S+)\n", printed)]
+        self.assertEqual(found[0], (0, 0.5))
+        self.assertEqual((found[1][0], found[2]), (0.667, (1, 1)))
+
+
 class Beat(Files):
     def setUp(self):
         super().setUp()

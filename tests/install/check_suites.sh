@@ -1,0 +1,42 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_suites.sh CTEST SOURCE_DIR BUILD_DIR SCRATCH_FOLDER
+# ./run test leaves out the slow tests and no other, ./run quick none of the slow ones, and continuous integration nothing. A test
+# that needs a slow one as its fixture would bring it back.
+set -euo pipefail
+ctest=$1 source=$2 build=$3 scratch=$4
+
+problem() {
+  echo "problem: $*" >&2
+  exit 1
+}
+names() { # options of ctest
+  "$ctest" --test-dir "$build" -N "$@" | sed -nE 's/^ *Test +#[0-9]+: ([^ ]+).*/\1/p' | sort
+}
+
+all=$(names) slow=$(names -L slow) plain=$(names -LE slow) quick=$(names -L quick)
+[[ $slow && $plain && $quick ]] || problem "a suite is empty"
+both=$(comm -12 <(cat <<<"$slow") <(cat <<<"$plain"))
+[[ ! $both ]] || problem "slow, and yet in ./run test: $both"
+[[ $(sort <<<"$slow"$'\n'"$plain") == "$all" ]] || problem "the two suites are not all tests"
+both=$(comm -23 <(cat <<<"$quick") <(cat <<<"$plain"))
+[[ ! $both ]] || problem "in ./run quick and not in ./run test: $both"
+
+# Continuous integration, with a run that writes down its words and fails where it is told.
+rm -rf "$scratch"
+mkdir -p "$scratch/.ci"
+cp "$source/.ci/run" "$scratch/.ci/run"
+cat >"$scratch/run" <<'STUB'
+#!/bin/bash
+echo "$*" >>said
+[[ $1 != "${FAILING:-}" ]]
+STUB
+chmod +x "$scratch/run"
+for failing in '' test sanitize fuzz; do
+  rm -f "$scratch/said"
+  status=0
+  FAILING=$failing "$scratch/.ci/run" || status=$?
+  diff <(printf '%s\n' 'test --all' sanitize 'fuzz 60') "$scratch/said" || problem ".ci/run does not run every part"
+  [[ ($failing && $status != 0) || (! $failing && $status == 0) ]] || problem ".ci/run ends with $status where '$failing' fails"
+done
+rm -rf "$scratch"
