@@ -60,10 +60,10 @@
 #define RIIS_VERSION_MINOR 2 /* grows when something is added */
 #define RIIS_VERSION_PATCH 0 /* grows when something is mended */
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(RIIS_STATIC)
 #define RIIS_API __attribute__((visibility("default"))) /* stands before every export */
 #else
-#define RIIS_API
+#define RIIS_API /* a static library has no exports */
 #endif
 
 #ifdef __cplusplus
