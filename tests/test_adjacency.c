@@ -487,17 +487,21 @@ static void grids_of_any_dimension(void **state) {
 static void grids_that_are_refused(void **state) {
   (void)state;
   riis_adjacency *adjacency = NULL;
+#define REFUSED_AS(status, ni, nj, nk, parts) \
+  CHECK_REFUSED(status, parts, riis_adjacency_create_from_grid(ni, nj, nk, 1, &adjacency))
 #define REFUSED(ni, nj, nk, threads, parts) \
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_adjacency_create_from_grid(ni, nj, nk, threads, &adjacency))
   REFUSED(0, 1, 1, 1, "ni is 0");
   REFUSED(1, -1, 1, 1, "nj is -1");
   REFUSED(1, 1, 0, 1, "nk is 0");
-  REFUSED(INT64_MAX, 1, 1, 1, "ni is 9223372036854775807");
-  REFUSED(INT64_C(1) << 40, INT64_C(1) << 40, 1, 1, "1099511627776 * 1099511627776 * 1");
-  REFUSED(INT64_C(1) << 30, INT64_C(1) << 20, INT64_C(1) << 20, 1, "1073741824 * 1048576 * 1048576");
+  REFUSED_AS(RIIS_LIMIT_EXCEEDED, INT64_MAX, 1, 1, "ni is 9223372036854775807");
+  REFUSED_AS(RIIS_LIMIT_EXCEEDED, INT64_C(1) << 40, INT64_C(1) << 40, 1, "1099511627776 * 1099511627776 * 1");
+  REFUSED_AS(RIIS_LIMIT_EXCEEDED, INT64_C(1) << 30, INT64_C(1) << 20, INT64_C(1) << 20,
+             "1073741824 * 1048576 * 1048576");
   REFUSED(1, 1, 1, -1, "n_threads is -1");
   REFUSED(1, 1, 1, 1025, "n_threads is 1025");
 #undef REFUSED
+#undef REFUSED_AS
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_grid(1, 1, 1, 1, NULL));
   assert_null(adjacency);
 }

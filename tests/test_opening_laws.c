@@ -490,6 +490,24 @@ static void the_angle_stays_between_its_stops(void **state) {
   CHECK_NEAR(now.opening, 0, 0);
 }
 
+/* Two drives: one shuts the valve, one opens it. */
+static void a_first_state_is_closed_whatever_the_law(void **state) {
+  (void)state;
+  for (int sign = -1; sign <= 1; sign += 2) {
+    riis_opening_angle law = aortic_angle();
+    law.angle_min = 5;
+    riis_opening_angle_state first = angle_at_rest(), closed = angle_at_rest(), from_first, from_closed;
+    closed.angle = 5;
+    CHECK_OK(riis_opening_angle_advance(&law, &first, 0.01, 0.1 * sign, 10 * sign, &from_first));
+    CHECK_OK(riis_opening_angle_advance(&law, &closed, 0.01, 0.1 * sign, 10 * sign, &from_closed));
+    assert_memory_equal(&from_first, &from_closed, sizeof from_first);
+    assert_true(sign < 0 ? from_first.angle == 5 : from_first.angle > 5);
+    CHECK_OK(riis_opening_angle_advance(&law, &first, 0, 0, 0, &from_first)); /* no time passes */
+    CHECK_NEAR(from_first.angle, 5, 0);
+    CHECK_NEAR(from_first.opening, 0, 0);
+  }
+}
+
 static void step_of_the_angle(void *state, double time) {
   const riis_opening_angle law = aortic_angle();
   CHECK_OK(riis_opening_angle_advance(&law, state, time, sin(20 * time), 100 * cos(21 * time), state));
@@ -538,7 +556,11 @@ static void bad_laws_and_states_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.angle_max is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
   angle = aortic_angle();
   angle.angle_min = 5;
+  at.angle = 4;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 4", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  at.angle = at.pressure_difference = at.flow = 0; /* no first state */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  at = angle_at_rest();
   angle = aortic_angle();
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "time is 1e+06", riis_opening_angle_advance(&angle, &at, 1e6, 1, 0, &then));
 }
@@ -563,6 +585,7 @@ int main(void) {
       cmocka_unit_test(the_angle_follows_the_published_equation),
       cmocka_unit_test(the_angle_is_second_order_in_the_step),
       cmocka_unit_test(the_angle_stays_between_its_stops),
+      cmocka_unit_test(a_first_state_is_closed_whatever_the_law),
       cmocka_unit_test(a_restart_of_the_angle_has_the_same_bits),
       cmocka_unit_test(bad_laws_and_states_are_refused),
   };
