@@ -240,7 +240,7 @@ static void cells_that_are_refused(void **state) {
   } while (0)
   REFUSED_WITH(n_nodes = 0, RIIS_INVALID_MESH, "node 0 of cell 0 is 0; there are nodes 0 to -1");
   REFUSED_WITH(n_nodes = -3, RIIS_INVALID_ARGUMENT, "cells.n_nodes is -3");
-  REFUSED_WITH(n_nodes = INT64_MAX, RIIS_INVALID_ARGUMENT, "cells.n_nodes is 9223372036854775807");
+  REFUSED_WITH(n_nodes = INT64_MAX, RIIS_LIMIT_EXCEEDED, "cells.n_nodes is 9223372036854775807");
   REFUSED_WITH(n_cells = INT64_MIN, RIIS_INVALID_ARGUMENT, "cells.n_cells is -9223372036854775808");
   REFUSED_WITH(node_ids = NULL, RIIS_INVALID_ARGUMENT, "cells.node_ids|NULL");
   REFUSED_WITH(id_bits = 16, RIIS_INVALID_ARGUMENT, "cells.id_bits is 16|32 or 64");
@@ -430,7 +430,7 @@ static void faces_that_are_refused(void **state) {
     CHECK_REFUSED(status, parts, riis_adjacency_create_from_faces(&faces, &adjacency)); \
   } while (0)
   REFUSED_WITH(n_cells = 0, RIIS_INVALID_MESH, "owner of face 0 is 0; there are cells 0 to -1");
-  REFUSED_WITH(n_cells = INT64_MAX, RIIS_INVALID_ARGUMENT, "faces.n_cells is 9223372036854775807");
+  REFUSED_WITH(n_cells = INT64_MAX, RIIS_LIMIT_EXCEEDED, "faces.n_cells is 9223372036854775807");
   REFUSED_WITH(n_faces = -1, RIIS_INVALID_ARGUMENT, "faces.n_faces is -1");
   REFUSED_WITH(owner = NULL, RIIS_INVALID_ARGUMENT, "faces.owner|NULL");
   REFUSED_WITH(neighbor = NULL, RIIS_INVALID_ARGUMENT, "faces.neighbor|NULL");

@@ -196,7 +196,8 @@ typedef struct reported_threads {
 
 static reported_threads threads_of(const riis_surface *surface, const test_mesh *nodes, int32_t search) {
   riis_mesh *mesh = mesh_from(nodes);
-  riis_mark_result *found = marked_by(surface, mesh, search, 0, NULL), *by_two = marked_by(surface, mesh, search, 2, NULL);
+  riis_mark_result *found = marked_by(surface, mesh, search, 0, NULL);
+  riis_mark_result *by_two = marked_by(surface, mesh, search, 2, NULL);
   const reported_threads reported = {stats_of(found).n_threads, stats_of(by_two).n_threads};
   assert_true(same_results(found, by_two));
   return reported;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A program that does not link riis opens and closes a plug-in that does. Threads that marked for the plug-in outlive it, so their
- * code must stay. */
+ * A program that does not link riis opens and closes a plug-in that does. Threads that marked for the plug-in outlive it,
+ * so their code must stay. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* usleep */
 #endif

@@ -352,8 +352,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
  * n_vertices than that of the last arrays, and a surface that was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
-/* Interpolation between keys in time. A time is a key, give or take whole periods, if it is at most 8 * 2^-52 of the
- * largest of time, key and period from it. */
+/* Interpolation between keys in time. A time is a key, give or take whole periods, if they differ by at most
+ * 8 * 2^-52 of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is the rate after it */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */

@@ -17,7 +17,8 @@ constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max() / 64
 
 void check_count(const char *field, std::int64_t n, std::int64_t least) {
   if (n < least || n > max_count)
-    fail(n < least ? RIIS_INVALID_ARGUMENT : RIIS_LIMIT_EXCEEDED, field, " is ", n, "; it must be from ", least, " to ", max_count);
+    fail(n < least ? RIIS_INVALID_ARGUMENT : RIIS_LIMIT_EXCEEDED, field, " is ", n, "; it must be from ", least, " to ",
+         max_count);
 }
 
 constexpr std::int64_t rows_per_block = 4096;

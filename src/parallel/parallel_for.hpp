@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// Returns the number of processors that the calling thread may use, by its affinity mask; n_threads = 0 stands for at most so many.
+// Returns the number of processors that the calling thread may use, by its affinity mask; n_threads = 0 takes no more.
 // If OpenMP itself binds threads to places, the mask is the one with which the process started.
 inline int default_thread_count() noexcept {
   const int n = omp_get_num_procs();

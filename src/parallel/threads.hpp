@@ -20,8 +20,8 @@ class Threads {
 
   operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
 
-  // Returns the number for a part of the call, of so many items. By default it is one below `few` items. All other parts of a call
-  // have the same number: GCC's run-time ends the threads that a smaller team leaves out.
+  // Returns the number for a part of the call, of so many items. By default it is one below `few` items. All other parts of
+  // a call have the same number: GCC's run-time ends the threads that a smaller team leaves out.
   int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
 
  private:
