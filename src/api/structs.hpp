@@ -72,8 +72,8 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// By default a thread more comes with so much more work, about half a millisecond's. To start and to await a thread takes a
-// hundredth of that, but on a machine with other work as long as the system lets the other work run.
+// By default one more thread is taken for so much more work, half a millisecond's or more. To wake and to await a thread
+// takes a hundredth of that. On a machine with other work it takes as long as the system lets that work run.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
 

@@ -32,8 +32,9 @@ class KeyTimes {
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // before the first or behind the last key: the value is that of key[1]
   };
-  // A time within 8 units of rounding of a key, give or take whole periods, is that key: the first end of its interval. The unit
-  // is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time that is not finite.
+  // A time within 8 units of rounding of a key, give or take whole periods, is that key: the first end of its interval.
+  // The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time that is not
+  // finite.
   Place place(double time) const;
 
   // Returns the value and the rate at a place, from the values at its four keys.
