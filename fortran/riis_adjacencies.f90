@@ -59,8 +59,7 @@ contains
     integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -79,8 +78,7 @@ contains
     integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -99,8 +97,7 @@ contains
     integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -119,8 +116,7 @@ contains
     integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -141,8 +137,7 @@ contains
     integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -169,8 +164,7 @@ contains
     integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -197,8 +191,7 @@ contains
     integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -225,8 +218,7 @@ contains
     integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_cells) :: the_cells
     integer(riis_status) :: code
@@ -278,8 +270,7 @@ contains
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -304,8 +295,7 @@ contains
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -330,8 +320,7 @@ contains
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -356,8 +345,7 @@ contains
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -382,8 +370,7 @@ contains
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -406,8 +393,7 @@ contains
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -430,8 +416,7 @@ contains
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -454,8 +439,7 @@ contains
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_faces) :: faces
     integer(riis_status) :: code
@@ -493,8 +477,7 @@ contains
     integer(int32), intent(in) :: ni                        !< >= 1.
     integer(int32), intent(in) :: nj                        !< >= 1.
     integer(int32), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, status)
   end subroutine adjacency_grid_int32
@@ -505,8 +488,7 @@ contains
     integer(int64), intent(in) :: ni                        !< >= 1.
     integer(int64), intent(in) :: nj                        !< >= 1.
     integer(int64), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32) :: n_threads_or_0
     integer(riis_status) :: code

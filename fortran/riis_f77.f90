@@ -400,7 +400,7 @@ subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_prepare(c_handle_of(mesh), n_threads)
 end subroutine riisf_mesh_prepare

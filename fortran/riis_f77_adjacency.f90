@@ -98,7 +98,7 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   integer(int32), intent(in) :: n_cells                   !< >= 1.
   integer(int32), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -129,7 +129,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   integer(int64), intent(in) :: n_cells                   !< >= 1.
   integer(int64), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -161,7 +161,7 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
   integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -192,7 +192,7 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
   integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells) :: the_cells
@@ -224,7 +224,7 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   integer(int32), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                           !! boundary.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_faces) :: faces
@@ -258,7 +258,7 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   integer(int64), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                           !! boundary.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_faces) :: faces
@@ -290,7 +290,7 @@ subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   integer(int32), intent(in) :: ni                        !< >= 1.
   integer(int32), intent(in) :: nj                        !< >= 1.
   integer(int32), intent(in) :: nk                        !< >= 1.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle

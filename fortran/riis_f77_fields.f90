@@ -15,7 +15,7 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   integer(int64), intent(in) :: mesh                      !< Created.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
   integer(int64), intent(inout) :: result                 !< 0, which creates one, or from a call before.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

@@ -135,7 +135,7 @@ subroutine riisf_opening_switch_advance(opening_seconds, closing_seconds, open_a
   phase = now%phase
 end subroutine riisf_opening_switch_advance
 
-!> Fills the state of an angle law with an angle of 0 at rest, at time 0.
+!> Fills the state of an angle law with a closed valve at rest, at time 0: its angle 0 stands for angle_min.
 subroutine riisf_opening_angle_init(state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: riis_opening_angle_state, riis_status, RIIS_OK, riis_opening_angle_state_init

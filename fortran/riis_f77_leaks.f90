@@ -13,7 +13,7 @@ subroutine riisf_find_leaks(surface, mesh, n_threads, result, n_edges, longest, 
   implicit none
   integer(int64), intent(in) :: surface                   !< The surface of the marking.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int64), intent(inout) :: n_edges                !< The number of edges that leak, INTEGER*8.
   real(c_double), intent(inout) :: longest                !< The length of the longest; 0 if none leaks.
@@ -109,7 +109,7 @@ subroutine riisf_label_open_regions(mesh, n_threads, result, n_nodes, region_num
   use riis_support, only: c_handle_of, out_of_memory
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
@@ -141,7 +141,7 @@ subroutine riisf_label_open_regions_64(mesh, n_threads, result, n_nodes, region_
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
@@ -172,7 +172,7 @@ subroutine riisf_find_passage(surface, mesh, n_threads, n_from, from_num, n_to, 
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface.
   integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int32), intent(in) :: n_to                      !< At least 1.
@@ -206,7 +206,7 @@ subroutine riisf_find_passage_64(surface, mesh, n_threads, n_from, from_num, n_t
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface.
   integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int64), intent(in) :: n_to                      !< At least 1.

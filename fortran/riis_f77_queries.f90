@@ -141,7 +141,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
                                                           !! RIIS_AUTO: no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -184,7 +184,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
                                                           !! RIIS_AUTO: no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -230,7 +230,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
                                                           !! nodes; copied.
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
                                                           !! RIIS_AUTO: no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -284,7 +284,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
                                                           !! nodes; copied.
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
                                                           !! RIIS_AUTO: no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: the processors that the calling thread may use.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.

@@ -78,7 +78,7 @@ module riis_laws
     real(c_double) :: angle_max = 75             !< Degrees, above angle_min, at most 90: open.
   end type riis_opening_angle
 
-  !> The state of the angle law. It begins with an angle of 0 at rest, at time 0.
+  !> The state of the angle law. It begins with a closed valve at rest, at time 0: its angle 0 stands for angle_min.
   type :: riis_opening_angle_state
     real(c_double) :: time = 0                   !< Of this state.
     real(c_double) :: opening = 0                !< What the law says at that time.

@@ -32,8 +32,7 @@ contains
     type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: edges to nodes with .false. are no
                                                             !! paths; copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -50,8 +49,7 @@ contains
     class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
     type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): edges to nodes with 0 are no paths.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -66,8 +64,7 @@ contains
     class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
     type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): edges to nodes with 0 are no paths.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code

@@ -95,8 +95,7 @@ contains
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out; copied. Default:
                                                             !! all nodes.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
@@ -117,8 +116,7 @@ contains
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.
@@ -137,8 +135,7 @@ contains
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what the result keeps of the
                                                             !! closest points, for %marked_fields. Default 0: nothing.

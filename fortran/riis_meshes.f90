@@ -379,8 +379,7 @@ contains
   !! node while the mesh lives. After an update with as many nodes the order stays, and only places are made again.
   subroutine mesh_prepare(this, n_threads, status)
     class(riis_mesh), intent(inout) :: this                 !< Created.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32) :: threads
     integer(riis_status) :: code

@@ -40,8 +40,7 @@ contains
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: nodes with .false. are left out;
                                                             !! copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -59,8 +58,7 @@ contains
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -76,8 +74,7 @@ contains
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -99,8 +96,7 @@ contains
                                                             !! error.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: nodes with .false. are left out;
                                                             !! copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -123,8 +119,7 @@ contains
                                                             !! error.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: nodes with .false. are left out;
                                                             !! copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -146,8 +141,7 @@ contains
     type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
                                                             !! error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     integer(int64), allocatable :: from(:), to(:)
@@ -167,8 +161,7 @@ contains
     type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
                                                             !! error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     integer(int64), allocatable :: from(:), to(:)
@@ -188,8 +181,7 @@ contains
     type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
                                                             !! error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -211,8 +203,7 @@ contains
     type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
                                                             !! error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code

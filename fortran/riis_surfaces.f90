@@ -878,8 +878,7 @@ contains
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
                                                             !! Default RIIS_AUTO: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
     real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
@@ -914,8 +913,7 @@ contains
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
                                                             !! Default RIIS_AUTO: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
     real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
@@ -945,8 +943,7 @@ contains
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
                                                             !! Default RIIS_AUTO: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
     real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
@@ -983,8 +980,7 @@ contains
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
                                                             !! Default RIIS_AUTO: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: the processors that the calling
-                                                            !! thread may use.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
     real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the

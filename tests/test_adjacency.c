@@ -240,7 +240,7 @@ static void cells_that_are_refused(void **state) {
   } while (0)
   REFUSED_WITH(n_nodes = 0, RIIS_INVALID_MESH, "node 0 of cell 0 is 0; there are nodes 0 to -1");
   REFUSED_WITH(n_nodes = -3, RIIS_INVALID_ARGUMENT, "cells.n_nodes is -3");
-  REFUSED_WITH(n_nodes = INT64_MAX, RIIS_INVALID_ARGUMENT, "cells.n_nodes is 9223372036854775807");
+  REFUSED_WITH(n_nodes = INT64_MAX, RIIS_LIMIT_EXCEEDED, "cells.n_nodes is 9223372036854775807");
   REFUSED_WITH(n_cells = INT64_MIN, RIIS_INVALID_ARGUMENT, "cells.n_cells is -9223372036854775808");
   REFUSED_WITH(node_ids = NULL, RIIS_INVALID_ARGUMENT, "cells.node_ids|NULL");
   REFUSED_WITH(id_bits = 16, RIIS_INVALID_ARGUMENT, "cells.id_bits is 16|32 or 64");
@@ -430,7 +430,7 @@ static void faces_that_are_refused(void **state) {
     CHECK_REFUSED(status, parts, riis_adjacency_create_from_faces(&faces, &adjacency)); \
   } while (0)
   REFUSED_WITH(n_cells = 0, RIIS_INVALID_MESH, "owner of face 0 is 0; there are cells 0 to -1");
-  REFUSED_WITH(n_cells = INT64_MAX, RIIS_INVALID_ARGUMENT, "faces.n_cells is 9223372036854775807");
+  REFUSED_WITH(n_cells = INT64_MAX, RIIS_LIMIT_EXCEEDED, "faces.n_cells is 9223372036854775807");
   REFUSED_WITH(n_faces = -1, RIIS_INVALID_ARGUMENT, "faces.n_faces is -1");
   REFUSED_WITH(owner = NULL, RIIS_INVALID_ARGUMENT, "faces.owner|NULL");
   REFUSED_WITH(neighbor = NULL, RIIS_INVALID_ARGUMENT, "faces.neighbor|NULL");
@@ -487,17 +487,21 @@ static void grids_of_any_dimension(void **state) {
 static void grids_that_are_refused(void **state) {
   (void)state;
   riis_adjacency *adjacency = NULL;
+#define REFUSED_AS(status, ni, nj, nk, parts) \
+  CHECK_REFUSED(status, parts, riis_adjacency_create_from_grid(ni, nj, nk, 1, &adjacency))
 #define REFUSED(ni, nj, nk, threads, parts) \
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_adjacency_create_from_grid(ni, nj, nk, threads, &adjacency))
   REFUSED(0, 1, 1, 1, "ni is 0");
   REFUSED(1, -1, 1, 1, "nj is -1");
   REFUSED(1, 1, 0, 1, "nk is 0");
-  REFUSED(INT64_MAX, 1, 1, 1, "ni is 9223372036854775807");
-  REFUSED(INT64_C(1) << 40, INT64_C(1) << 40, 1, 1, "1099511627776 * 1099511627776 * 1");
-  REFUSED(INT64_C(1) << 30, INT64_C(1) << 20, INT64_C(1) << 20, 1, "1073741824 * 1048576 * 1048576");
+  REFUSED_AS(RIIS_LIMIT_EXCEEDED, INT64_MAX, 1, 1, "ni is 9223372036854775807");
+  REFUSED_AS(RIIS_LIMIT_EXCEEDED, INT64_C(1) << 40, INT64_C(1) << 40, 1, "1099511627776 * 1099511627776 * 1");
+  REFUSED_AS(RIIS_LIMIT_EXCEEDED, INT64_C(1) << 30, INT64_C(1) << 20, INT64_C(1) << 20,
+             "1073741824 * 1048576 * 1048576");
   REFUSED(1, 1, 1, -1, "n_threads is -1");
   REFUSED(1, 1, 1, 1025, "n_threads is 1025");
 #undef REFUSED
+#undef REFUSED_AS
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_grid(1, 1, 1, 1, NULL));
   assert_null(adjacency);
 }

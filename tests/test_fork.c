@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A process may be forked while another thread is inside the library: the child finds the library's pools unlocked. It makes no
- * surface, because TBB would wait there for threads that the child lacks. */
+ * surface, because TBB would wait there for threads that the child lacks. A child of a process that used several threads has one:
+ * it is refused more, and gets one by default. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* fork */
 #endif
@@ -13,6 +14,8 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "searches.h"
+
 #include "sanitized.h"
 
 enum { n_forks = 1000, child_passed = 17, seconds_for_a_child = 20 };
@@ -80,7 +83,178 @@ static void forked_processes_copy_valves(void **state) {
   assert_int_equal(n_passed, fewer_if_sanitized(n_forks));
 }
 
+/* What the parent made before the fork. */
+typedef struct scene {
+  riis_valve *valve;
+  riis_surface *surface;
+  test_mesh nodes;
+  riis_mesh *mesh;
+  riis_mark_result *result; /* by one thread, or by several */
+  double *k;
+} scene;
+
+static scene scene_by(int32_t n_threads) {
+  scene s = {.valve = new_valve("mitral"), .result = new_result()};
+  riis_surface_options options = surface_options();
+  options.n_threads = n_threads;
+  s.surface = new_surface(s.valve, &options);
+  s.nodes = lattice_around(s.surface, 0.08, 0.3);
+  assert_true(s.nodes.n > 50000);
+  s.mesh = mesh_from(&s.nodes);
+  s.k = own(calloc((size_t)s.nodes.n, sizeof *s.k));
+  return s;
+}
+
+static riis_status mark(const scene *s, int32_t search, int32_t n_threads, riis_mark_result *result) {
+  riis_mark_options options;
+  riis_status status = riis_mark_options_init(&options, sizeof options);
+  options.search = search;
+  options.n_threads = n_threads;
+  return status ? status : riis_mark_nodes(s->surface, s->mesh, &options, result);
+}
+
+/* Each call with an n_threads. Returns how many give the status, and counts the calls. */
+static int with_status(const scene *s, int32_t n_threads, riis_status expected, const char *text, int *n_calls) {
+  riis_mark_options options;
+  riis_surface_options of_surface;
+  riis_crossing_options of_crossings;
+  riis_closest_options of_points;
+  riis_closest_arrays found;
+  riis_cells cells;
+  riis_faces faces;
+  riis_leaks leaks;
+  riis_passage passage;
+  riis_crossings crossings;
+  riis_mark_result *result = NULL;
+  riis_adjacency *adjacency[3] = {NULL};
+  static const int32_t ids[4] = {0, 1, 2, 3};
+  const int64_t first = 0, last = s->nodes.n - 1;
+  int64_t *label = malloc((size_t)s->nodes.n * sizeof *label);
+  double *distance = malloc((size_t)s->nodes.n * sizeof *distance);
+  riis_mark_options_init(&options, sizeof options);
+  riis_surface_options_init(&of_surface, sizeof of_surface);
+  riis_crossing_options_init(&of_crossings, sizeof of_crossings);
+  riis_closest_options_init(&of_points, sizeof of_points);
+  riis_closest_arrays_init(&found, sizeof found);
+  riis_cells_init(&cells, sizeof cells);
+  riis_faces_init(&faces, sizeof faces);
+  riis_mark_result_create(&result);
+  options.n_threads = of_surface.n_threads = of_crossings.n_threads = of_points.n_threads = n_threads;
+  cells.n_threads = faces.n_threads = n_threads;
+  cells.n_nodes = 4, cells.n_cells = 1, cells.node_ids = ids;
+  faces.n_cells = 4, faces.n_faces = 2, faces.owner = ids, faces.neighbor = ids + 2;
+  found.distance = distance;
+  int n_as_expected = 0;
+#define EXPECT(call) n_as_expected += (call) == expected && (!text || strstr(riis_last_error(), text)), ++*n_calls
+  for (int32_t search = RIIS_SEARCH_AUTO; search <= RIIS_SEARCH_CLUSTERS; ++search)
+    EXPECT(mark(s, search, n_threads, result));
+  EXPECT(riis_mesh_prepare(s->mesh, n_threads));
+  EXPECT(riis_find_leaks(s->surface, s->mesh, &options, s->result, &leaks, sizeof leaks));
+  EXPECT(riis_label_open_regions(s->mesh, &options, s->result, s->nodes.n, label, NULL));
+  EXPECT(riis_find_passage(s->surface, s->mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
+  EXPECT(riis_find_crossings(s->surface, &of_crossings, &crossings, sizeof crossings));
+  EXPECT(riis_closest_points(s->surface, s->nodes.n, s->nodes.xyz, s->nodes.xyz + 1, s->nodes.xyz + 2, 3, &of_points,
+                             &found));
+  EXPECT(riis_adjacency_create_from_cells(&cells, &adjacency[0]));
+  EXPECT(riis_adjacency_create_from_faces(&faces, &adjacency[1]));
+  EXPECT(riis_adjacency_create_from_grid(30, 40, 50, n_threads, &adjacency[2]));
+  EXPECT(riis_surface_update(s->surface, s->valve, &of_surface));
+#undef EXPECT
+  for (int i = 0; i < 3; ++i) riis_adjacency_destroy(&adjacency[i]);
+  riis_mark_result_destroy(&result);
+  free(label);
+  free(distance);
+  return n_as_expected;
+}
+
+/* Marks of a result that the parent made become arrays, with the threads of that marking or without. */
+static riis_status use_result(const scene *s) {
+  riis_resistance resistance;
+  riis_status status = riis_resistance_init(&resistance, sizeof resistance);
+  resistance.resistance = 1;
+  if (!status) status = riis_mark_result_add_resistance(s->result, &resistance, s->nodes.n, s->k, NULL);
+  return status ? status
+                : riis_mark_result_dense(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
+}
+
+/* What a child checks. Returns 0 if all is right. */
+typedef int child_check(const scene *s);
+
+static int run_child(child_check *check, const scene *s) {
+  int outcome = -1;
+  fflush(NULL);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(seconds_for_a_child);
+    _exit(check(s) ? 1 : child_passed);
+  }
+  assert_true(child > 0);
+  assert_int_equal(waitpid(child, &outcome, 0), child);
+  return WIFEXITED(outcome) && WEXITSTATUS(outcome) == child_passed;
+}
+
+static int all_have(const scene *s, int32_t n_threads, riis_status expected, const char *text) {
+  int n_calls = 0;
+  const int n = with_status(s, n_threads, expected, text, &n_calls);
+  return n_calls == 15 && n == n_calls;
+}
+
+static int marks_are_as_before(const scene *s, int32_t n_threads, int32_t *n_ran) {
+  riis_mark_result *result = NULL;
+  riis_mark_stats stats;
+  const int is_right = !riis_mark_result_create(&result) && !mark(s, RIIS_SEARCH_CLUSTERS, n_threads, result) &&
+                       same_results(s->result, result) && !riis_mark_result_stats(result, &stats, sizeof stats);
+  if (is_right) *n_ran = stats.n_threads;
+  riis_mark_result_destroy(&result);
+  return is_right;
+}
+
+static int marks_in_a_grandchild(const scene *s) {
+  int32_t n_ran = 0;
+  return !marks_are_as_before(s, 0, &n_ran) || mark(s, RIIS_SEARCH_AUTO, 2, s->result) != RIIS_UNAVAILABLE;
+}
+
+static int has_one_thread(const scene *s) {
+  int32_t n_ran = 0;
+  if (use_result(s)) return 1;
+  if (!marks_are_as_before(s, 1, &n_ran) || n_ran != 1) return 2;
+  if (!marks_are_as_before(s, 0, &n_ran) || n_ran != 1) return 3;
+  if (!all_have(s, 2, RIIS_UNAVAILABLE, "n_threads is 2; this process was forked")) return 4;
+  if (!all_have(s, 1, RIIS_OK, NULL) || !all_have(s, 0, RIIS_OK, NULL)) return 5;
+  if (mark(s, RIIS_SEARCH_AUTO, -1, s->result) != RIIS_INVALID_ARGUMENT) return 6;
+  return run_child(marks_in_a_grandchild, s) ? 0 : 7;
+}
+
+static int has_threads(const scene *s) {
+  int32_t n_ran = 0;
+  if (!marks_are_as_before(s, 2, &n_ran) || n_ran != 2) return 1;
+  return all_have(s, 2, RIIS_OK, NULL) ? 0 : 2;
+}
+
+/* Runs first: the process has not used threads. */
+static void a_child_of_one_thread_has_threads(void **state) {
+  (void)state;
+  const scene s = scene_by(1);
+  CHECK_OK(mark(&s, RIIS_SEARCH_CLUSTERS, 1, s.result));
+  assert_true(run_child(has_threads, &s));
+}
+
+static void a_child_of_several_threads_has_one(void **state) {
+  (void)state;
+  const scene s = scene_by(2);
+  for (int32_t search = RIIS_SEARCH_NEIGHBOR; search <= RIIS_SEARCH_CLUSTERS; ++search)
+    CHECK_OK(mark(&s, search, 2, s.result));
+  assert_true(run_child(has_one_thread, &s));
+  int32_t n_ran = 0;
+  assert_true(marks_are_as_before(&s, 2, &n_ran)); /* the parent keeps its threads */
+  assert_int_equal(n_ran, 2);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test_teardown(forked_processes_copy_valves, free_owned)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_teardown(a_child_of_one_thread_has_threads, free_owned),
+      cmocka_unit_test_teardown(a_child_of_several_threads_has_one, free_owned),
+      cmocka_unit_test_teardown(forked_processes_copy_valves, free_owned),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

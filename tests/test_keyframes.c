@@ -93,6 +93,27 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   assert_null(keyframes);
 }
 
+/* Whoever adds periods to a key's time rounds. */
+static void frames_have_the_velocity_after_them_in_every_period(void **state) {
+  (void)state;
+  const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};
+  swing s;
+  make_swing(&s, 5, time, height);
+  s.frames.period = 0.83;
+  riis_keyframes *keyframes = keyframes_of(&s);
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0, 0, NULL, &surface));
+  for (int i = -2; i <= 1000; ++i)
+    for (int key = 0; key < 5; ++key) {
+      const double t = time[key] + 0.83 * i;
+      const double width = key == 4 ? time[0] + 0.83 - time[4] : time[key + 1] - time[key];
+      CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, t, t, NULL));
+      check_height(surface, height[key], (height[(key + 1) % 5] - height[key]) / width);
+    }
+  riis_surface_destroy(&surface);
+  riis_keyframes_destroy(&keyframes);
+}
+
 static void frames_repeat_and_are_placed(void **state) {
   (void)state;
   const double time[] = {0, 0.25, 0.5, 1}, height[] = {0, 0.1, 0.3, 0};
@@ -177,6 +198,7 @@ static void bad_frames_are_refused(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(linear_frames_have_right_hand_and_mean_velocities),
+      cmocka_unit_test(frames_have_the_velocity_after_them_in_every_period),
       cmocka_unit_test(frames_repeat_and_are_placed),
       cmocka_unit_test(bad_frames_are_refused),
   };

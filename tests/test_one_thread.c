@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * n_threads = 1 starts no thread: the process has as many after each call as before the first. With 2 it has more, so the count
- * sees threads. The calls with 1 come first, because OpenMP and TBB keep the threads that they start. */
+ * n_threads = 1 starts no thread: the process has as many after each call as before the first. Neither does 0, the default, where
+ * there is little work. With 2 there are more, so the count sees threads. Calls on one thread come first, because OpenMP and TBB
+ * keep the threads that they start. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -11,6 +12,7 @@
 #include "searches.h"
 
 static int n_threads_at_first; /* a sanitizer may have its own */
+static int32_t n_threads_asked;
 
 /* Returns the number of threads of this process. */
 static int n_threads_now(void) {
@@ -29,22 +31,24 @@ static int n_threads_now(void) {
     if (call_n != n_threads_at_first) fail_msg("%s started %d threads", #call, call_n - n_threads_at_first); \
   } while (0)
 
-enum { n_side = 40, n_nodes = n_side * n_side * n_side, n_faces = n_nodes - 1 };
+enum { most_side = 40, most_nodes = most_side * most_side * most_side };
 
-static double xyz[3 * n_nodes];
-static int64_t owner[n_faces], neighbor[n_faces], corners_of_cells[8 * n_nodes], label[n_nodes];
+static int64_t n_side, n_nodes, n_faces;
+static double xyz[3 * most_nodes];
+static int64_t owner[most_nodes], neighbor[most_nodes], corners_of_cells[8 * most_nodes], label[most_nodes];
 
-static void fill_arrays(void) {
+static void fill_arrays(int64_t side) {
+  n_side = side, n_nodes = side * side * side, n_faces = n_nodes - 1;
   for (int64_t i = 0; i < n_nodes; ++i) {
     const int64_t at[3] = {i % n_side, i / n_side % n_side, i / (n_side * n_side)};
-    for (int c = 0; c < 3; ++c) xyz[3 * i + c] = -2.5 + 5.0 * (double)at[c] / (n_side - 1);
+    for (int c = 0; c < 3; ++c) xyz[3 * i + c] = -2.5 + 5.0 * (double)at[c] / (double)(n_side - 1);
   }
   for (int64_t i = 0; i < n_faces; ++i) owner[i] = i, neighbor[i] = i + 1;
 }
 
 /* Returns the number of hexahedra of the lattice. */
 static int64_t fill_cells(void) {
-  static const int64_t step[8] = {0,
+  const int64_t step[8] = {0,
                                   1,
                                   1 + n_side,
                                   n_side,
@@ -71,10 +75,10 @@ static riis_surface_options options_with(int32_t n_threads, int32_t triangulatio
 
 static void check_surfaces(int32_t triangulation, double tolerance) {
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
-  const riis_surface_options options = options_with(1, triangulation, tolerance);
+  const riis_surface_options options = options_with(n_threads_asked, triangulation, tolerance);
   riis_crossing_options of_crossings;
   CHECK_OK(riis_crossing_options_init(&of_crossings, sizeof of_crossings));
-  of_crossings.n_threads = 1;
+  of_crossings.n_threads = n_threads_asked;
   for (int k = 0; k < 4; ++k) {
     riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
     riis_surface *surface = NULL;
@@ -104,7 +108,7 @@ static void other_distances(void **state) {
   (void)state;
   const double point[3] = {0.3, 0.2, 0.1};
   for (int32_t distance = RIIS_DISTANCE_SAMPLING; distance <= RIIS_DISTANCE_MINIMIZATION; ++distance) {
-    riis_surface_options options = options_with(1, RIIS_TRIANGULATION_ADAPTED, 0.05);
+    riis_surface_options options = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
     options.distance = distance;
     options.distance_tolerance = 0.5;
     riis_surface *surface = NULL;
@@ -123,7 +127,7 @@ static void surfaces_from_arrays(void **state) {
   int32_t *ids;
   random_soup(&random, n_triangles, 0.1, &corners, &ids);
   const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);
-  const riis_surface_options options = options_with(1, RIIS_TRIANGULATION_ADAPTED, 0.05);
+  const riis_surface_options options = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
   riis_surface *surface = NULL;
   CALL_ALONE(riis_surface_create_from_arrays(&arrays, &options, &surface));
   own(surface);
@@ -147,22 +151,21 @@ static riis_adjacency *make_adjacencies(void) {
   riis_adjacency *made[3] = {NULL, NULL, NULL};
   CHECK_OK(riis_faces_init(&faces, sizeof faces));
   faces.n_cells = n_nodes, faces.n_faces = n_faces, faces.owner = owner, faces.neighbor = neighbor;
-  faces.id_bits = 64, faces.n_threads = 1;
+  faces.id_bits = 64, faces.n_threads = n_threads_asked;
   CALL_ALONE(riis_adjacency_create_from_faces(&faces, made));
   own(made[0]);
   CHECK_OK(riis_cells_init(&cells, sizeof cells));
   cells.n_nodes = n_nodes, cells.n_cells = fill_cells(), cells.node_ids = corners_of_cells, cells.nodes_per_cell = 8;
-  cells.id_bits = 64, cells.n_threads = 1;
+  cells.id_bits = 64, cells.n_threads = n_threads_asked;
   CALL_ALONE(riis_adjacency_create_from_cells(&cells, made + 1));
   own(made[1]);
-  CALL_ALONE(riis_adjacency_create_from_grid(n_side, n_side, n_side, 1, made + 2));
+  CALL_ALONE(riis_adjacency_create_from_grid(n_side, n_side, n_side, n_threads_asked, made + 2));
   return own(made[2]);
 }
 
-static void markings(void **state) {
-  (void)state;
-  fill_arrays();
-  const riis_surface_options of_surface = options_with(1, RIIS_TRIANGULATION_ADAPTED, 0.05);
+static void check_markings(int64_t side) {
+  fill_arrays(side);
+  const riis_surface_options of_surface = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
   riis_valve *valve = new_valve("mitral");
   riis_surface *surface = new_surface(valve, &of_surface);
   CALL_ALONE(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
@@ -172,12 +175,12 @@ static void markings(void **state) {
   riis_csr csr;
   CHECK_OK(riis_adjacency_csr(make_adjacencies(), &csr, sizeof csr));
   CALL_ALONE(riis_mesh_set_adjacency(mesh, &csr));
-  CALL_ALONE(riis_mesh_prepare(mesh, 1));
+  CALL_ALONE(riis_mesh_prepare(mesh, n_threads_asked));
   CALL_ALONE(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
 
   riis_mark_result *result = new_result();
   riis_mark_options options = mark_options();
-  options.n_threads = 1;
+  options.n_threads = n_threads_asked;
   options.fields = 255;
   for (options.search = RIIS_SEARCH_AUTO; options.search <= RIIS_SEARCH_CLUSTERS; ++options.search)
     for (int step = 0; step < 3; ++step) {
@@ -186,7 +189,7 @@ static void markings(void **state) {
     }
   assert_true(stats_of(result).n_marked > 100);
 
-  static double k[n_nodes], k_u[3 * n_nodes], distance[n_nodes];
+  static double k[most_nodes], k_u[3 * most_nodes], distance[most_nodes];
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
   resistance.resistance = 1;
@@ -206,9 +209,24 @@ static void markings(void **state) {
   riis_closest_arrays found;
   CHECK_OK(riis_closest_options_init(&of_points, sizeof of_points));
   CHECK_OK(riis_closest_arrays_init(&found, sizeof found));
-  of_points.n_threads = 1;
+  of_points.n_threads = n_threads_asked;
   found.distance = distance;
-  CALL_ALONE(riis_closest_points(surface, n_nodes, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
+  const int64_t n_points = n_threads_asked ? n_nodes : 2000;
+  CALL_ALONE(riis_closest_points(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
+}
+
+static void markings(void **state) {
+  (void)state;
+  check_markings(most_side);
+}
+
+/* On a machine of one processor this holds anyway. */
+static void little_work_by_default(void **state) {
+  (void)state;
+  n_threads_asked = 0;
+  check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.05);
+  check_surfaces(RIIS_TRIANGULATION_FIXED, 0.05);
+  check_markings(25);
 }
 
 /* OpenMP and TBB each start at most one more. */
@@ -221,8 +239,10 @@ static void two_threads_are_more(void **state) {
 
 int main(void) {
   n_threads_at_first = n_threads_now();
+  n_threads_asked = 1;
   const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_of_valves), cmocka_unit_test(other_distances),
                                      cmocka_unit_test(surfaces_from_arrays), cmocka_unit_test(markings),
+                                     cmocka_unit_test(little_work_by_default),
                                      cmocka_unit_test(two_threads_are_more)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,6 +150,19 @@ static void what_makes_no_sense_is_refused(void **state) {
   riis_mark_options options = mark_options();
   options.n_threads = -1;
   REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1", mesh, &options, nodes.n, label);
+  const double limits[] = {NAN, 0, 1e61};
+  for (int i = 0; i < 3; ++i) {
+    options = mark_options();
+    options.distance_limit = limits[i];
+    REFUSED(RIIS_INVALID_ARGUMENT, "options.distance_limit is |must be from the half thickness", mesh, &options,
+            nodes.n, label);
+  }
+  options = mark_options();
+  options.search = 5;
+  REFUSED(RIIS_INVALID_ARGUMENT, "options.search is 5", mesh, &options, nodes.n, label);
+  options = mark_options();
+  options.instructions = 4;
+  REFUSED(RIIS_INVALID_ARGUMENT, "options.instructions is 4", mesh, &options, nodes.n, label);
   options = mark_options();
   options.struct_size = 24;
   REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 24", mesh, &options, nodes.n, label);

@@ -2,6 +2,7 @@
  * Laws of opening against values by hand, closed forms and their own order of accuracy; restarts go on with the same bits. */
 #include <riis/riis.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +74,87 @@ static void rounding_of_a_period_does_not_matter(void **state) {
   riis_opening_table table = table_of(3, time, opening);
   table.period = 0.7;
   check_table(&table, 0.8 + 0.15, 0.5, 1 / 0.3);
+}
+
+/* Returns the distance of a time from a key and so many periods, in units of rounding of the largest of time, key and period. */
+static double units_from_key(double time, double key, double period, int n_periods) {
+  const long double distance = fabsl((long double)time - key - (long double)period * n_periods);
+  return (double)(distance / (DBL_EPSILON * fmaxl(fmaxl(fabsl(time), fabsl(key)), period)));
+}
+
+/* Looks at the times that doubles have around each key of periods -2 to 1000. Those within 8 units of rounding have the key's
+ * opening and the rate after it, to the last bit. Returns how many these are. */
+static int64_t check_keys_of_periods(const riis_opening_table *table) {
+  const int64_t n = table->n_keys;
+  int64_t n_at_keys = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    const int64_t next = (i + 1) % n, before = (i + n - 1) % n;
+    const double width = table->time[next] - table->time[i] + (next == 0 ? table->period : 0);
+    const double width_before = table->time[i] - table->time[before] + (i == 0 ? table->period : 0);
+    const double rate = (table->opening[next] - table->opening[i]) / width,
+                 rate_before = (table->opening[i] - table->opening[before]) / width_before;
+    assert_true(fabs(rate - rate_before) > 1e-3 * fabs(rate));
+    for (int n_periods = -2; n_periods <= 1000; ++n_periods) {
+      double time = table->time[i] + n_periods * table->period;
+      for (int k = 0; k < 12; ++k) time = nextafter(time, -INFINITY);
+      for (int k = -12; k <= 12; ++k, time = nextafter(time, INFINITY)) {
+        const double units = units_from_key(time, table->time[i], table->period, n_periods);
+        double opening, got_rate;
+        CHECK_OK(riis_opening_from_table(table, time, &opening, &got_rate));
+        if (units < 7.999) {
+          ++n_at_keys;
+          CHECK_NEAR(opening, table->opening[i], 0);
+          CHECK_NEAR(got_rate, rate, 1e-12 * fabs(rate));
+        } else if (units > 8.001) {
+          CHECK_NEAR(got_rate, k < 0 ? rate_before : rate, 1e-12 * fabs(k < 0 ? rate_before : rate));
+        }
+      }
+    }
+  }
+  return n_at_keys;
+}
+
+static void a_key_has_the_rate_after_it_in_every_period(void **state) {
+  (void)state;
+  enum { n_keys = 7, n_periods = 1003 };
+  const double heart[] = {-0.08, -0.01, 0.15, 0.24, 0.42, 0.51, 0.65}, opening[] = {0, 0.1, 1, 0.7, 0.9, 0.3, 0.2};
+  riis_opening_table table = table_of(n_keys, heart, opening);
+  table.period = 0.83;
+  assert_true(check_keys_of_periods(&table) >= 9 * n_keys * n_periods);
+  for (int trial = 0; trial < 20; ++trial) {
+    double time[n_keys], size = pow(10, random_between(&rng, -6, 6));
+    time[0] = random_between(&rng, -5, 5) * size;
+    for (int i = 1; i < n_keys; ++i) time[i] = time[i - 1] + random_between(&rng, 0.01, 0.2) * size;
+    table.time = time;
+    table.period = time[n_keys - 1] - time[0] + random_between(&rng, 0.01, 0.2) * size;
+    assert_true(check_keys_of_periods(&table) >= 5 * n_keys * n_periods);
+  }
+}
+
+/* A last key may miss the end of the period by a thousand millionth. It is the first key as well. */
+static void a_last_key_is_the_first_one_of_the_next_period(void **state) {
+  (void)state;
+  const double opening[] = {0.5, 1, 0.5};
+  for (int sign = -1; sign <= 1; ++sign) {
+    const double time[] = {0.25, 0.5, 1.25 + sign * 5e-10};
+    riis_opening_table table = table_of(3, time, opening);
+    table.period = 1;
+    for (int i = -2; i <= 1000; ++i) {
+      check_table(&table, time[2] + i, 0.5, 2);
+      check_table(&table, time[0] + i, 0.5, 2);
+    }
+  }
+}
+
+static void a_table_that_ends_has_its_keys_within_rounding(void **state) {
+  (void)state;
+  const double time[] = {0.3, 0.7, 1.1}, opening[] = {0, 1, 0.5};
+  const riis_opening_table table = table_of(3, time, opening);
+  check_table(&table, nextafter(0.3, 0), 0, 2.5);
+  check_table(&table, nextafter(0.7, 0), 1, -1.25);
+  check_table(&table, nextafter(1.1, 0), 0.5, 0);
+  check_table(&table, 0.3 - 1e-15, 0, 0);
+  check_table(&table, 0.7 - 2e-15, 1, 2.5);
 }
 
 static void a_cubic_table_is_monotone_and_its_rate_is_its_derivative(void **state) {
@@ -408,6 +490,24 @@ static void the_angle_stays_between_its_stops(void **state) {
   CHECK_NEAR(now.opening, 0, 0);
 }
 
+/* Two drives: one shuts the valve, one opens it. */
+static void a_first_state_is_closed_whatever_the_law(void **state) {
+  (void)state;
+  for (int sign = -1; sign <= 1; sign += 2) {
+    riis_opening_angle law = aortic_angle();
+    law.angle_min = 5;
+    riis_opening_angle_state first = angle_at_rest(), closed = angle_at_rest(), from_first, from_closed;
+    closed.angle = 5;
+    CHECK_OK(riis_opening_angle_advance(&law, &first, 0.01, 0.1 * sign, 10 * sign, &from_first));
+    CHECK_OK(riis_opening_angle_advance(&law, &closed, 0.01, 0.1 * sign, 10 * sign, &from_closed));
+    assert_memory_equal(&from_first, &from_closed, sizeof from_first);
+    assert_true(sign < 0 ? from_first.angle == 5 : from_first.angle > 5);
+    CHECK_OK(riis_opening_angle_advance(&law, &first, 0, 0, 0, &from_first)); /* no time passes */
+    CHECK_NEAR(from_first.angle, 5, 0);
+    CHECK_NEAR(from_first.opening, 0, 0);
+  }
+}
+
 static void step_of_the_angle(void *state, double time) {
   const riis_opening_angle law = aortic_angle();
   CHECK_OK(riis_opening_angle_advance(&law, state, time, sin(20 * time), 100 * cos(21 * time), state));
@@ -456,7 +556,11 @@ static void bad_laws_and_states_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.angle_max is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
   angle = aortic_angle();
   angle.angle_min = 5;
+  at.angle = 4;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 4", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  at.angle = at.pressure_difference = at.flow = 0; /* no first state */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
+  at = angle_at_rest();
   angle = aortic_angle();
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "time is 1e+06", riis_opening_angle_advance(&angle, &at, 1e6, 1, 0, &then));
 }
@@ -466,6 +570,9 @@ int main(void) {
       cmocka_unit_test(a_linear_table_has_its_keys_and_right_hand_rates),
       cmocka_unit_test(a_periodic_table_repeats),
       cmocka_unit_test(rounding_of_a_period_does_not_matter),
+      cmocka_unit_test(a_key_has_the_rate_after_it_in_every_period),
+      cmocka_unit_test(a_last_key_is_the_first_one_of_the_next_period),
+      cmocka_unit_test(a_table_that_ends_has_its_keys_within_rounding),
       cmocka_unit_test(a_cubic_table_is_monotone_and_its_rate_is_its_derivative),
       cmocka_unit_test(bad_tables_are_refused),
       cmocka_unit_test(a_valve_opens_and_closes_at_its_times),
@@ -478,6 +585,7 @@ int main(void) {
       cmocka_unit_test(the_angle_follows_the_published_equation),
       cmocka_unit_test(the_angle_is_second_order_in_the_step),
       cmocka_unit_test(the_angle_stays_between_its_stops),
+      cmocka_unit_test(a_first_state_is_closed_whatever_the_law),
       cmocka_unit_test(a_restart_of_the_angle_has_the_same_bits),
       cmocka_unit_test(bad_laws_and_states_are_refused),
   };

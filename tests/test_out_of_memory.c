@@ -183,7 +183,7 @@ static void requests_beyond_any_memory_are_refused(void **state) {
   riis_cells cells;
   riis_faces between;
   CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", riis_adjacency_create_from_grid(n, 1, 1, 2, &adjacency));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "more than memory can hold",
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "more than memory can hold",
                 riis_adjacency_create_from_grid(INT64_C(1) << 30, INT64_C(1) << 30, 4, 2, &adjacency));
   CHECK_OK(riis_cells_init(&cells, sizeof cells));
   cells.n_nodes = n;

@@ -24,7 +24,8 @@ Section = namedtuple("Section", "title line")
 
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 # Preprocessor lines that declare nothing.
-KNOWN_LINES = re.compile(r"#(ifndef RIIS_\w+_H|define RIIS_\w+_H|include <stdint\.h>|ifdef __cplusplus|if defined\(__GNUC__\)"
+KNOWN_LINES = re.compile(r"#(ifndef RIIS_\w+_H|define RIIS_\w+_H|include <stdint\.h>|ifdef __cplusplus"
+                         r"|if defined\(__GNUC__\) && !defined\(RIIS_STATIC\)"
                          r"|define RIIS_API( __attribute__\(\(visibility\(\"default\"\)\)\))?|else|endif)$")
 
 

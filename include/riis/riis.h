@@ -40,10 +40,14 @@
  *   defaults. Fields are only ever appended.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
- * - n_threads: 1 to 1024, or 0, the default: the processors in the calling thread's affinity mask, whatever
- *   OMP_NUM_THREADS and omp_set_num_threads say. With 1 no thread is started. A child of fork() may use 1
- *   only, and no surfaces if another thread was inside the library at the fork. If the system refuses a
- *   thread, or its memory, the run-times of OpenMP and TBB end the process (docs/building.md).
+ * - n_threads: 1 to 1024, or 0, the default, which takes no more threads than the work feeds: one, and one
+ *   more for each 4096 triangles (of a surface: of its last content), for each 16,384 nodes, cells or faces, and
+ *   for each 2048 points. These are at most the processors in the calling thread's affinity mask, whatever
+ *   OMP_NUM_THREADS and omp_set_num_threads say. By default a part with little work near the surface takes one.
+ *   With 1 no thread is started. If the system refuses a thread, or its memory, the run-times of OpenMP and TBB
+ *   end the process (docs/building.md).
+ * - fork(): if the library has used several threads, a child may use 1 only, and 0 stands for 1 there. More are
+ *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
  * - Environment: each call, including a log function, runs with the default floating-point environment and
  *   restores the caller's. The caller's OpenMP and TBB settings stay.
  *
@@ -60,10 +64,10 @@
 #define RIIS_VERSION_MINOR 2 /* grows when something is added */
 #define RIIS_VERSION_PATCH 0 /* grows when something is mended */
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(RIIS_STATIC)
 #define RIIS_API __attribute__((visibility("default"))) /* stands before every export */
 #else
-#define RIIS_API
+#define RIIS_API /* a static library has no exports */
 #endif
 
 #ifdef __cplusplus
@@ -87,7 +91,8 @@ enum {
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is sound but larger than the library takes on */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
   RIIS_FILE_ERROR = 8,          /* a file is unreadable, unwritable or of other content (riis_vtk.h) */
-  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing, such as a display (riis_vtk.h) */
+  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing, such as threads after a fork() or
+                                   a display (riis_vtk.h) */
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it */
 };
 
@@ -271,7 +276,7 @@ typedef struct riis_surface_options {
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
   int32_t distance;        /* RIIS_DISTANCE_*, of closest points and marking only; default
                               RIIS_DISTANCE_TRIANGLES, the only one for arrays */
-  int32_t n_threads;       /* default 0: 1 per 4096 triangles of the last content, at most 1 a processor */
+  int32_t n_threads;       /* default 0 */
   double distance_tolerance; /* for distances by sampling and minimisation, in half thicknesses: 1e-6 to 1.
                                 Default RIIS_AUTO: tolerance */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
@@ -347,7 +352,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
  * n_vertices than that of the last arrays, and a surface that was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
-/* Interpolation between keys in time. */
+/* Interpolation between keys in time. A time is a key, give or take whole periods, if they differ by at most
+ * 8 * 2^-52 of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is the rate after it */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
@@ -444,7 +450,7 @@ RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t
 typedef struct riis_crossing_options {
   int64_t struct_size; /* set by the init function */
   double depth;        /* half thicknesses, 0 to 1, default 1e-6: a pair at most so deep touches */
-  int32_t n_threads;   /* default 0: 1 per 4096 triangles, at most 1 a processor */
+  int32_t n_threads;   /* default 0 */
   int32_t reserved;    /* 0 */
 } riis_crossing_options;
 /* Fills *options with the defaults. */
@@ -647,7 +653,8 @@ RIIS_API riis_status riis_faces_init(riis_faces *faces, int64_t struct_size);
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
- *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0 */
+ *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0
+ * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
 /* Fills *csr for riis_mesh_set_adjacency. Its arrays are the adjacency's. Offsets are int64_t; columns are
@@ -1084,7 +1091,8 @@ typedef struct riis_opening_angle_state {
   double pressure_difference; /* at that time; NaN: none yet */
   double flow;                /* at that time; NaN: none yet */
 } riis_opening_angle_state;
-/* Fills *state with an angle of 0 at rest, at time 0. */
+/* Fills *state with a closed valve at rest, at time 0. Its angle is 0, which stands for angle_min as long as
+ * pressure_difference or flow is NaN. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
  * makes the angle second order in the length of steps. Without values before, the present ones count for the

@@ -113,7 +113,7 @@ class OpeningSwitch:
 
 @dataclass(frozen=True)
 class OpeningAngleState:
-    """The state of the angle law. The default is an angle of 0 at rest, at time 0."""
+    """The state of the angle law. The default is a closed valve at rest, at time 0: its angle 0 stands for angle_min."""
 
     time: float = 0.0
     opening: float = 0.0

@@ -291,7 +291,7 @@ fields          'normal, velocity' or ['normal', 'velocity']: fields that the re
 distance_limit  nodes get their distance up to here, mesh units; None: the half thickness
 mask            (n_nodes,) bool or uint8: other nodes are left out
 search          all but 'paper' find the same nodes; 'neighbor' and 'paper' need an adjacency
-n_threads       1 to 1024; 0: the processors of the calling thread's affinity mask
+n_threads       1 to 1024; 0: as many as the work feeds
 instructions    for tests and measurements; all give the same bits)");
 }
 

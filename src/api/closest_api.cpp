@@ -164,7 +164,7 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const riis_closest_options whole = riis::completed<options_size>(options, "options", default_options);
     const riis_closest_arrays to = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
     if (n_points < 0) riis::fail(RIIS_INVALID_ARGUMENT, "n_points is ", n_points, "; it must be at least 0");
-    const int n_threads = riis::threads_asked_for(whole.n_threads, "options.n_threads");
+    riis::check_threads(whole.n_threads, "options.n_threads");
     if (whole.reserved != 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is ", whole.reserved, "; it must be 0");
     const double limit = limit_of(whole);
@@ -172,6 +172,8 @@ riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, c
     const riis::StridedPoints points{n_points, x, y, z, stride};
     const WantedPoints wanted(whole, points);
     if (wanted.n() == 0) return;
+    const int n_threads =
+        riis::threads_for(whole.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
 
     // If memory runs out here, the arrays are still untouched.
     if (to.side) content.pseudonormals();

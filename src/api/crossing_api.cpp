@@ -27,7 +27,7 @@ const riis_crossing_options default_options{sizeof(riis_crossing_options), 1e-6,
 riis_crossing_options checked(const riis_crossing_options *options) {
   const riis_crossing_options whole = riis::completed<options_size>(options, "options", default_options);
   riis::check_range("options", "depth", whole.depth, 0, 1);
-  riis::threads_asked_for(whole.n_threads, "options.n_threads");
+  riis::check_threads(whole.n_threads, "options.n_threads");
   return whole;
 }
 
@@ -61,7 +61,8 @@ riis_status riis_find_crossings(riis_surface *surface, const riis_crossing_optio
     require(crossings, "crossings");
     riis::check_struct_size<crossings_size, riis_crossings>(struct_size, "crossings");
     const auto start = std::chrono::steady_clock::now();
-    const int n_threads = riis::threads_for_triangles(whole.n_threads, content.triangles().n_triangles());
+    const int n_threads = riis::threads_for(whole.n_threads, "options.n_threads", content.triangles().n_triangles(),
+                                            riis::triangles_per_thread);
     riis::Crossings found = riis::find_crossings(content.triangles(), content.scene().groups(),
                                                  whole.depth * content.half_thickness(), n_threads);
     riis_crossings summary = summary_of(content.triangles(), found);

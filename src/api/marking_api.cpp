@@ -105,14 +105,14 @@ riis_mark_options whole_of(const riis_mark_options *options) {
   return whole;
 }
 
-int threads_of(const riis_mark_options &options) {
-  return riis::threads_asked_for(options.n_threads, "options.n_threads");
+riis::Threads threads_of(const riis_mark_options &options, const riis::Mesh &mesh) {
+  return riis::threads_for(options.n_threads, "options.n_threads", mesh.nodes().n, riis::nodes_per_thread);
 }
 
 riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *mesh, const riis_mark_options &options) {
   check_search(options.search);
-  return {surface,           mesh->mesh,          limit_of(options, surface.half_thickness()),
-          options.node_mask, threads_of(options), instructions_asked_for(options.instructions)};
+  return {surface,           mesh->mesh,                      limit_of(options, surface.half_thickness()),
+          options.node_mask, threads_of(options, mesh->mesh), instructions_asked_for(options.instructions)};
 }
 
 // Checks the surface first, then the mesh, the result and the options.
@@ -193,7 +193,7 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
 riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
   return guarded([&] {
     const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
-    const int n = riis::threads_asked_for(n_threads, "n_threads");
+    const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
     if (content.nodes().n > riis::max_clustered_nodes)
       riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n, " nodes is not made clusters of: at most ",
                  riis::max_clustered_nodes);
@@ -226,7 +226,7 @@ riis_status riis_adjacency_create_from_cells(const riis_cells *cells, riis_adjac
   return guarded([&] {
     require(adjacency, "adjacency");
     const riis_cells whole = riis::completed<cells_size>(require(cells, "cells"), "cells", default_cells);
-    const int n_threads = riis::threads_asked_for(whole.n_threads, "cells.n_threads");
+    const int n_threads = riis::threads_for(whole.n_threads, "cells.n_threads", whole.n_cells, riis::nodes_per_thread);
     *adjacency = new riis_adjacency{{}, riis::adjacency_from_cells(whole, n_threads)};
   });
 }
@@ -239,7 +239,7 @@ riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjac
   return guarded([&] {
     require(adjacency, "adjacency");
     const riis_faces whole = riis::completed<faces_size>(require(faces, "faces"), "faces", default_faces);
-    const int n_threads = riis::threads_asked_for(whole.n_threads, "faces.n_threads");
+    const int n_threads = riis::threads_for(whole.n_threads, "faces.n_threads", whole.n_faces, riis::nodes_per_thread);
     *adjacency = new riis_adjacency{{}, riis::adjacency_from_faces(whole, n_threads)};
   });
 }
@@ -248,7 +248,7 @@ riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, 
                                             riis_adjacency **adjacency) {
   return guarded([&] {
     require(adjacency, "adjacency");
-    const int n = riis::threads_asked_for(n_threads, "n_threads");
+    const int n = riis::threads_for(n_threads, "n_threads", riis::nodes_of_grid(ni, nj, nk), riis::nodes_per_thread);
     *adjacency = new riis_adjacency{{}, riis::adjacency_from_grid(ni, nj, nk, n)};
   });
 }
@@ -412,9 +412,12 @@ riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_mark_optio
     const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
     const riis::MarkResult &content = require_handle(result, "result")->result;
     const riis_mark_options whole = whole_of(options);
-    const int n_threads = threads_of(whole);
+    const int n_threads = threads_of(whole, nodes);
     const riis::Adjacency &adjacency = require_adjacency(nodes, "whose edges join nodes");
     check_is_of_mesh(nodes, content);
+    check_search(whole.search);
+    limit_of(whole, content.half_thickness);
+    instructions_asked_for(whole.instructions);
     check_n_nodes(n_nodes, content);
     if (n_nodes > 0) require(label, "label");
     riis::put(n_regions, riis::label_open_regions({adjacency, whole.node_mask, content.marked_nodes().node_id},

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
@@ -71,18 +72,24 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// Returns the number of threads that an option requests. 0 stands for the processors that the calling thread may use.
-inline int threads_asked_for(std::int32_t n_threads, const char *name) {
+// By default one more thread is taken for so much more work, half a millisecond's or more. To wake and to await a thread
+// takes a hundredth of that. On a machine with other work it takes as long as the system lets that work run.
+constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
+constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
+
+inline void check_threads(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");
-  return n_threads ? n_threads : default_thread_count();
+  if (n_threads > 1 && has_lost_threads())
+    fail(RIIS_UNAVAILABLE, name, " is ", n_threads,
+         "; this process was forked after riis had used several threads, so it may use 1 only");
 }
 
-// Returns the number of threads of an option. If the option is 0, returns as many as pay for their start.
-inline int threads_for_triangles(std::int32_t n_threads, std::int64_t n_triangles) {
-  if (n_threads > 0) return n_threads;
-  constexpr std::int64_t triangles_per_thread = 4096;
-  return static_cast<int>(std::min<std::int64_t>(1 + n_triangles / triangles_per_thread, default_thread_count()));
+// Returns the threads that an option requests, or those that so many items of work feed if the option is 0.
+inline Threads threads_for(std::int32_t n_threads, const char *name, std::int64_t n_items, std::int64_t per_thread) {
+  check_threads(n_threads, name);
+  return n_threads > 0 ? Threads(n_threads)
+                       : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
 }  // namespace riis

@@ -85,7 +85,7 @@ void check_options(const riis_surface_options &options) {
   if (options.triangulation < RIIS_TRIANGULATION_ADAPTED || options.triangulation > RIIS_TRIANGULATION_FIXED)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
                "; it must be one of RIIS_TRIANGULATION_*");
-  riis::threads_asked_for(options.n_threads, "options.n_threads");
+  riis::check_threads(options.n_threads, "options.n_threads");
   if (options.distance_tolerance != RIIS_AUTO)
     check_range("options", "distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
 }
@@ -120,8 +120,9 @@ void check_precision(const riis_surface_options &options, const char *name, doub
 
 // The last content's size is the guide for options that leave the number open.
 int threads_for(const riis_surface &surface, const riis_surface_options &options) {
-  return riis::threads_for_triangles(options.n_threads,
-                                     surface.surface ? surface.surface->triangles().n_triangles() : 0);
+  return riis::threads_for(options.n_threads, "options.n_threads",
+                           surface.surface ? surface.surface->triangles().n_triangles() : 0,
+                           riis::triangles_per_thread);
 }
 
 // A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.

@@ -188,7 +188,8 @@ void declare_marking(CLI::App &app, Texts &texts) {
       ->expected(2)
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
       ->group(group);
-  app.add_option("--threads", texts.threads, "Number of threads (default the processors that the program may use)")
+  app.add_option("--threads", texts.threads,
+                 "Number of threads (default as many as the work feeds, at most one a processor)")
       ->type_name("N")
       ->group(group);
 }

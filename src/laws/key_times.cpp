@@ -49,27 +49,47 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
 }
 
+// Subtracting and adding periods rounds, and so did whoever made the time. A time just before a key would have the rate
+// before it.
+double KeyTimes::from_key(std::int64_t i, double time) const {
+  const auto if_at = [&](double key) {
+    const double difference = time - key, key_lost = difference - time;
+    const double rest = (time - (difference - key_lost)) - (key + key_lost);  // what the subtraction rounded off
+    const double distance = std::abs((period_ > 0 ? std::remainder(difference, period_) : difference) + rest);
+    constexpr double unit = std::numeric_limits<double>::epsilon();
+    return distance <= 8 * unit * std::max({std::abs(time), std::abs(key), period_}) ? distance : infinity;
+  };
+  const std::int64_t key = position(i);
+  const double distance = if_at(time_[key]);
+  return is_closed_ && key == 0 ? std::min(distance, if_at(time_[n_keys_ - 1])) : distance;
+}
+
 KeyTimes::Place KeyTimes::place(double time) const {
   if (!(std::abs(time) <= largest_time))
     fail(RIIS_INVALID_ARGUMENT, "time is ", time, "; it must be finite and at most ", largest_time, " in magnitude");
   if (n() == 1) return {{0, 0, 0, 0}, {infinity, infinity, infinity}, 0, true};
   const bool repeats = period_ > 0;
+  double in_period = time;
   if (repeats) {
     const double since = std::fmod(time - time_[0], period_);
-    time = time_[0] + (since < 0 ? since + period_ : since);
+    in_period = time_[0] + (since < 0 ? since + period_ : since);
   }
   const std::int64_t last = n() - 1;
-  std::int64_t i = std::upper_bound(time_, time_ + n(), time) - time_ - 1;
+  std::int64_t i = std::upper_bound(time_, time_ + n(), in_period) - time_ - 1;
+  if (repeats) i = std::max<std::int64_t>(i, 0);
+  const double from_this = i < 0 ? infinity : from_key(i, time),
+               from_next = repeats || i < last ? from_key(i + 1, time) : infinity;
+  const bool is_next = from_next < infinity && from_next <= from_this, is_key = is_next || from_this < infinity;
+  if (is_next) i = repeats ? position(i + 1) : i + 1;
   if (!repeats && (i < 0 || i >= last)) {
     const std::int64_t end = i < 0 ? 0 : last;
     return {{end, end, end, end}, {infinity, infinity, infinity}, 0, true};
   }
-  i = std::max<std::int64_t>(i, 0);
   const bool has_before = repeats || i > 0, has_behind = repeats || i + 1 < last;
   return {{has_before ? position(i - 1) : i, i, position(i + 1), has_behind ? position(i + 2) : position(i + 1)},
           {has_before ? this->time(i) - this->time(i - 1) : infinity, this->time(i + 1) - this->time(i),
            has_behind ? this->time(i + 2) - this->time(i + 1) : infinity},
-          time - this->time(i),
+          is_key ? 0 : in_period - this->time(i),
           false};
 }
 

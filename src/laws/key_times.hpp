@@ -32,7 +32,9 @@ class KeyTimes {
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // before the first or behind the last key: the value is that of key[1]
   };
-  // Fails with RIIS_INVALID_ARGUMENT for a time that is not finite.
+  // A time within 8 units of rounding of a key, give or take whole periods, is that key: the first end of its interval.
+  // The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time that is not
+  // finite.
   Place place(double time) const;
 
   // Returns the value and the rate at a place, from the values at its four keys.
@@ -43,6 +45,8 @@ class KeyTimes {
   double time(std::int64_t i) const {
     return i < 0 ? time_[i + n()] - period_ : i >= n() ? time_[i - n()] + period_ : time_[i];
   }
+  // Returns the distance of a time from a key, give or take whole periods. Returns infinity if the time is not that key.
+  double from_key(std::int64_t i, double time) const;
   std::int64_t position(std::int64_t i) const { return i < 0 ? i + n() : i >= n() ? i - n() : i; }
 
   std::int64_t n_keys_;

@@ -201,12 +201,14 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  check_range("before", "angle", before.angle, law.angle_min, law.angle_max);
+  // A first state has no drive, so the present drive stands for it. Its angle is 0 whatever the law, which says where the
+  // valve is closed.
+  const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
+  const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
+  check_range("before", "angle", angle, law.angle_min, law.angle_max);
   check_range("before", "angle_rate", before.angle_rate, -largest, largest);
   const double step = checked_step(before.time, time, pressure_difference, flow);
 
-  // A first state has no drive, so the present drive stands for it.
-  const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
   // The method's error falls with the fourth power of this length. So it is far below the error of a drive that is linear.
@@ -219,7 +221,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
          " are taken: take shorter steps, or look at the gains' units");
   const auto n = std::max<std::int64_t>(1, static_cast<std::int64_t>(n_wanted));
   const double least = law.angle_min * degree, most = law.angle_max * degree;
-  Motion at{before.angle * degree, before.angle_rate * degree};
+  Motion at{angle * degree, before.angle_rate * degree};
   if (step > 0)
     for (std::int64_t i = 0; i < n; ++i) {
       const double from = static_cast<double>(i) / static_cast<double>(n),

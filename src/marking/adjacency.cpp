@@ -17,7 +17,8 @@ constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max() / 64
 
 void check_count(const char *field, std::int64_t n, std::int64_t least) {
   if (n < least || n > max_count)
-    fail(RIIS_INVALID_ARGUMENT, field, " is ", n, "; it must be from ", least, " to ", max_count);
+    fail(n < least ? RIIS_INVALID_ARGUMENT : RIIS_LIMIT_EXCEEDED, field, " is ", n, "; it must be from ", least, " to ",
+         max_count);
 }
 
 constexpr std::int64_t rows_per_block = 4096;
@@ -200,13 +201,17 @@ OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
                             2 * faces.n_faces, n_threads, {});
 }
 
-OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads) {
+std::int64_t nodes_of_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk) {
   check_count("ni", ni, 1);
   check_count("nj", nj, 1);
   check_count("nk", nk, 1);
   if (nj > max_count / ni || nk > max_count / (ni * nj))
-    fail(RIIS_INVALID_ARGUMENT, "a grid of ", ni, " * ", nj, " * ", nk, " nodes is more than memory can hold");
-  return rows_of(ni * nj * nk, n_threads, [&](std::int64_t node, std::vector<std::int64_t> &neighbors) {
+    fail(RIIS_LIMIT_EXCEEDED, "a grid of ", ni, " * ", nj, " * ", nk, " nodes is more than memory can hold");
+  return ni * nj * nk;
+}
+
+OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads) {
+  return rows_of(nodes_of_grid(ni, nj, nk), n_threads, [&](std::int64_t node, std::vector<std::int64_t> &neighbors) {
     const std::int64_t i = node % ni, j = node / ni % nj, k = node / (ni * nj);
     if (i > 0) neighbors.push_back(node - 1);
     if (i + 1 < ni) neighbors.push_back(node + 1);

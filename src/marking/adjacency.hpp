@@ -57,6 +57,8 @@ struct NarrowLimits {
 
 OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads, const NarrowLimits &limits = {});
 OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads);
+// Returns the number of a grid's nodes. Fails with RIIS_LIMIT_EXCEEDED for more than memory can hold.
+std::int64_t nodes_of_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk);
 OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads);
 
 }  // namespace riis

@@ -63,32 +63,22 @@ class ClusterSearch {
     const float surface_lower[3] = {round_down(lower.x), round_down(lower.y), round_down(lower.z)};
     const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
     const auto n_regions = view(clusters_.regions).size();
-    const int n_ran = parallel_for_ranges(n_regions, 1, request_.n_threads, [&](const Range &range, int thread) {
-      ClusterScratch::Thread &own = view(own_.threads)[thread];
-      for (std::int64_t region = range.begin; region < range.end; ++region) {
-        const Clusters::Box &box = view(clusters_.boxes)[region];
-        float centre[3], sum = 0, gap_sq = 0;
-        for (int i = 0; i < 3; ++i) {
-          const float from = box.lower[i] * task_.ratio + task_.shift[i],
-                      to = box.upper[i] * task_.ratio + task_.shift[i];
-          centre[i] = 0.5f * (from + to);
-          sum += (to - from) * (to - from);
-          const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
-          gap_sq += gap * gap;
-        }
-        if (!(gap_sq <= task_.reach_sq)) continue;
-        ++own.n_queries;
-        own.candidates.clear();
-        scene_.collect_groups(centre, 0.5f * std::sqrt(sum) + reach_, own.candidates);
-        if (own.candidates.empty()) continue;
-        own.bits.resize(own.candidates.size());
-        if (!kernels_.near_boxes(task_, view(clusters_.regions)[region], own.candidates.data(),
-                                 static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
-          continue;
-        const Range of_region = clusters_.clusters_of(region);
-        for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster)
-          add_cluster(cluster, cluster - of_region.begin, own);
+    own_.near_regions.clear();
+    own_.near_regions.reserve(static_cast<std::size_t>(n_regions));
+    for (std::int64_t region = 0; region < n_regions; ++region) {
+      const Clusters::Box &box = view(clusters_.boxes)[region];
+      float gap_sq = 0;
+      for (int i = 0; i < 3; ++i) {
+        const auto [from, to] = placed(box, i);
+        const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
+        gap_sq += gap * gap;
       }
+      if (gap_sq <= task_.reach_sq) own_.near_regions.push_back(region);
+    }
+    constexpr std::int64_t few = 64;  // they take a few tenths of a millisecond
+    const auto n_near = view(own_.near_regions).size();
+    const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
+      search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -101,7 +91,9 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    const int n_ran = parallel_for(view(items).size(), request_.n_threads, [&](std::int64_t i, int thread) {
+    constexpr std::int64_t few = 128;  // they take about half a millisecond
+    const auto n = view(items).size();
+    const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], view(found_.by_thread)[thread]);
     });
     n_threads_ = std::max(n_threads_, n_ran);
@@ -114,6 +106,34 @@ class ClusterSearch {
   }
 
  private:
+  // The bounds of a box along an axis, in the surface's frame.
+  struct Interval {
+    float from, to;
+  };
+  Interval placed(const Clusters::Box &box, int axis) const {
+    return {box.lower[axis] * task_.ratio + task_.shift[axis], box.upper[axis] * task_.ratio + task_.shift[axis]};
+  }
+
+  void search_region(std::int64_t region, ClusterScratch::Thread &own) {
+    float centre[3], sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const auto [from, to] = placed(view(clusters_.boxes)[region], i);
+      centre[i] = 0.5f * (from + to);
+      sum += (to - from) * (to - from);
+    }
+    ++own.n_queries;
+    own.candidates.clear();
+    scene_.collect_groups(centre, 0.5f * std::sqrt(sum) + reach_, own.candidates);
+    if (own.candidates.empty()) return;
+    own.bits.resize(own.candidates.size());
+    if (!kernels_.near_boxes(task_, view(clusters_.regions)[region], own.candidates.data(),
+                             static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
+      return;
+    const Range of_region = clusters_.clusters_of(region);
+    for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster)
+      add_cluster(cluster, cluster - of_region.begin, own);
+  }
+
   // Appends the numbers whose bits have the given bit, and returns how many these are.
   static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                                 std::vector<std::int32_t> &to) {

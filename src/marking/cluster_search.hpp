@@ -45,6 +45,7 @@ struct ClusterScratch {
     }
   };
   std::vector<Thread> threads;
+  std::vector<std::int64_t> near_regions;
   std::vector<Item> items;
 
   void prepare(int n_threads);

@@ -243,11 +243,14 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
                  NodeFields &made) {
   made.resize(fields, list.size());
   if (fields == 0 || list.size() == 0) return;
-  gather_at_vertices(request.surface.triangles(), fields, request.n_threads, scratch);
+  constexpr std::int64_t few_vertices = 16384;
+  gather_at_vertices(request.surface.triangles(), fields,
+                     request.n_threads.for_part(request.surface.triangles().n_vertices(), few_vertices), scratch);
   const TriangleFields of_triangles(request, fields, list, scratch, made);
   const bool has_triangles = !request.surface.other_distance();
-  constexpr std::int64_t nodes_per_block = 512;
-  parallel_for_ranges(list.size(), nodes_per_block, request.n_threads, [&](const Range &range, int) {
+  constexpr std::int64_t nodes_per_block = 512, few = 4096;
+  const int n_threads = request.n_threads.for_part(list.size(), has_triangles ? few : 0);
+  parallel_for_ranges(list.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
     if (has_triangles) {
       of_triangles.write(range);
     } else {

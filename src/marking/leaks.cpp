@@ -122,12 +122,13 @@ double closing_distance(const SearchRequest &request, const Edge &edge) {
 }
 
 LeakingEdges listed(const SearchRequest &request, const std::vector<Edge> &edges) {
-  constexpr std::int64_t edges_per_task = 64;
+  constexpr std::int64_t edges_per_task = 64, few = 512;
+  const int n_threads = request.n_threads.for_part(view(edges).size(), few);
   LeakingEdges list;
   list.node_id.resize(2 * edges.size());
   list.length.resize(edges.size());
   list.distance.resize(edges.size());
-  parallel_for_ranges(view(edges).size(), edges_per_task, request.n_threads, [&](const Range &range, int) {
+  parallel_for_ranges(view(edges).size(), edges_per_task, n_threads, [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       const Edge &edge = view(edges)[i];
       view(list.node_id)[2 * i] = edge.a;

@@ -114,9 +114,9 @@ void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32
 
 void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,
                  std::int64_t *triangle_id, std::int32_t *leaflet_id) {
-  constexpr std::int64_t nodes_per_block = 65536;
+  constexpr std::int64_t nodes_per_block = 65536, few = 8 * nodes_per_block;
   const std::int64_t n_nodes = result.stats.n_nodes;
-  parallel_for_ranges(n_nodes, nodes_per_block, result.n_threads, [&](const Range &range, int) {
+  parallel_for_ranges(n_nodes, nodes_per_block, result.n_threads.for_part(n_nodes, few), [&](const Range &range, int) {
     const auto [begin, end] = range;
     if (mark) std::fill(mark + begin, mark + end, std::uint8_t{0});
     if (distance) std::fill(distance + begin, distance + end, far_distance);

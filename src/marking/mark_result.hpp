@@ -13,6 +13,7 @@
 #include "marking/neighbor_search.hpp"
 #include "marking/node_list.hpp"
 #include "marking/put_in_order.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
@@ -32,7 +33,7 @@ struct MarkResult {
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  int n_threads = 1;  // that the caller requested
+  Threads n_threads = 1;  // of the marking
   riis_mark_stats stats{};
   LeakingEdges leaking;  // empty until a search for leaks follows the marking
 

@@ -16,6 +16,8 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
+// Below these numbers a part takes a millisecond or two on one thread.
+constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
 class NeighborSearch {
@@ -38,12 +40,12 @@ class NeighborSearch {
   }
 
   // Queries the nodes to begin with. From each node within the limit it goes on to the node's neighbours.
-  void walk() {
+  void walk(int n_threads) {
     std::vector<Range> &ranges = walked_.ranges;
     ranges.clear();
     for (std::int64_t i = 0; i < n_queued_; i += nodes_per_range)
       ranges.push_back({i, std::min(i + nodes_per_range, n_queued_.load())});
-    const int n_ran = concurrent_walk(ranges, request_.n_threads, [&](const Range &range, const auto &add, int thread) {
+    const int n_ran = concurrent_walk(ranges, n_threads, [&](const Range &range, const auto &add, int thread) {
       std::vector<std::int64_t> &next = view(walked_.threads)[thread].next;
       next.clear();
       const auto hand_on = [&] {
@@ -72,22 +74,32 @@ class NeighborSearch {
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
-    const auto n = view(balls.large_balls).size();
-    const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
+    const auto within = [&](const Ball &ball) {
+      return limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
+    };
+    const auto may_be_near = [&](const Ball &ball) { return distances_.may_be_within(ball.centre, within(ball)); };
+    std::vector<std::int64_t> &near_large = walked_.near_large_balls;
+    near_large.clear();
+    near_large.reserve(balls.large_balls.size());
+    for (std::int64_t s = 0; s < view(balls.large_balls).size(); ++s)
+      if (may_be_near(view(balls.large_balls)[s])) near_large.push_back(s);
+    const auto n = view(near_large).size();
+    const int n_threads = request_.n_threads.for_part(n, few_large_balls);
+    const int n_ran = parallel_for_ranges(n, balls_per_block, n_threads, [&](const Range &block, int thread) {
       NeighborScratch::Thread &own = view(walked_.threads)[thread];
       const auto is_near = [&](const Ball &ball, double &distance) {
-        const double within = limit_ + ball.radius + slack(limit_ + ball.radius, ball.centre);
-        if (!distances_.may_be_within(ball.centre, within)) return false;
         ++own.n_queries;
-        distance = distances_.lower_bound(ball.centre, within);
-        return distance <= within;
+        distance = distances_.lower_bound(ball.centre, within(ball));
+        return distance <= within(ball);
       };
-      for (std::int64_t s = block.begin; s < block.end; ++s) {
+      for (std::int64_t k = block.begin; k < block.end; ++k) {
+        const std::int64_t s = view(near_large)[k];
         double distance;
         if (!is_near(view(balls.large_balls)[s], distance)) continue;
         const Range range = balls.balls_of(s);
         for (std::int64_t ball = range.begin; ball < range.end; ++ball)
-          if (is_near(view(balls.balls)[ball], distance)) own.near_balls.push_back({ball, distance});
+          if (may_be_near(view(balls.balls)[ball]) && is_near(view(balls.balls)[ball], distance))
+            own.near_balls.push_back({ball, distance});
       }
     });
     n_threads_ = std::max(n_threads_, n_ran);
@@ -112,7 +124,7 @@ class NeighborSearch {
   // Every node of a near ball that the walk did not reach is proven far by its ball's centre, or queried.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
-    const int n_ran = parallel_for_ranges(n, balls_per_block, request_.n_threads, [&](const Range &block, int thread) {
+    const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
       const std::vector<FoundNode> &found = view(found_.by_thread)[thread];
       const std::int64_t n_before = view(found).size();
       for (std::int64_t g = block.begin; g < block.end; ++g) {
@@ -128,6 +140,9 @@ class NeighborSearch {
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
+
+  // Returns the number of threads for the nodes of the near balls.
+  int threads_near() const { return request_.n_threads.for_part(view(walked_.near_balls).size(), few_balls); }
 
   SearchReport report(bool complete) {
     std::int64_t n_queries = 0;
@@ -203,7 +218,7 @@ SearchReport search_neighbors(const SearchRequest &request, const std::vector<st
     search.find_near_balls(balls);
     for (const std::int64_t node : last) search.begin_at(node);
     if (last.empty()) search.begin_in_near_balls(balls);
-    search.walk();
+    search.walk(search.threads_near());
     search.prove(balls);
     return search.report(true);
   });
@@ -221,7 +236,7 @@ SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &
   return with_distances(request.surface, request.instructions, [&](const auto &distances) {
     NeighborSearch search(request, distances, scratch, found);
     if (nearest >= 0) search.begin_at(nearest);
-    search.walk();
+    search.walk(request.n_threads);
     return search.report(false);
   });
 }

@@ -37,6 +37,7 @@ class NeighborScratch {
   std::vector<Thread> threads;
   std::vector<std::int64_t> queue;  // nodes in the order in which they were claimed
   std::vector<Range> ranges;
+  std::vector<std::int64_t> near_large_balls;
   std::vector<NearBall> near_balls;
 
   // The number of nodes that a thread hands on together.

@@ -21,12 +21,13 @@ namespace {
 
 // Returns the largest distance of the nodes, and refuses nodes in the band.
 double largest_distance(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
-  constexpr std::int64_t nodes_per_task = 256;
+  constexpr std::int64_t nodes_per_task = 256, few = 2048;
+  const int n_threads = request.n_threads.for_part(ids.size(), few);
   const double half_thickness = request.surface.half_thickness();
   std::vector<double> distance;
   resize(distance, ids.size());
   with_distances(request.surface, request.instructions, [&](const auto &distances) {
-    parallel_for_ranges(ids.size(), nodes_per_task, request.n_threads, [&](const Range &range, int) {
+    parallel_for_ranges(ids.size(), nodes_per_task, n_threads, [&](const Range &range, int) {
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
         const double d = std::sqrt(distances.closest(p, std::numeric_limits<double>::infinity()).distance_sq);

@@ -60,8 +60,9 @@ void add_resistance(const MarkResult &result, const Resistance &resistance, doub
   if (momentum) require_field(result, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "momentum");
   const auto node_id = view(result.within.node_id);
   const double *velocity = result.fields_within.velocity.data();
-  constexpr std::int64_t nodes_per_block = 4096;
-  parallel_for_ranges(result.within.size(), nodes_per_block, result.n_threads, [&](const Range &range, int) {
+  constexpr std::int64_t nodes_per_block = 4096, few = 16384;
+  const int n_threads = result.n_threads.for_part(result.within.size(), few);
+  parallel_for_ranges(result.within.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
     for_each_resistance(result, resistance, range, [&](std::int64_t i, double k) {
       // Nodes are far apart in the caller's arrays: they are fetched while earlier nodes are computed.
       const std::int64_t ahead = node_id[std::min(i + 16, node_id.size() - 1)];

@@ -8,6 +8,7 @@
 #include "distance/surface.hpp"
 #include "marking/found_nodes.hpp"
 #include "marking/mesh.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
@@ -16,7 +17,7 @@ struct SearchRequest {
   const Mesh &mesh;
   double distance_limit;
   const std::uint8_t *node_mask;  // or null
-  int n_threads;
+  Threads n_threads;
   InstructionSet instructions;
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }

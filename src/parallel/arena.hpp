@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "parallel/arena_pool.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
@@ -21,7 +22,7 @@ namespace riis {
 class Arena {
  public:
   explicit Arena(int n_threads) {
-    const auto wanted = static_cast<std::size_t>(n_threads);
+    const auto wanted = static_cast<std::size_t>(n_threads > 1 && !begin_threads() ? 1 : n_threads);
     if (allowed() < wanted) limit_.emplace(tbb::global_control::max_allowed_parallelism, wanted);
     lent_ = borrow_arena(static_cast<int>(std::min(allowed(), wanted)));
   }

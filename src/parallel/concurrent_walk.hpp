@@ -16,6 +16,7 @@
 #include "base/float_environment.hpp"
 #include "parallel/arena.hpp"
 #include "parallel/range.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
@@ -25,7 +26,7 @@ namespace riis {
 // they are. With n_threads = 1 the calling thread runs all bodies without TBB and empties the list.
 template <class Body>
 int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body) {
-  if (n_threads == 1) {
+  if (n_threads == 1 || !begin_threads()) {
     while (!ranges.empty()) {
       const Range range = ranges.back();
       ranges.pop_back();

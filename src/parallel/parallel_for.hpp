@@ -10,10 +10,11 @@
 
 #include "base/float_environment.hpp"
 #include "parallel/range.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
-// Returns the number of processors that the calling thread may use, by its affinity mask; n_threads = 0 stands for it.
+// Returns the number of processors that the calling thread may use, by its affinity mask; n_threads = 0 takes no more.
 // If OpenMP itself binds threads to places, the mask is the one with which the process started.
 inline int default_thread_count() noexcept {
   const int n = omp_get_num_procs();
@@ -30,7 +31,7 @@ inline int default_thread_count() noexcept {
 // ones.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  if (n_blocks <= 1) n_threads = 1;
+  if (n_blocks <= 1 || (n_threads > 1 && !begin_threads())) n_threads = 1;
   if (n_threads == 1) {
     for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
     return 1;

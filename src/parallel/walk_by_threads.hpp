@@ -18,6 +18,7 @@
 #include "base/array_view.hpp"
 #include "base/float_environment.hpp"
 #include "parallel/range.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 
@@ -58,6 +59,7 @@ class RangePlaces {
 
 template <class Body>
 int concurrent_walk(const std::vector<Range> &ranges, int n_threads, const Body &body) {
+  if (n_threads > 1 && !begin_threads()) n_threads = 1;
   RangePlaces places;
   std::atomic<std::int64_t> n_added{0}, n_taken{0}, n_left{0};
   std::atomic<int> n_ran{0};

@@ -57,12 +57,15 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// Sorts edges by their upper ends. They are few, and those with equal ends stay in their order.
+// Sorts edges by their upper ends. They are few and in the order of their slots, and those with equal ends stay in it. A stable
+// sort of the standard library would allocate.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
   if (end - begin > few) {
-    std::stable_sort(begin, end, [](const Edge &a, const Edge &b) { return a.upper < b.upper; });
+    std::sort(begin, end, [](const Edge &a, const Edge &b) {
+      return a.upper < b.upper || (a.upper == b.upper && a.slot < b.slot);
+    });
     return;
   }
   for (Edge *next = begin + 1; next < end; ++next) {

@@ -25,6 +25,8 @@ enum OfCusp {
 // clang-format on
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
+// They begin messages, which are needed only when a check fails: checks pass them on without making a string.
+const char *const cusps[n_cusps] = {"the right cusp", "the left cusp", "the non_coronary cusp"};
 constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
 // The orifice is then 3.9 cm2, and no free edge changes by more than 5 % (docs/theory.md, section 3).
 constexpr CuspOpening default_opening{0.75, 0.05};
@@ -113,14 +115,12 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-std::string name_of(std::size_t cusp) { return std::string("the ") + cusp_names[cusp] + " cusp"; }
-
 // Checks every curve of one state. Curves between two checked states lie between theirs.
 void check_values(const ParameterValues &values) {
   check_together(values);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const CuspShape shape = shape_of(values, cusp);
-    check_reach(half_cusp(shape), shape, name_of(cusp), "");
+    check_reach(half_cusp(shape), shape, "", cusps[cusp], "");
   }
 }
 
@@ -132,7 +132,7 @@ HalfCusp open_half_of(const ParameterValues &values, std::size_t cusp) {
 HalfCusp own_open_half(const ParameterValues &values, std::size_t cusp) {
   const CuspShape shape = open_shape(shape_of(values, cusp), opening_of(values));
   const HalfCusp half = half_cusp(shape);
-  check_reach(half, shape, "in the open state, " + name_of(cusp), ", open_radius_ratio, commissure_expansion");
+  check_reach(half, shape, "in the open state, ", cusps[cusp], ", open_radius_ratio, commissure_expansion");
   return half;
 }
 

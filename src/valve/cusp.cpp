@@ -104,13 +104,13 @@ HalfCusp rate(const HalfCusp &closed, const HalfCusp &open) {
   return of_each([&](Bezier HalfCusp::*curve) { return rate(closed.*curve, open.*curve); });
 }
 
-void check_reach(const HalfCusp &half, const CuspShape &shape, const std::string &cusp, const char *also) {
+void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also) {
   const double size = std::max(shape.root_radius, shape.leaflet_height);
   const auto check = [&](const Bezier &curve, const char *what, const char *parameters) {
     for (int i = 0; i <= curve.degree; ++i) {
       const double reach = length(view(curve.control)[i]);
       if (!(reach <= 5 * size))
-        fail(RIIS_INVALID_PARAMETER, cusp, "'s ", what, " curve reaches ", reach,
+        fail(RIIS_INVALID_PARAMETER, state, cusp, "'s ", what, " curve reaches ", reach,
              " from the root's middle, more than 5 times ", size,
              ", the larger of root_radius and leaflet_height: look at ", parameters, also);
     }

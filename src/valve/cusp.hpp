@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 
 #include "geometry/bezier.hpp"
 #include "valve/patches.hpp"
@@ -47,8 +46,9 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
 // Refuses curves that reach far away. Values that are sound one by one can make them: a high power with a long tangent, or a
-// bending curve near the root. `cusp` begins the message, as in "the right cusp"; `also` ends its list of parameters.
-void check_reach(const HalfCusp &half, const CuspShape &shape, const std::string &cusp, const char *also);
+// bending curve near the root. `state` and `cusp` begin the message, as in "" and "the right cusp"; `also` ends its list of
+// parameters.
+void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
 // A cusp is turned, then shifted. The id of its leaflet also numbers its patches.
 struct CuspPlace {

@@ -83,8 +83,8 @@ void check_values(const ParameterValues &values) {
   for (const Parameter parameter : {leaflet_radius_out, bending_radius_out}) check(parameter, radius, 0.05, 10);
   check(translation, radius, 0, 100);
   const CuspShape closed = closed_shape(values), open = open_shape(values);
-  check_reach(half_cusp(closed), closed, "a cusp", "");
-  check_reach(half_cusp(open), open, "in the open state, a cusp", ", open_radius_ratio, commissure_expansion");
+  check_reach(half_cusp(closed), closed, "", "a cusp", "");
+  check_reach(half_cusp(open), open, "in the open state, ", "a cusp", ", open_radius_ratio, commissure_expansion");
 }
 
 // Sews the cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it: at opening 0 along the free

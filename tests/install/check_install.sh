@@ -4,7 +4,7 @@
 # Installs a build tree to a fresh prefix and uses it as a stranger would. Examples are built outside the tree by CMake and by
 # pkg-config, and run. C and Fortran must print the same. The prefix is then moved and this repeated. The last prefix is used by
 # all examples, the ones before by two. A staged (DESTDIR) install must hold the same files and no path of its stage.
-# Environment: CMAKE, PKG_CONFIG, CC, CXX, FC
+# Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, which is the test of that name
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -181,6 +181,19 @@ check_by_pkg_config() { # prefix, all|few, more pkg-config options
   fi
 }
 
+# A plug-in with the static library inside exports its own names only. It can be closed after it marked.
+check_plugin() { # prefix
+  local pkg_config_path plugin=$work/plugin.so exported
+  pkg_config_path=$(library_dir "$1")/pkgconfig
+  # shellcheck disable=SC2046
+  quietly "$CC" "${c_flags[@]}" -fPIC -shared -Wl,-z,nodelete "$source/tests/support/plugin.c" -o "$plugin" \
+    $(flags --cflags --libs riis)
+  exported=$(nm -D --defined-only "$plugin" | awk '{ print $3 }')
+  grep -q '^plugin_mark$' <<<"$exported" || problem "$plugin does not export plugin_mark"
+  ! grep '^riis_' <<<"$exported" || problem "$plugin exports the names of riis"
+  quietly "$TEST_PLUGIN" "$plugin"
+}
+
 binaries() { # prefix
   find "$1" -type f \( -name '*.so.*' -o -path '*/bin/*' \)
 }
@@ -197,6 +210,7 @@ check_prefix() { # prefix, all|few: the examples
   check_by_pkg_config "$1" "$2"
   if [ "$kind" = static ]; then
     check_by_pkg_config "$1" few --static
+    check_plugin "$1"
   fi
   if has program; then
     quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis-mark)" --help

@@ -32,6 +32,8 @@ Object object_of(const char *function) {
     std::uintptr_t address;
     Object found;
   } sought{reinterpret_cast<std::uintptr_t>(dlsym(RTLD_DEFAULT, function)), {}};
+  // A static library exports nothing: it is in the same object as this function.
+  if (!sought.address) sought.address = reinterpret_cast<std::uintptr_t>(&object_of);
   dl_iterate_phdr(
       [](dl_phdr_info *info, std::size_t, void *data) {
         auto &wanted = *static_cast<Sought *>(data);

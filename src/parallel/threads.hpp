@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace riis {
+
+// The number of threads of a call, and who chose it.
+class Threads {
+ public:
+  // So many were asked for.
+  Threads(int n) : n_(n) {}  // NOLINT(google-explicit-constructor): a number is enough for most
+  // Nobody asked: one, one more for each `per_thread` items of the call's work, and at most `most`.
+  static Threads by_default(std::int64_t n_items, std::int64_t per_thread, int most) {
+    Threads made(static_cast<int>(std::min<std::int64_t>(1 + std::max<std::int64_t>(n_items, 0) / per_thread, most)));
+    made.is_default_ = true;
+    return made;
+  }
+
+  operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
+
+  // Returns the number for a part of the call, of so many items. By default it is one below `few` items. All other parts of
+  // a call have the same number: GCC's run-time ends the threads that a smaller team leaves out.
+  int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
+
+ private:
+  int n_;
+  bool is_default_ = false;
+};
+
+// Returns whether this process may use several threads, and notes that it does. A child of fork() may not if the library had used
+// several before the fork: the run-times of OpenMP and TBB would wait for ever for threads that the child lacks.
+bool begin_threads() noexcept;
+
+// Returns whether this process is such a child.
+bool has_lost_threads() noexcept;
+
+}  // namespace riis

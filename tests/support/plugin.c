@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * A solver's plug-in: a shared object that links riis, and that a program opens, calls and closes. */
+#include <riis/riis.h>
+
+#include <stddef.h>
+
+enum { n_side = 20, n_nodes = n_side * n_side * n_side };
+
+int64_t plugin_mark(int32_t n_threads);
+
+/* Marks a box of nodes around the aortic valve. Returns the number of marked nodes, or -1. */
+int64_t plugin_mark(int32_t n_threads) {
+  static double xyz[3 * n_nodes];
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_mesh *mesh = NULL;
+  riis_mark_result *result = NULL;
+  riis_mark_options options;
+  int64_t n_marked = -1;
+  for (int i = 0; i < n_nodes; ++i) {
+    xyz[3 * i] = -1.5 + 3.0 / n_side * (i % n_side);
+    xyz[3 * i + 1] = -1.5 + 3.0 / n_side * (i / n_side % n_side);
+    xyz[3 * i + 2] = -1.5 + 3.0 / n_side * (i / (n_side * n_side));
+  }
+  if (!riis_mark_options_init(&options, sizeof options) && !riis_valve_create("aortic", &valve) &&
+      !riis_surface_create(valve, NULL, &surface) && !riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh) &&
+      !riis_mark_result_create(&result)) {
+    options.n_threads = n_threads;
+    if (riis_mark_nodes(surface, mesh, &options, result) ||
+        riis_mark_result_marked(result, &n_marked, NULL, NULL, NULL, NULL))
+      n_marked = -1;
+  }
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return n_marked;
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * A program that does not link riis opens and closes a plug-in that does. Threads that marked for the plug-in outlive it,
+ * so their code must stay. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* usleep */
+#endif
+#include <dlfcn.h>
+#include <stdint.h>
+#include <unistd.h>
+
+#include "test_support.h"
+
+typedef int64_t mark_function(int32_t n_threads);
+
+/* Opens the plug-in, marks and closes it. Threads that wait for work come to their code within the time after it. */
+static int64_t mark_by_plugin(const char *path, int32_t n_threads) {
+  void *const plugin = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  mark_function *mark = NULL;
+  if (!plugin) fail_msg("%s", dlerror());
+  *(void **)&mark = dlsym(plugin, "plugin_mark");
+  assert_non_null(mark);
+  const int64_t n_marked = mark(n_threads);
+  assert_int_equal(dlclose(plugin), 0);
+  usleep(200000);
+  return n_marked;
+}
+
+static void a_plugin_that_marked_can_be_closed(void **state) {
+  const char *const path = *state;
+  const int64_t n_marked = mark_by_plugin(path, 1);
+  assert_true(n_marked > 100);
+  for (int i = 0; i < 3; ++i) assert_int_equal(mark_by_plugin(path, 2), n_marked);
+  assert_int_equal(mark_by_plugin(path, 3), n_marked);
+}
+
+int main(int argc, char **argv) {
+  if (argc != 2) return 2;
+  const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(a_plugin_that_marked_can_be_closed, argv[1])};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
