@@ -148,7 +148,7 @@ Case case_of_command_line(const Options &options) {
 
 ExitCode run_case(Case &all) {
   if (!all.is_series()) check_one_time(all);
-  check_outputs(all.options, all.files);
+  const OutputLocks locks = check_outputs(all.options, all.files);
   return all.is_series() ? run_series(all) : run_one_time(all);
 }
 

@@ -114,7 +114,7 @@ ExitCode run_single(const Options &options) {
     write_text("-", options.print_params ? json_template(valve) + "\n" : parameter_table(valve));
     return exit_fine;
   }
-  check_outputs(options);
+  const OutputLocks locks = check_outputs(options);
   Report report;
   if (options.time)
     source.keyframes = read_keyframes(options, report.seconds).keyframes;
