@@ -71,7 +71,8 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
   if (all.options.quiet) return;
   std::string text = "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";
   for (const MovingValve &valve : valves) {
-    text += "valve     " + valve.options().prefix + ": opening " + shown(valve.opening()) + ", " +
+    text += "valve     " + valve.options().prefix + ": " +
+            (valve.source().valve ? "opening " + shown(valve.opening()) + ", " : "") +
             counted(valve.stats().n_marked, "node") + " marked\n";
   }
   text += line_of_passage(report.leaks);

@@ -204,6 +204,8 @@ void check_no_output_is(const std::string &what, const std::vector<std::string> 
   }
 }
 
+bool can_be_replaced(const std::string &path) { return path != "-" && !is_special(path); }
+
 void write_text(const std::string &path, const std::string &text) {
   if (path == "-") {
     if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};

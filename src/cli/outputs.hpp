@@ -27,6 +27,8 @@ std::filesystem::path folder_of(const std::filesystem::path &place);
 // Throws a Refusal for an output that is one of these files, and says what they are.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options);
 
+// Whether a later text can take an earlier one's place: not on stdout, in a device or in a pipe.
+bool can_be_replaced(const std::string &path);
 // "-" is stdout. Afterwards a file is complete or as it was before.
 void write_text(const std::string &path, const std::string &text);
 
