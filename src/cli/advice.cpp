@@ -164,10 +164,10 @@ std::optional<Warning> warning_of_units(const Situation &s) {
       if (better > 0) write += " --half-thickness " + shown(better);
     }
   }
-  return Warning{Cause::units,
-                 cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " +
-                     shown(s.surface.largest_side()) + ")",
-                 ": write " + write + in_place_of(s.options)};
+  return Warning{
+      Cause::units,
+      cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " + shown(s.surface.largest_side()) + ")",
+      ": write " + write + in_place_of(s.options)};
 }
 
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {

@@ -50,7 +50,8 @@ std::string lock_of(const std::string &output) {
   constexpr std::size_t longest = 200;
   const std::filesystem::path place = std::filesystem::absolute(place_of(output));
   const std::string name = place.filename().string();
-  return (place.parent_path() / (".riis-" + name.substr(name.size() - std::min(name.size(), longest)) + ".lock")).string();
+  return (place.parent_path() / (".riis-" + name.substr(name.size() - std::min(name.size(), longest)) + ".lock"))
+      .string();
 }
 
 [[noreturn]] void refuse_lock(const std::string &output, const std::string &reason) {
@@ -58,7 +59,8 @@ std::string lock_of(const std::string &output) {
 }
 
 bool is_at(int file, const std::string &path) {
-  struct stat opened {}, there {};
+  struct stat opened {
+  }, there{};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &there) == 0 && opened.st_ino == there.st_ino &&
          opened.st_dev == there.st_dev;
 }

@@ -103,8 +103,8 @@ void check_folder_of_steps(const std::string &option, const std::string &folder,
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const auto input = inputs.find(identity_of(at->path().string()));
     if (input == inputs.end()) continue;
-    throw Refusal{exit_wrong_usage, option + ": the folder of its files, " + folder + ", holds the file of " +
-                                        input->second};
+    throw Refusal{exit_wrong_usage,
+                  option + ": the folder of its files, " + folder + ", holds the file of " + input->second};
   }
 }
 
@@ -117,8 +117,8 @@ void check_distinct(const Options &options, const std::vector<std::string> &more
     const auto input = inputs.find(identity);
     const auto [other, is_new] = outputs.emplace(identity, output.option);
     if (input == inputs.end() && is_new) continue;
-    throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is also the file of " +
-                                        (is_new ? input : other)->second};
+    throw Refusal{exit_wrong_usage,
+                  output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second};
   }
   if (options.series.times.empty()) return;
   for (const NamedFile &list : {NamedFile{"--output", options.output}, {"--surface-output", options.surface_output}})

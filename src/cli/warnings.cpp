@@ -116,7 +116,8 @@ void warn(const std::string &text) {
 }
 
 void warn(std::vector<Warning> warnings) {
-  std::stable_sort(warnings.begin(), warnings.end(), [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
+  std::stable_sort(warnings.begin(), warnings.end(),
+                   [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
   for (const Warning &warning : warnings) {
     const bool is_first = warning.cause <= first_cause;
     if (is_first) first_cause = warning.cause;

@@ -209,7 +209,8 @@ static void test_places(void **state) {
     char mesh[1024], surface[1024];
     const double o = meshes[i].origin, e = meshes[i].edge, middle[3] = {o + 0.2 * e, o + 0.2 * e, o - 0.1 * e};
     int n = sprintf(mesh, "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n");
-    const double nodes[12] = {.2, .2, -.6, .2, .2, .4, 3, .2, -.6, .2, 3, -.6}, corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const double nodes[12] = {.2, .2, -.6, .2, .2, .4, 3, .2, -.6, .2, 3, -.6},
+                 corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     for (int k = 0; k < 12; ++k) n += sprintf(mesh + n, "%.17g\n", o + e * nodes[k]);
     sprintf(mesh + n, "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
     n = sprintf(surface, "solid x\nfacet normal 0 0 1\nouter loop\n");
@@ -246,12 +247,12 @@ static void expect_warned(int exit_code) {
 }
 
 /* Runs the program with a warning: 0 is the status without --strict, 4 with it. */
-#define EXPECT_STRICT(...)                   \
-  do {                                       \
-    run_program(__VA_ARGS__, NULL);          \
-    expect_warned(0);                        \
+#define EXPECT_STRICT(...)                      \
+  do {                                          \
+    run_program(__VA_ARGS__, NULL);             \
+    expect_warned(0);                           \
     run_program("--strict", __VA_ARGS__, NULL); \
-    expect_warned(4);                        \
+    expect_warned(4);                           \
   } while (0)
 
 /* Warnings of every kind, with --quiet and without. The outputs are there all the same. */
@@ -265,8 +266,7 @@ static void test_strict(void **state) {
   snprintf(fine, sizeof fine, "%s", scratch_path("fine.vtu"));
   snprintf(coarse, sizeof coarse, "%s", scratch_path("coarse.vtu"));
   scratch_write_text("beat.csv", "0,0\n0.1,1\n0.2,0.5\n");
-  scratch_write_text("one.json",
-                     "{\"mesh\": \"coarse.vtu\", \"valves\": [{\"valve\": \"mitral\", \"opening\": 0}]}");
+  scratch_write_text("one.json", "{\"mesh\": \"coarse.vtu\", \"valves\": [{\"valve\": \"mitral\", \"opening\": 0}]}");
 #define MITRAL "--valve", "mitral"
 #define CLOSED MITRAL, "--opening", "0"
   EXPECT_STRICT(fine, CLOSED, "--half-thickness", "1.9", "--stats", scratch_path("s.json"));
@@ -281,8 +281,8 @@ static void test_strict(void **state) {
   EXPECT_STRICT("--case", scratch_path("one.json"), "--output", scratch_path("case.vtu"));
   for (int strict = 0; strict < 2; ++strict) {
     run_program("--export-uris", scratch_path(strict ? "strict" : "lenient"), MITRAL, "--resistance", "1e4",
-                "--time-step", "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1",
-                "--closing-span", "0.1:0.2", strict ? "--strict" : NULL, NULL);
+                "--time-step", "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1", "--closing-span",
+                "0.1:0.2", strict ? "--strict" : NULL, NULL);
     expect_warned(strict ? 4 : 0);
     assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
   }
@@ -297,10 +297,14 @@ static void test_strict(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_coarse_meshes_leak), cmocka_unit_test(test_fine_meshes_do_not),
-      cmocka_unit_test(test_surface_from_file),  cmocka_unit_test(test_searches_and_distances),
-      cmocka_unit_test(test_one_edge),           cmocka_unit_test(test_other_cells),
-      cmocka_unit_test(test_places),             cmocka_unit_test(test_strict),
+      cmocka_unit_test(test_coarse_meshes_leak),
+      cmocka_unit_test(test_fine_meshes_do_not),
+      cmocka_unit_test(test_surface_from_file),
+      cmocka_unit_test(test_searches_and_distances),
+      cmocka_unit_test(test_one_edge),
+      cmocka_unit_test(test_other_cells),
+      cmocka_unit_test(test_places),
+      cmocka_unit_test(test_strict),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -190,10 +190,8 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_without_display),
-      cmocka_unit_test(test_pictures),
-      cmocka_unit_test(test_titles),
-      cmocka_unit_test(test_unit),
+      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures),
+      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),
       cmocka_unit_test(test_case_titles),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);

@@ -224,10 +224,9 @@ static void interrupt_series(int signal_number) {
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
-  const pid_t process =
-      start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
-                    scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output", scratch_path("dead.pvd"),
-                    "--quiet", NULL);
+  const pid_t process = start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+                                      scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
+                                      scratch_path("dead.pvd"), "--quiet", NULL);
   for (int n_tries = 0; !scratch_exists("dead/dead_0011.vtu") && n_tries < 100000; ++n_tries) usleep(500);
   const int is_stopped = ptrace(PTRACE_SEIZE, process, NULL, NULL) == 0;
   if (is_stopped) {

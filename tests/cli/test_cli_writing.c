@@ -108,7 +108,8 @@ static void test_motion_in_place(void **state) {
   assert_int_equal(symlink("beat", scratch_path("alias")), 0);
   RUN_REFUSED(2, "--output: the folder of its files, ", mesh, MOTION, "--times", "0,1", "--output",
               scratch_path("alias.pvd"));
-  RUN_REFUSED(2, "is a frame of --surface", MOTION, "--time", "0.5", "--surface-output", scratch_path("beat/other.vtp"));
+  RUN_REFUSED(2, "is a frame of --surface", MOTION, "--time", "0.5", "--surface-output",
+              scratch_path("beat/other.vtp"));
   RUN_REFUSED(2, "is also the file of --surface", mesh, MOTION, "--times", "0,1", "--series-table",
               scratch_path("beat.pvd"));
   RUN_REFUSED(2, "is a frame of --surface", mesh, MOTION, "--times", "0,1", "--series-table",
@@ -279,8 +280,8 @@ static void test_interruption(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_same_file_twice), cmocka_unit_test(test_in_place),     cmocka_unit_test(test_stats_places),
-      cmocka_unit_test(test_motion_in_place), cmocka_unit_test(test_second_run),
-      cmocka_unit_test(test_closed_folder),   cmocka_unit_test(test_limited_size), cmocka_unit_test(test_interruption),
+      cmocka_unit_test(test_motion_in_place), cmocka_unit_test(test_second_run),   cmocka_unit_test(test_closed_folder),
+      cmocka_unit_test(test_limited_size),    cmocka_unit_test(test_interruption),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -453,12 +453,18 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_texts),           cmocka_unit_test(test_views),
-      cmocka_unit_test(test_one_panel),       cmocka_unit_test(test_nothing_marked),
-      cmocka_unit_test(test_full_disk),       cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_one_scene),       cmocka_unit_test(test_leaks),
-      cmocka_unit_test(test_partly_marked),   cmocka_unit_test(test_long_mesh),
-      cmocka_unit_test(test_scale_and_bands), cmocka_unit_test(test_edge_on),
+      cmocka_unit_test(test_texts),
+      cmocka_unit_test(test_views),
+      cmocka_unit_test(test_one_panel),
+      cmocka_unit_test(test_nothing_marked),
+      cmocka_unit_test(test_full_disk),
+      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_one_scene),
+      cmocka_unit_test(test_leaks),
+      cmocka_unit_test(test_partly_marked),
+      cmocka_unit_test(test_long_mesh),
+      cmocka_unit_test(test_scale_and_bands),
+      cmocka_unit_test(test_edge_on),
       cmocka_unit_test(test_unit),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
