@@ -240,8 +240,8 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface, each leaflet in a colour. Leaflets seen edge on are lines. Six colours are used in turn, and the key
- *   below names as many leaflets as fit, and dots stand for the others.
+ * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn, and the key
+ *   below names as many leaflets as fit, and dots stand for the others. Leaflets seen edge on are lines.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
  *   colour of the leaflet nearest to one of them. Only the far side of other cells with a marked node is
  *   drawn, pale.

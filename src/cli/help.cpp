@@ -62,8 +62,9 @@ Series in time
   --resistance it has riis_resistance, K, and riis_momentum, K times that velocity. Velocities are means since the time before;
   the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
   motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
-  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
-  the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
+  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, a
+  line says how many are written, and the .pvd lists them. The list of a process that is killed is at most a second behind its
+  files. --series-table has a line for each time: opening, marked nodes, the largest speed of
   the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
   and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open, and for --surface at the
   first time.
@@ -153,11 +154,14 @@ Distances
 While it runs
   On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
   --quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
+  An empty file .riis-NAME.lock beside each output keeps other runs from writing it meanwhile. A run that is killed leaves it
+  behind, and the next run takes it over.
 
 Exit status; one line on stderr says what was wrong:
   0  fine
   1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
-     value (in a file or by --set), no display for a picture, no ffmpeg for a movie, no memory
+     value (in a file or by --set), an output that another run is writing, no display for a picture, no ffmpeg for a movie,
+     no memory
   2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
      that would replace an input, another output, or arrays of the mesh
   3  no node is marked at any time, without --allow-none; the outputs are written all the same
