@@ -64,10 +64,9 @@ Series in time
   motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
   A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, a
   line says how many are written, and the .pvd lists them. The list of a process that is killed is at most a second behind its
-  files. --series-table has a line for each time: opening, marked nodes, the largest speed of
-  the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
-  and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open, and for --surface at the
-  first time.
+  files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
+  surface and marks. --picture draws the first time. --movie draws all times by one camera, and needs the program ffmpeg. The
+  check for leaks runs at the time when the valve is least open, and for --surface at the first time.
 
 Cases
   --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:

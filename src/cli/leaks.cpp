@@ -82,7 +82,7 @@ void warn_of_leaks(const Options &options, const LeakReport &report, const std::
       " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
   std::string advice = "; ";
   if (report.closing_half_thickness > 0)
-    advice += "--half-thickness " + shown(report.closing_half_thickness) + " closes " + (is_one ? "it; " : "them; ");
+    advice += "--half-thickness " + shortest(report.closing_half_thickness) + " closes " + (is_one ? "it; " : "them; ");
   warn({{Cause::leaks, text,
          advice + "edges of at most two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"}});
 }

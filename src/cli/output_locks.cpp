@@ -59,8 +59,8 @@ std::string lock_of(const std::string &output) {
 }
 
 bool is_at(int file, const std::string &path) {
-  struct stat opened {
-  }, there{};
+  struct stat opened {};
+  struct stat there {};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &there) == 0 && opened.st_ino == there.st_ino &&
          opened.st_dev == there.st_dev;
 }
@@ -68,7 +68,9 @@ bool is_at(int file, const std::string &path) {
 // Returns the lock's file, or -1 on a file system without locks.
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
-    const int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // Another user's run was killed.
+    if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
       refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {

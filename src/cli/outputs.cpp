@@ -82,7 +82,8 @@ std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
   std::error_code error;
-  return fs::weakly_canonical(fs::absolute(path), error).string();
+  const fs::path place = fs::weakly_canonical(fs::absolute(path), error);
+  return error ? path : place.string();
 }
 
 // The option that named a file, by the file's identity.
@@ -106,6 +107,8 @@ void check_folder_of_steps(const std::string &option, const std::string &folder,
     throw Refusal{exit_wrong_usage,
                   option + ": the folder of its files, " + folder + ", holds the file of " + input->second};
   }
+  if (error == std::errc::permission_denied)
+    throw Refusal{exit_bad_data, folder + ": the folder cannot be read: " + error.message()};
 }
 
 void check_distinct(const Options &options, const std::vector<std::string> &more_inputs) {
