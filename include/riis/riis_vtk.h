@@ -233,13 +233,15 @@ typedef struct riis_vtk_picture_options {
   const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges to draw red, in front of all
                                    else. NULL, the default: no word of leaks. Not NULL, but none: the picture
                                    says that no edge leaks */
+  const char *unit;       /* stands behind the number at the scale bar, such as "mm". NULL, the default, and "":
+                             "mesh units", or "units" without a mesh */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
  * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn, and the key
- *   below names as many leaflets as fit, and dots stand for the others.
+ *   below names as many leaflets as fit, and dots stand for the others. Leaflets seen edge on are lines.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
  *   colour of the leaflet nearest to one of them. Only the far side of other cells with a marked node is
  *   drawn, pale.

@@ -71,7 +71,8 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
   if (all.options.quiet) return;
   std::string text = "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";
   for (const MovingValve &valve : valves) {
-    text += "valve     " + valve.options().prefix + ": opening " + shown(valve.opening()) + ", " +
+    text += "valve     " + valve.options().prefix + ": " +
+            (valve.source().valve ? "opening " + shown(valve.opening()) + ", " : "") +
             counted(valve.stats().n_marked, "node") + " marked\n";
   }
   text += line_of_passage(report.leaks);
@@ -84,6 +85,7 @@ int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const rii
   int64_t n_nodes = 0, most = 0;
   check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, nullptr));
   ResistanceSum resistance(n_nodes, ResistanceSum::Momentum::no);
+  std::vector<Warning> warnings;
   for (MovingValve &valve : valves) {
     valve.mark(mesh, 0);
     set_marks(valve.options(), valve.result(), 0, file);
@@ -91,9 +93,12 @@ int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const rii
     most = std::max(most, valve.stats().n_marked);
     riis_surface_info info;
     check(riis_surface_get_info(valve.surface(), &info, sizeof info));
-    const std::string warning = warning_of(situation_of(valve.options(), info, valve.stats(), file));
-    if (!warning.empty()) warn(valve.options().prefix + ": " + warning);
+    if (auto warning = warning_of(situation_of(valve.options(), info, valve.stats(), file))) {
+      warning->text.insert(0, valve.options().prefix + ": ");
+      warnings.push_back(*warning);
+    }
   }
+  warn(warnings);
   resistance.set_arrays(all.options.prefix, file);
   return most;
 }
@@ -144,7 +149,7 @@ Case case_of_command_line(const Options &options) {
 
 ExitCode run_case(Case &all) {
   if (!all.is_series()) check_one_time(all);
-  check_outputs(all.options, all.files);
+  const OutputLocks locks = check_outputs(all.options, all.files);
   return all.is_series() ? run_series(all) : run_one_time(all);
 }
 

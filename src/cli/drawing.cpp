@@ -82,6 +82,7 @@ void draw_pictures(const Options &options, const std::string &title, const std::
   how.title = title.c_str();
   how.leaflet_names = names.data();
   how.n_leaflet_names = view(names).size();
+  how.unit = options.unit ? name_of(*options.unit) : nullptr;
   if (result) show_leaks(result, report.leaks, how);
   check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());

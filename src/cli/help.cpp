@@ -37,6 +37,10 @@ Warnings
   A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
   are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
   wrong marks look like right ones. --allow-none is for valves that are near no node at times.
+  One thing may be the cause of all others, in this order: units, half thickness, places, leaks. Only the first cause comes with
+  advice; run again once it is mended. A unit that you name by --unit or --scale counts as known, if the sizes allow it.
+  With --strict the status is 4 if there was any warning, whatever its kind. Places have as many digits as an edge of the mesh
+  there needs, and the unit of --unit.
 
 Parameters
   A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
@@ -58,11 +62,11 @@ Series in time
   --resistance it has riis_resistance, K, and riis_momentum, K times that velocity. Velocities are means since the time before;
   the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
   motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
-  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, and
-  the .pvd lists the files that are there. --series-table has a line for each time: opening, marked nodes, the largest speed of
-  the surface, and the seconds for surface and marks. --picture draws the first time. --movie draws all times by one camera,
-  and needs the program ffmpeg. The check for leaks runs at the time when the valve is least open, and for --surface at the
-  first time.
+  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, a
+  line says how many are written, and the .pvd lists them. The list of a process that is killed is at most a second behind its
+  files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
+  surface and marks. --picture draws the first time. --movie draws all times by one camera, and needs the program ffmpeg. The
+  check for leaks runs at the time when the valve is least open, and for --surface at the first time.
 
 Cases
   --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
@@ -149,14 +153,18 @@ Distances
 While it runs
   On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
   --quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
+  An empty file .riis-NAME.lock beside each output keeps other runs from writing it meanwhile. A run that is killed leaves it
+  behind, and the next run takes it over.
 
 Exit status; one line on stderr says what was wrong:
   0  fine
   1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
-     value (in a file or by --set), no display for a picture, no ffmpeg for a movie, no memory
+     value (in a file or by --set), an output that another run is writing, no display for a picture, no ffmpeg for a movie,
+     no memory
   2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
      that would replace an input, another output, or arrays of the mesh
-  3  no node is marked at any time, without --allow-none; the outputs are written all the same)";
+  3  no node is marked at any time, without --allow-none; the outputs are written all the same
+  4  with --strict, a warning that none of the above covers; the outputs are written all the same)";
 
 std::string short_help() {
   return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.

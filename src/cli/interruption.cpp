@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/interruption.hpp"
 
+#include <atomic>
+
 namespace riis::cli {
 namespace {
 
 volatile std::sig_atomic_t waiting_signal = 0;
-int n_alive = 0;
+std::atomic<int> n_alive{0};
 
 void keep_for_later(int signal) { waiting_signal = signal; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/outputs.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +9,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -74,53 +77,55 @@ std::vector<NamedFile> outputs_of(const Options &options) {
   return outputs;
 }
 
-bool is_same_file(const std::string &a, const std::string &b) {
-  if (a.empty() || b.empty()) return false;
+// Tells files apart: by what they are if they exist, whatever their names and links, and otherwise by their places.
+std::string identity_of(const std::string &path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
   std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  // Files that do not exist yet can be compared only by name.
-  const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
-  return !error && place == fs::weakly_canonical(fs::absolute(b), error) && !error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(path), error);
+  return error ? path : place.string();
 }
 
-// An output replaces an input only if it was made of it and the user names the file twice.
-bool may_replace(const NamedFile &output, const NamedFile &input) {
-  return (output.option == "--output" && input.option == "MESH") ||
-         (output.option == "--surface-output" && input.option == "--surface");
+// The option that named a file, by the file's identity.
+using KnownFiles = std::map<std::string, std::string>;
+
+KnownFiles known_inputs(const Options &options, const std::vector<std::string> &more_inputs) {
+  KnownFiles known;
+  for (const NamedFile &input : inputs_of(options))
+    if (!input.path.empty()) known.emplace(identity_of(input.path), input.option);
+  const std::string option = options.series.case_file.empty() ? "--surface" : "--case";
+  for (const std::string &path : more_inputs) known.emplace(identity_of(path), option);
+  return known;
 }
 
-// Returns the folders of a series' files.
-std::vector<NamedFile> folders_of(const Options &options) {
-  if (options.series.times.empty()) return {};
-  std::vector<NamedFile> folders;
-  for (const NamedFile &list : {NamedFile{"--output", options.output}, {"--surface-output", options.surface_output}})
-    if (!list.path.empty()) folders.push_back({list.option, SeriesFiles(list.path, "", 1).folder()});
-  return folders;
-}
-
-// A step's file must not replace an input, whatever its number.
-void check_folders(const Options &options, const std::vector<NamedFile> &inputs) {
-  for (const NamedFile &folder : folders_of(options)) {
-    for (const NamedFile &input : inputs) {
-      if (input.path.empty() || !is_same_file(folder.path, folder_of(input.path).string())) continue;
-      throw Refusal{exit_wrong_usage, folder.option + ": the folder of its files, " + folder.path +
-                                          ", holds the file of " + input.option};
-    }
+// A step's file must not replace an input. An input may stand in the folder under its own name, or be linked to from there.
+void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const auto input = inputs.find(identity_of(at->path().string()));
+    if (input == inputs.end()) continue;
+    throw Refusal{exit_wrong_usage,
+                  option + ": the folder of its files, " + folder + ", holds the file of " + input->second};
   }
+  if (error == std::errc::permission_denied)
+    throw Refusal{exit_bad_data, folder + ": the folder cannot be read: " + error.message()};
 }
 
 void check_distinct(const Options &options, const std::vector<std::string> &more_inputs) {
-  std::vector<NamedFile> others = inputs_of(options);
-  for (const std::string &path : more_inputs) others.push_back({"--case", path});
-  check_folders(options, others);
+  const KnownFiles inputs = known_inputs(options, more_inputs);
+  KnownFiles outputs;
   for (const NamedFile &output : outputs_of(options)) {
-    for (const NamedFile &other : others) {
-      if (is_same_file(output.path, other.path) && !may_replace(output, other)) {
-        throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is also the file of " + other.option};
-      }
-    }
-    others.push_back(output);
+    if (output.path.empty()) continue;
+    const std::string identity = identity_of(output.path);
+    const auto input = inputs.find(identity);
+    const auto [other, is_new] = outputs.emplace(identity, output.option);
+    if (input == inputs.end() && is_new) continue;
+    throw Refusal{exit_wrong_usage,
+                  output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second};
   }
+  if (options.series.times.empty()) return;
+  for (const NamedFile &list : {NamedFile{"--output", options.output}, {"--surface-output", options.surface_output}})
+    if (!list.path.empty()) check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
 }
 
 // The component refuses the same, but only when it draws, after all other work.
@@ -168,7 +173,7 @@ fs::path place_of(const std::string &path) {
 
 fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
 
-void check_outputs(const Options &options, const std::vector<std::string> &more_inputs) {
+OutputLocks check_outputs(const Options &options, const std::vector<std::string> &more_inputs) {
   check_distinct(options, more_inputs);
   const auto check_file = [](const std::string &path, const char *ending, const char *option) {
     if (path.empty()) return;
@@ -187,16 +192,22 @@ void check_outputs(const Options &options, const std::vector<std::string> &more_
   check_movie(options.series.movie);
   if (!options.series.movie.empty()) check_place(options.series.movie);
   if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
+  std::vector<std::string> written;
+  for (const NamedFile &output : outputs_of(options))
+    if (!output.path.empty() && !is_special(output.path)) written.push_back(output.path);
+  return OutputLocks(written);
 }
 
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options) {
+  std::set<std::string> identities;
+  for (const std::string &file : files) identities.insert(identity_of(file));
   for (const NamedFile &output : outputs_of(options)) {
-    for (const std::string &file : files) {
-      if (is_same_file(output.path, file))
-        throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is " + what};
-    }
+    if (!output.path.empty() && identities.count(identity_of(output.path)) != 0)
+      throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is " + what};
   }
 }
+
+bool can_be_replaced(const std::string &path) { return path != "-" && !is_special(path); }
 
 void write_text(const std::string &path, const std::string &text) {
   if (path == "-") {

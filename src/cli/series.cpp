@@ -19,6 +19,7 @@
 #include "cli/passage_check.hpp"
 #include "cli/progress.hpp"
 #include "cli/series_files.hpp"
+#include "cli/series_lists.hpp"
 #include "cli/series_pictures.hpp"
 #include "cli/series_table.hpp"
 #include "cli/sweep.hpp"
@@ -91,21 +92,23 @@ class Writing {
   void run(Report &report) {
     if (meshes_.is_wanted()) meshes_.make_folder();
     if (surfaces_.is_wanted()) surfaces_.make_folder();
+    SeriesLists lists([this](bool is_last) { write_lists(is_last); });
     StepProgress progress("writing", times().size(), all_.options.quiet);
     try {
-      for (std::size_t step = 0; step < times().size() && !UnbrokenWrite::has_signal(); ++step) {
-        progress.begin(step);
-        do_step(step, progress.seconds());
-        if (pictures_) pictures_->draw(step, valves_, report);
+      for (; n_done_ < times().size() && !UnbrokenWrite::has_signal(); ++n_done_) {
+        progress.begin(n_done_);
+        do_step(n_done_, lists);
+        if (pictures_) pictures_->draw(n_done_, valves_, report);
       }
     } catch (...) {
-      write_lists();
+      lists.end();
       throw;
     }
-    write_lists();
+    lists.end();
     if (pictures_ && !UnbrokenWrite::has_signal()) pictures_->encode(report);
   }
 
+  std::size_t n_done() const { return n_done_; }  // steps
   const SeriesTable &table() const { return table_; }
   const SeriesFiles &meshes() const { return meshes_; }
   const SeriesFiles &surfaces() const { return surfaces_; }
@@ -129,30 +132,28 @@ class Writing {
     resistance.set_arrays(all_.options.prefix, part_);
   }
 
-  void do_step(std::size_t step, double seconds_so_far) {
+  void do_step(std::size_t step, SeriesLists &lists) {
     const Stage marking("", true);
     set_arrays(step);
-    table_.add(times()[step], valves_, marking.seconds());
+    const double seconds = marking.seconds();
     if (meshes_.is_wanted()) {
       const std::string path = meshes_.path_of(step, "");
       check(riis_vtk_mesh_write(part_, path.c_str()));
-      meshes_.add(times()[step], 0, path);
+      lists.add([&] { meshes_.add(times()[step], 0, path); });
     }
     for (std::size_t valve = 0; surfaces_.is_wanted() && valve < valves_.size(); ++valve) {
       const std::string path = surfaces_.path_of(step, all_.part_of(valve));
       check(riis_vtk_surface_write(valves_[valve].surface(), path.c_str()));
-      surfaces_.add(times()[step], valve, path);
+      lists.add([&] { surfaces_.add(times()[step], valve, path); });
     }
-    // A process that is killed leaves lists that are a second old. Long lists would take longer to write than the files.
-    if (step > 0 && seconds_so_far - seconds_listed_ < 1) return;
-    seconds_listed_ = seconds_so_far;
-    write_lists();
+    lists.add([&] { table_.add(times()[step], valves_, seconds); });
   }
 
-  void write_lists() const {
-    if (meshes_.is_wanted()) meshes_.write_list();
-    if (surfaces_.is_wanted()) surfaces_.write_list();
-    if (!all_.options.series.table.empty()) write_text(all_.options.series.table, table_.text());
+  void write_lists(bool is_last) const {
+    for (const SeriesFiles *files : {&meshes_, &surfaces_})
+      if (files->n_written() > 0) files->write_list();
+    const std::string &table = all_.options.series.table;
+    if (!table.empty() && (is_last || can_be_replaced(table))) write_text(table, table_.text());
   }
 
   Case &all_;
@@ -162,7 +163,7 @@ class Writing {
   Mesh nodes_;
   SeriesFiles meshes_, surfaces_;
   SeriesTable table_;
-  double seconds_listed_ = 0;
+  std::size_t n_done_ = 0;
 };
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<int64_t> &node_ids) {
@@ -196,12 +197,16 @@ void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, ri
 // Warns of marks that look wrong, by the times at which each valve marks most nodes.
 void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *file) {
   riis_mark_stats marks{};
+  std::vector<Warning> warnings;
   for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
     marks.n_marked = sweep.most_marked[valve];
-    const std::string text = warning_of(situation_of(all.valves[valve].options, sweep.surface[valve], marks, file));
+    auto warning = warning_of(situation_of(all.valves[valve].options, sweep.surface[valve], marks, file));
+    if (!warning) continue;
     const std::string part = all.part_of(valve);
-    if (!text.empty()) warn((part.empty() ? "" : part + ": ") + text);
+    warning->text.insert(0, part.empty() ? "" : part + ": ");
+    warnings.push_back(*warning);
   }
+  warn(warnings);
 }
 
 // Prints the summary that a user reads at the end.
@@ -237,9 +242,9 @@ ExitCode run_series(Case &all) {
   {
     const Mesh mesh = borrow_nodes(file.get(), options.mesh);
     sweep = sweep_of(valves, options.series.times, mesh.get(), n_nodes, options.quiet);
+    warn_of_sweep(all, sweep, file.get());
     look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
-  warn_of_sweep(all, sweep, file.get());
   // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.
   const UnbrokenWrite unbroken;
   const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
@@ -256,7 +261,10 @@ ExitCode run_series(Case &all) {
   writing.announce(n_nodes);
   const int64_t n_written = n_nodes_of(written);
   writing.run(report);
-  if (!UnbrokenWrite::has_signal()) print_summary(all, writing, n_nodes, n_written, report);
+  if (UnbrokenWrite::has_signal())
+    std::fprintf(stderr, "riis-mark: interrupted: %zu of %zu written\n", writing.n_done(), options.series.times.size());
+  else
+    print_summary(all, writing, n_nodes, n_written, report);
   return writing.table().most_marked() == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
 

@@ -103,7 +103,8 @@ std::string SeriesPictures::title(std::size_t step, const std::vector<MovingValv
   if (valves.size() > 1) {
     std::string text = time.empty() ? "" : "Time " + time + ": ";
     for (std::size_t valve = 0; valve < valves.size(); ++valve)
-      text += (valve > 0 ? ", " : "") + all_.part_of(valve) + " " + fixed(valves[valve].opening(), 2);
+      text += (valve > 0 ? ", " : "") + all_.part_of(valve) +
+              (valves[valve].source().valve ? " " + fixed(valves[valve].opening(), 2) : "");
     return text;
   }
   std::string text = title_of_valve(valves[0].options());
@@ -118,6 +119,7 @@ riis_vtk_film *SeriesPictures::film() {
   how.view = all_.options.series.movie_view;
   how.leaflet_names = leaflet_names_.data();
   how.n_leaflet_names = view(leaflet_names_).size();
+  how.unit = all_.options.unit ? name_of(*all_.options.unit) : nullptr;
   riis_vtk_film *film = nullptr;
   check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &how, &film));
   film_.reset(film);

@@ -57,8 +57,11 @@ int64_t SeriesTable::most_marked() const {
 std::string SeriesTable::summary() const {
   std::string text;
   for (const Row &row : rows_) {
+    // A surface from a file has none.
+    const bool has_opening = row.opening.least <= row.opening.most;
     text +=
-        "valve     " + row.name + ": opening " + from_to(shown(row.opening.least), shown(row.opening.most)) + ", " +
+        "valve     " + row.name + ": " +
+        (has_opening ? "opening " + from_to(shown(row.opening.least), shown(row.opening.most)) + ", " : "") +
         from_to(grouped(static_cast<int64_t>(row.n_marked.least)), grouped(static_cast<int64_t>(row.n_marked.most))) +
         " nodes marked, largest speed " + shown(row.speed.most) + "\n";
   }

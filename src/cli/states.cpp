@@ -199,7 +199,7 @@ States measure_states(const Options &options) {
 }
 
 void run_states(const Options &options) {
-  check_outputs(options);
+  const OutputLocks locks = check_outputs(options);
   const States states = measure_states(options);
   write_text(options.states, csv_of(states));
   if (options.quiet || options.states == "-") return;

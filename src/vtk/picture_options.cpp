@@ -54,7 +54,7 @@ void check_picture_options_size(std::int64_t size) {
 
 const riis_vtk_picture_options &default_picture_options() {
   static const riis_vtk_picture_options defaults = {
-      size_here, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, nullptr, nullptr, 0, 0, nullptr};
+      size_here, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, nullptr, nullptr, 0, 0, nullptr, nullptr};
   return defaults;
 }
 

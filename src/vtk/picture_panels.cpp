@@ -9,6 +9,7 @@
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCleanPolyData.h>
 #include <vtkDataArray.h>
 #include <vtkFeatureEdges.h>
 #include <vtkIdList.h>
@@ -149,7 +150,7 @@ Colour colour_of_leaflet(vtkIdType leaflet) {
   return {bytes[0] / 255.0, bytes[1] / 255.0, bytes[2] / 255.0};
 }
 
-SurfacePanel::SurfacePanel() : renderer_(empty_panel()) {}
+SurfacePanel::SurfacePanel(double pixels) : renderer_(empty_panel()), pixels_(pixels) {}
 
 void SurfacePanel::show(vtkPolyData *surface) {
   leaflets_.clear();
@@ -162,6 +163,26 @@ void SurfacePanel::show(vtkPolyData *surface) {
   colour_faces(surface, leaflets, 0);
   renderer_->RemoveAllViewProps();
   renderer_->AddActor(coloured_actor(smoothed(surface)));
+  // Patches of a leaflet have vertices of their own on the sides that they share.
+  vtkNew<vtkCleanPolyData> joined;
+  joined->SetInputData(surface);
+  joined->SetTolerance(0);
+  joined->ConvertPolysToLinesOff();
+  vtkNew<vtkFeatureEdges> rims;
+  rims->SetInputConnection(joined->GetOutputPort());
+  rims->FeatureEdgesOff();
+  rims->ManifoldEdgesOff();
+  rims->ColoringOff();
+  rims->Update();
+  rims_ = coloured_actor_of(rims->GetOutput());
+  rims_->GetProperty()->LightingOff();
+  rims_->GetProperty()->SetLineWidth(static_cast<float>(2 * pixels_));
+  renderer_->AddActor(rims_);
+}
+
+void SurfacePanel::look(const View &view, const Sight &sight) {
+  constexpr double behind = 0.01;  // a share of the panel's half height
+  move_away(rims_, view, behind * sight.shown[1].half());
 }
 
 MarksPanel::MarksPanel(vtkUnstructuredGrid *grid, double pixels) : renderer_(empty_panel()), pixels_(pixels) {

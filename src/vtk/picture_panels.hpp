@@ -26,17 +26,22 @@ Colour colour_of_leaflet(vtkIdType leaflet);
 constexpr Colour leak_colour = {0.86, 0.0, 0.0};
 constexpr Colour grey = {0.2, 0.2, 0.2};
 
-// The surface, each leaflet in its colour.
+// The surface, each leaflet in its colour. The rims are lines, because faces that the view meets edge on have no pixels.
 class SurfacePanel {
  public:
-  SurfacePanel();
+  // pixels is the width of a line.
+  explicit SurfacePanel(double pixels);
   // Replaces the surface shown before.
   void show(vtkPolyData *surface);
+  // Turns to a view: the lines are a little behind the faces, which hide them wherever they can.
+  void look(const View &view, const Sight &sight);
   vtkRenderer *renderer() const { return renderer_; }
   const std::set<vtkIdType> &leaflets() const { return leaflets_; }
 
  private:
   vtkSmartPointer<vtkRenderer> renderer_;
+  double pixels_;
+  vtkSmartPointer<vtkActor> rims_;
   std::set<vtkIdType> leaflets_;
 };
 

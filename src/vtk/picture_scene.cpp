@@ -57,7 +57,10 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
 }
 
 Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
-    : layout_(options.width, options.height, grid ? 2 : 1), grid_(grid) {
+    : layout_(options.width, options.height, grid ? 2 : 1),
+      unit_(options.unit ? drawable(options.unit) : ""),
+      grid_(grid),
+      surface_(layout_.line_width()) {
   for (std::int64_t i = 0; i < options.n_leaflet_names; ++i)
     leaflet_names_.push_back(drawable(options.leaflet_names[i]));
   if (grid_) marks_.emplace(grid_, layout_.line_width());
@@ -85,13 +88,15 @@ vtkRenderWindow *Scene::render(std::int32_t of, const std::optional<Bounds> &see
   const Extents mesh = grid_ ? view.extents_of(grid_) : surface;
   const Sight sight = sight_of(surface, grid_ ? &mesh : nullptr, layout_.panel_width() / layout_.panel_height());
   aim_camera(camera_, view, sight);
+  surface_.look(view, sight);
   std::vector<PanelTexts> texts = texts_;
   if (marks_) {
     marks_->look(view, sight);
     if (sight.is_cut()) texts[1].key.push_back({"dashed: the mesh goes on", grey});
   }
   if (behind_) window_->RemoveRenderer(behind_);
-  behind_ = texts_of_picture(layout_, texts, view, sight, grid_ ? "mesh unit" : "unit");
+  behind_ = texts_of_picture(layout_, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_,
+                             unit_.empty());
   window_->AddRenderer(behind_);
   surface_.renderer()->ResetCameraClippingRange();
   if (marks_) marks_->renderer()->ResetCameraClippingRange();

@@ -51,6 +51,7 @@ class Scene {
   void add_panel(vtkRenderer *renderer, int panel);
 
   Layout layout_;
+  std::string unit_;  // "" if the caller named none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;

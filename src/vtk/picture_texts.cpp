@@ -85,7 +85,7 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
 
 // Adds a bar of a round length, with the length and its unit beside it.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
-                   const std::string &unit) {
+                   const std::string &unit, bool has_plural) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
   const double length = round_length(0.3 * layout.panel_width() / pixels_per_length);
   const double end = x + length * pixels_per_length, middle = y + 0.35 * layout.letter(), tick = 0.3 * layout.letter();
@@ -96,7 +96,7 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
             layout.line_width());
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << length << " " << unit << (length == 1 ? "" : "s");
+  text << length << " " << unit << (length == 1 || !has_plural ? "" : "s");
   const double after = end + 0.6 * layout.letter();
   const double right = layout.panel_left(layout.n_panels() - 1) + layout.panel_width();
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
@@ -176,7 +176,8 @@ std::array<double, 4> Layout::viewport(int panel) const {
 double Layout::line_width() const { return std::max(1.0, height_ / 500.0); }
 
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
-                                              const View &view, const Sight &sight, const std::string &unit) {
+                                              const View &view, const Sight &sight, const std::string &unit,
+                                              bool has_plural) {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetBackground(1, 1, 1);
   if (!layout.has_texts()) return renderer;
@@ -189,7 +190,7 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
     add_caption(renderer, layout, panel, texts.caption);
     const double left = panel == 0 ? first_key : layout.panel_left(panel) + layout.margin();
     add_key(renderer, layout, panel, left, panel == last ? 1 : 2, texts.key);
-    if (panel == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit);
+    if (panel == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural);
   }
   return renderer;
 }

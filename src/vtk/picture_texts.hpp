@@ -48,9 +48,11 @@ struct PanelTexts {
   std::vector<KeyEntry> key;         // as many as fit
 };
 
-// Draws all texts of a picture behind its panels. unit follows the number at the scale bar.
+// Draws all texts of a picture behind its panels. unit follows the number at the scale bar, with an s unless it is 1 or the unit
+// has no plural, as symbols have none.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
-                                              const View &view, const Sight &sight, const std::string &unit);
+                                              const View &view, const Sight &sight, const std::string &unit,
+                                              bool has_plural);
 
 // Returns the part of a text that VTK can draw in one line. VTK knows letters other than ASCII only as UTF-8.
 std::string drawable(std::string text);

@@ -301,7 +301,7 @@ static void test_structs(void **state) {
   FIELD(riis_keyframe_arrays, interpolation, 48, 4);
   FIELD(riis_keyframe_arrays, reserved, 52, 4);
 
-  SIZE(riis_vtk_picture_options, 64);
+  SIZE(riis_vtk_picture_options, 72);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, view, 8, 4);
   FIELD(riis_vtk_picture_options, width, 12, 4);
@@ -312,6 +312,7 @@ static void test_structs(void **state) {
   FIELD(riis_vtk_picture_options, n_leaflet_names, 40, 8);
   FIELD(riis_vtk_picture_options, n_leaking_edges, 48, 8);
   FIELD(riis_vtk_picture_options, leaking_edges, 56, 8);
+  FIELD(riis_vtk_picture_options, unit, 64, 8);
 }
 
 static void test_constants(void **state) {

@@ -264,8 +264,8 @@ static void test_refused_options(void **state) {
   RUN_REFUSED(2, "--half-thickness has no effect with --case", "--case", file, "--half-thickness", "1");
   RUN_REFUSED(2, "--prefix has no effect with --case", "--case", file, "--prefix", "x", "--output", "o.vtu");
   RUN_REFUSED(2, "--stats has no effect with --case", "--case", file, "--stats", "-");
-  RUN_REFUSED(2, "is also the file of --case", "--case", file, "--output", scratch_path("in.vtu"), "--replace",
-              "--surface-output", scratch_path("case.json"));
+  RUN_REFUSED(2, "is also the file of MESH", "--case", file, "--output", scratch_path("in.vtu"), "--replace");
+  RUN_REFUSED(2, "is also the file of --case", "--case", file, "--surface-output", scratch_path("case.json"));
 }
 
 static int make_heart(void **state) {

@@ -125,11 +125,11 @@ static void test_two_valves(void **state) {
   assert_true(n_marked_in(both, "mitral_marked") == n_mitral);
   assert_int_equal(shim_read_array(both, 'p', "mitral_distance", NULL, NULL, NULL, NULL), 1);
   assert_int_equal(shim_read_array(both, 'p', "mitral_leaflet", NULL, NULL, NULL, NULL), 1);
-  RUN_REFUSED(2, "both.vtu already has an array mitral_marked", both, "--prefix", "mitral", "--output", both);
-  RUN_FINE(both, "--replace", "--prefix", "mitral", "--output", both, "--quiet");
-  assert_true(n_marked_in(both, "mitral_marked") == n_aortic);
-  RUN_FINE(both, "--valve", "mitral", "--replace", "--output", both, "--quiet");
-  assert_true(n_marked_in(both, "riis_marked") == n_mitral);
+  RUN_REFUSED(2, "both.vtu already has an array mitral_marked", both, "--prefix", "mitral", "--output", first);
+  RUN_FINE(both, "--replace", "--prefix", "mitral", "--output", first, "--quiet");
+  assert_true(n_marked_in(first, "mitral_marked") == n_aortic);
+  RUN_FINE(both, "--valve", "mitral", "--replace", "--output", first, "--quiet");
+  assert_true(n_marked_in(first, "riis_marked") == n_mitral);
   /* Without an output there is nothing to replace. */
   RUN_FINE(both, "--stats", "-");
   assert_true(json_number(program_out, "n_marked") == n_aortic);

@@ -96,13 +96,103 @@ static void test_titles(void **state) {
   expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
 }
 
+/* The unit that the user named stands at the scale bar. */
+static void test_unit(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options made;
+  riis_vtk_picture_options options;
+  RUN_FINE("--valve", "mitral", "--opening", "0.5", "--unit", "mm", "--picture", scratch_path("by_program.png"));
+  expect_fine(riis_surface_options_init(&made, sizeof made));
+  made.scale = 10;
+  made.half_thickness = 1;
+  expect_fine(riis_valve_create("mitral", &valve));
+  expect_fine(riis_valve_set_scalar(valve, "opening", 0.5));
+  expect_fine(riis_surface_create(valve, &made, &surface));
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.title = "Mitral valve, opening 0.5";
+  options.leaflet_names = (const char *const[]){"anterior", "posterior"};
+  options.n_leaflet_names = 2;
+  options.unit = "mm";
+  expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
+  assert_true(scratch_is_same("by_program.png", "by_c.png"));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+/* Returns whether two pictures have the same first line of text above their left panels. */
+static int have_same_title(const char *a, const char *b) {
+  int size[2];
+  unsigned char *rgb[2] = {shim_read_pixels(scratch_path(a), &size[0], &size[1]),
+                           shim_read_pixels(scratch_path(b), &size[0], &size[1])};
+  int n_dark = 0, is_same = 1;
+  for (int y = 800 - 40; y < 800; ++y)
+    for (int x = 0; x < 800; ++x) {
+      const size_t at = 3 * ((size_t)y * 1600 + (size_t)x);
+      n_dark += rgb[0][at] < 130;
+      is_same &= rgb[0][at] == rgb[1][at];
+    }
+  assert_true(n_dark > 500);
+  free(rgb[0]);
+  free(rgb[1]);
+  return is_same;
+}
+
+/* A surface from a file has no opening: neither the picture's title, which movies share, nor the summary tells one. */
+static void test_case_titles(void **state) {
+  (void)state;
+  riis_vtk_surface *file = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_arrays arrays;
+  riis_vtk_mesh *mesh = NULL;
+  riis_vtk_picture_options options;
+  riis_mark_result *result = NULL;
+  riis_mesh *nodes = NULL;
+  int64_t n = 0;
+  const double *xyz = NULL;
+  RUN_FINE("--valve", "trileaflet", "--translate", "0,0,-0.5", "--surface-output", scratch_path("patient.vtp"));
+  scratch_write_text("two.json",
+                     "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, \"valves\": [\n"
+                     "{\"name\": \"aortic\", \"valve\": \"aortic\", \"opening\": 0.5},\n"
+                     "{\"name\": \"patient\", \"surface\": \"patient.vtp\"}]}\n");
+  RUN_FINE("--case", scratch_path("two.json"), "--picture", scratch_path("by_program.png"), "--surface-output",
+           scratch_path("both.vtp"));
+  assert_non_null(strstr(program_out, "\nvalve     aortic: opening 0.5, "));
+  const char *const patient = strstr(program_out, "\nvalve     patient: ");
+  assert_non_null(patient);
+  assert_true(patient[20] >= '1' && patient[20] <= '9');
+  expect_fine(riis_vtk_surface_read(scratch_path("both.vtp"), &file));
+  expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
+  expect_fine(riis_vtk_surface_arrays(file, &arrays));
+  expect_fine(riis_surface_create_from_arrays(&arrays, NULL, &surface));
+  expect_fine(riis_vtk_mesh_read(scratch_path("in.vtu"), &mesh));
+  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes));
+  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1));
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.title = "aortic 0.50, patient";
+  expect_fine(riis_vtk_draw(surface, mesh, &options, scratch_path("by_c.png")));
+  assert_true(have_same_title("by_program.png", "by_c.png"));
+  options.title = "aortic 0.50, patient 0.00";
+  expect_fine(riis_vtk_draw(surface, mesh, &options, scratch_path("by_c.png")));
+  assert_false(have_same_title("by_program.png", "by_c.png"));
+  riis_mark_result_destroy(&result);
+  riis_mesh_destroy(&nodes);
+  riis_vtk_mesh_destroy(&mesh);
+  riis_surface_destroy(&surface);
+  riis_vtk_surface_destroy(&file);
+}
+
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_without_display),
-      cmocka_unit_test(test_pictures),
-      cmocka_unit_test(test_titles),
+      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures),
+      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),
+      cmocka_unit_test(test_case_titles),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -355,6 +355,13 @@ static void test_motion(void **state) {
   RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--times",
            "0,0.5,1", "--output", scratch_path("mv.pvd"), "--all-cells", "--series-table", scratch_path("mv.csv"),
            "--quiet");
+  /* A surface has no opening to tell. */
+  run_program(scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--times",
+              "0,1", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_null(strstr(program_out, "opening"));
+  assert_non_null(strstr(program_out, "move.pvd: "));
+  assert_non_null(strstr(program_out, " nodes marked, largest speed 0.5\n"));
   RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--time", "0.5",
            "--output", scratch_path("at.vtu"), "--quiet");
   read_array(step_path("mv", 1, "vtu"), "riis_marked", marked);

@@ -5,7 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ptrace.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "expect.h"
@@ -217,6 +219,35 @@ static void interrupt_series(int signal_number) {
   finish_program(process);
 }
 
+/* The main thread stands still in the middle of a step, as in a very long one: the list follows all the same. Then the process is
+ * killed. The thread may stand between a file and its note, so the list may lack one. */
+static void test_killed(void **state) {
+  (void)state;
+  write_cycle("0,0\n1,1\n");
+  const pid_t process = start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+                                      scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
+                                      scratch_path("dead.pvd"), "--quiet", NULL);
+  for (int n_tries = 0; !scratch_exists("dead/dead_0011.vtu") && n_tries < 100000; ++n_tries) usleep(500);
+  const int is_stopped = ptrace(PTRACE_SEIZE, process, NULL, NULL) == 0;
+  if (is_stopped) {
+    int status = 0;
+    assert_int_equal(ptrace(PTRACE_INTERRUPT, process, NULL, NULL), 0);
+    assert_int_equal(waitpid(process, &status, __WALL), process);
+    assert_true(WIFSTOPPED(status));
+  }
+  int n_files = 0;
+  for (char name[64] = "dead/dead_0000.vtu"; scratch_exists(name); ++n_files)
+    snprintf(name, sizeof name, "dead/dead_%04d.vtu", n_files + 1);
+  for (int n_tries = 0; is_stopped && n_listed("dead.pvd") < n_files - 1 && n_tries < 20000; ++n_tries) usleep(500);
+  const int n = n_listed("dead.pvd");
+  kill(process, SIGKILL);
+  finish_program(process);
+  if (!is_stopped) skip(); /* the system lets no process stop the threads of another */
+  assert_int_equal(program_exit_code, 128 + SIGKILL);
+  assert_true(n_files >= 12 && n_files < 2001);
+  assert_true(n == n_files || n == n_files - 1);
+}
+
 static void test_interruption(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
@@ -225,6 +256,9 @@ static void test_interruption(void **state) {
     interrupt_series(signals[i]);
     assert_int_equal(program_exit_code, 128 + signals[i]);
     const int n = n_listed("long.pvd");
+    char said[64];
+    snprintf(said, sizeof said, "riis-mark: interrupted: %d of 2001 written\n", n);
+    assert_string_equal(program_err, said);
     assert_true(n >= 2 && n < 2001);
     for (int step = 0; step <= n; ++step) {
       char name[64];
@@ -251,7 +285,7 @@ int main(void) {
       cmocka_unit_test(test_times),        cmocka_unit_test(test_many_times),  cmocka_unit_test(test_cycle_files),
       cmocka_unit_test(test_options),      cmocka_unit_test(test_valves),      cmocka_unit_test(test_places),
       cmocka_unit_test(test_no_ffmpeg),    cmocka_unit_test(test_none_marked), cmocka_unit_test(test_announcement),
-      cmocka_unit_test(test_interruption),
+      cmocka_unit_test(test_interruption), cmocka_unit_test(test_killed),
   };
   return cmocka_run_group_tests(tests, make_mitral_box, scratch_teardown);
 }

@@ -4,11 +4,13 @@
  * is left beside the files. */
 #include <linux/capability.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "program.h"
@@ -50,17 +52,138 @@ static void test_same_file_twice(void **state) {
   free(after);
 }
 
-/* An output may be the input itself: the user can only have meant that. */
-static void test_in_place(void **state) {
-  (void)state;
-  assert_true(shim_write_box(scratch_path("place.vtu"), SHIM_RAW, 5, (double[3]){-1.7, -1.6, -1.3},
-                             (double[3]){1.5, 1.6, 0.4}, 1));
-  RUN_FINE(scratch_path("place.vtu"), "--output", scratch_path("place.vtu"), "--half-thickness", "0.6", "--stats", "-");
-  assert_int_equal(shim_read_array(scratch_path("place.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
-  RUN_FINE("--surface-output", scratch_path("place.vtp"));
-  RUN_FINE("--surface", scratch_path("place.vtp"), "--scale", "2", "--surface-output", scratch_path("place.vtp"));
+/* An output that is the input itself, by any name, is refused, and the input keeps its bytes. */
+static void expect_kept(const char *name, const char *before) { assert_true(scratch_is_same(name, before)); }
+
+static void copy_file(const char *from, const char *to) {
+  size_t size = 0;
+  char *bytes = scratch_read(scratch_path(from), &size);
+  scratch_write(to, bytes, size);
+  free(bytes);
 }
 
+static void test_in_place(void **state) {
+  (void)state;
+  const char *const names[] = {"in.vtu", "soft.vtu", "hard.vtu", "folder/in.vtu"};
+  copy_file("in.vtu", "kept.vtu");
+  assert_int_equal(symlink("in.vtu", scratch_path("soft.vtu")), 0);
+  assert_int_equal(link(scratch_path("in.vtu"), scratch_path("hard.vtu")), 0);
+  assert_int_equal(symlink(".", scratch_path("folder")), 0);
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 4; ++k)
+      RUN_REFUSED(2, "is also the file of MESH", scratch_path(names[i]), "--output", scratch_path(names[k]));
+    RUN_REFUSED(2, "is also the file of MESH", scratch_path("in.vtu"), "--stats", scratch_path(names[i]), "--quiet");
+  }
+  expect_kept("in.vtu", "kept.vtu");
+  RUN_FINE("--surface-output", scratch_path("place.vtp"));
+  copy_file("place.vtp", "kept.vtp");
+  RUN_REFUSED(2, "place.vtp is also the file of --surface", "--surface", scratch_path("place.vtp"), "--scale", "2",
+              "--surface-output", scratch_path("place.vtp"));
+  assert_int_equal(link(scratch_path("place.vtp"), scratch_path("other.vtp")), 0);
+  RUN_REFUSED(2, "other.vtp is also the file of --surface", "--surface", scratch_path("place.vtp"), "--surface-output",
+              scratch_path("other.vtp"));
+  expect_kept("place.vtp", "kept.vtp");
+}
+
+/* A motion is its list and the frames that it lists. No output replaces either, nor does a step of a series. */
+static void test_motion_in_place(void **state) {
+  (void)state;
+  RUN_FINE("--valve", "mitral", "--surface-output", scratch_path("a.vtp"), "--quiet");
+  assert_int_equal(mkdir(scratch_path("beat"), 0700), 0);
+  assert_int_equal(mkdir(scratch_path("out"), 0700), 0);
+  copy_file("a.vtp", "beat/beat_0001.vtp");
+  copy_file("a.vtp", "beat/other.vtp");
+  scratch_write_text("beat.pvd",
+                     "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>"
+                     "<DataSet timestep=\"0\" file=\"beat/other.vtp\"/><DataSet timestep=\"1\" "
+                     "file=\"beat/beat_0001.vtp\"/></Collection></VTKFile>\n");
+  copy_file("beat.pvd", "kept.pvd");
+  char mesh[256];
+  snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
+#define MOTION "--surface", scratch_path("beat.pvd"), "--half-thickness", "0.3"
+  RUN_REFUSED(2, "beat.pvd is also the file of --surface", mesh, MOTION, "--times", "0,1", "--surface-output",
+              scratch_path("beat.pvd"));
+  RUN_REFUSED(2, "is also the file of --surface", mesh, MOTION, "--times", "0,1", "--output",
+              scratch_path("./beat/../beat.pvd"));
+  assert_int_equal(symlink("beat", scratch_path("alias")), 0);
+  RUN_REFUSED(2, "--output: the folder of its files, ", mesh, MOTION, "--times", "0,1", "--output",
+              scratch_path("alias.pvd"));
+  RUN_REFUSED(2, "is a frame of --surface", MOTION, "--time", "0.5", "--surface-output",
+              scratch_path("beat/other.vtp"));
+  RUN_REFUSED(2, "is also the file of --surface", mesh, MOTION, "--times", "0,1", "--series-table",
+              scratch_path("beat.pvd"));
+  RUN_REFUSED(2, "is a frame of --surface", mesh, MOTION, "--times", "0,1", "--series-table",
+              scratch_path("beat/other.vtp"));
+  /* A step that would go through a link to an input, and an input that is a link to a step. */
+  assert_int_equal(symlink("../beat/other.vtp", scratch_path("out/out_0001.vtp")), 0);
+  RUN_REFUSED(2, "holds the file of --surface", mesh, MOTION, "--times", "0,1", "--surface-output",
+              scratch_path("out.pvd"));
+  assert_int_equal(unlink(scratch_path("out/out_0001.vtp")), 0);
+  copy_file("in.vtu", "out/out_0000.vtu");
+  assert_int_equal(symlink("out/out_0000.vtu", scratch_path("mesh.vtu")), 0);
+  RUN_REFUSED(2, "holds the file of MESH", scratch_path("mesh.vtu"), MOTION, "--times", "0,1", "--output",
+              scratch_path("out.pvd"));
+  /* A case has other inputs. */
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"times\": [0, 1], \"half_thickness\": 0.3,\n"
+                     " \"valves\": [{\"surface\": \"beat.pvd\"}]}\n");
+#define CASE "--case", scratch_path("case.json")
+  RUN_REFUSED(2, "beat.pvd is also the file of --case", CASE, "--surface-output", scratch_path("beat.pvd"));
+  RUN_REFUSED(2, "is also the file of --case", CASE, "--series-table", scratch_path("case.json"));
+  RUN_REFUSED(2, "holds the file of --case", CASE, "--output", scratch_path("alias.pvd"));
+  expect_kept("beat.pvd", "kept.pvd");
+  expect_kept("beat/other.vtp", "a.vtp");
+  expect_kept("beat/beat_0001.vtp", "a.vtp");
+  expect_kept("out/out_0000.vtu", "kept.vtu");
+}
+
+/* Waits until the run holds its locks: it then waits for a reader of its stats, a pipe. */
+static pid_t start_held_run(const char *output) {
+  const pid_t process = start_program(scratch_path("in.vtu"), "--output", output, "--stats", scratch_path("pipe"),
+                                      "--half-thickness", "0.6", "--quiet", NULL);
+  for (int n_tries = 0; !scratch_exists(".riis-held.vtu.lock") && n_tries < 100000; ++n_tries) usleep(500);
+  assert_true(scratch_exists(".riis-held.vtu.lock"));
+  return process;
+}
+
+/* The runner of programs keeps one run's streams, so the second one runs by a shell. */
+static void expect_locked(const char *mesh, const char *option, const char *output) {
+  char command[1024];
+  snprintf(command, sizeof command, "%s %s %s %s --quiet 2>%s", RIIS_MARK_PROGRAM, mesh, option, scratch_path(output),
+           scratch_path("second.txt"));
+  const int status = system(command);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  char *text = scratch_read(scratch_path("second.txt"), NULL);
+  if (!strstr(text, ".vtu: another run of riis-mark is writing it, and holds ")) fail_msg("%s", text);
+  free(text);
+}
+
+/* The second run of one output is refused, whatever the option and the name; a run that ends or is killed hinders none. */
+static void test_second_run(void **state) {
+  (void)state;
+  char mesh[256], held[256];
+  snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
+  snprintf(held, sizeof held, "%s", scratch_path("held.vtu"));
+  assert_int_equal(mkfifo(scratch_path("pipe"), 0600), 0);
+  assert_int_equal(symlink("held.vtu", scratch_path("also.vtu")), 0);
+  scratch_write_text("held.vtu", "before");
+  const pid_t first = start_held_run(held);
+  expect_locked(mesh, "--output", "held.vtu");
+  expect_locked(mesh, "--stats", "held.vtu");
+  expect_locked(mesh, "--output", "also.vtu");
+  kill(first, SIGKILL);
+  finish_program(first);
+  assert_int_equal(program_exit_code, 128 + SIGKILL);
+  assert_true(scratch_exists(".riis-held.vtu.lock"));
+  RUN_FINE(mesh, "--output", held, "--half-thickness", "0.6", "--quiet");
+  assert_false(scratch_exists(".riis-held.vtu.lock"));
+  /* Ctrl-C takes its lock along. */
+  const pid_t interrupted = start_held_run(held);
+  kill(interrupted, SIGINT);
+  finish_program(interrupted);
+  assert_int_equal(program_exit_code, 128 + SIGINT);
+  assert_false(scratch_exists(".riis-held.vtu.lock"));
+}
 /* Stats replace a file, also through a link, but are written into a device. */
 static void test_stats_places(void **state) {
   (void)state;
@@ -131,7 +254,8 @@ static void run_and_interrupt(int signal_number) {
   const int n_files = scratch_n_files();
   const pid_t process = start_program(scratch_path("large.vtu"), "--output", scratch_path("marked.vtu"), "--stats",
                                       scratch_path("late.json"), NULL);
-  for (int n_tries = 0; scratch_n_files() == n_files && n_tries < 100000; ++n_tries) usleep(500);
+  /* Both outputs have a lock before they are written. */
+  for (int n_tries = 0; scratch_n_files() <= n_files + 2 && n_tries < 100000; ++n_tries) usleep(500);
   kill(process, signal_number);
   finish_program(process);
 }
@@ -156,7 +280,8 @@ static void test_interruption(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_same_file_twice), cmocka_unit_test(test_in_place),     cmocka_unit_test(test_stats_places),
-      cmocka_unit_test(test_closed_folder),   cmocka_unit_test(test_limited_size), cmocka_unit_test(test_interruption),
+      cmocka_unit_test(test_motion_in_place), cmocka_unit_test(test_second_run),   cmocka_unit_test(test_closed_folder),
+      cmocka_unit_test(test_limited_size),    cmocka_unit_test(test_interruption),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

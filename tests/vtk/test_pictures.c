@@ -352,6 +352,73 @@ static void test_long_mesh(void **state) {
   riis_vtk_mesh_destroy(&tube);
 }
 
+/* Returns how many columns, or rows, of a picture with one panel have a pixel in a full colour between the bands of texts. */
+static int count_coloured(const char *name, int by_rows) {
+  pixels picture = read_pixels(name);
+  const int y_end = picture.height - upper_band, n_lines = by_rows ? y_end : picture.width;
+  int n = 0;
+  for (int line = by_rows ? lower_band : 0; line < n_lines; ++line) {
+    int has_colour = 0;
+    for (int at = by_rows ? 0 : lower_band; at < (by_rows ? picture.width : y_end); ++at)
+      has_colour |= is_full(by_rows ? pixel_at(&picture, at, line) : pixel_at(&picture, line, at));
+    n += has_colour;
+  }
+  free(picture.rgb);
+  return n;
+}
+
+/* Flat leaflets that the view meets edge on: closed ones from the side, and open ones from above. They are lines of the size that
+ * the camera is aimed at, 1/1.08 of the panel. The upper band takes another 20 rows of it. */
+static void test_edge_on(void **state) {
+  (void)state;
+  const int32_t views[2] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP};
+  const double expected[2] = {800 / 1.08, 626 / 1.08 + 26};
+  riis_surface *const kept = surface;
+  riis_valve *valve = NULL;
+  expect_fine(riis_valve_create("bileaflet", &valve));
+  expect_fine(riis_valve_set_scalar(valve, "closed_angle", 0));
+  expect_fine(riis_valve_set_scalar(valve, "open_angle", 90));
+  for (int i = 0; i < 2; ++i) {
+    expect_fine(riis_valve_set_scalar(valve, "opening", i));
+    expect_fine(riis_surface_create(valve, NULL, &surface));
+    draw("flat.png", NULL, views[i], 800, 800);
+    riis_surface_destroy(&surface);
+    surface = kept;
+    if (abs(count_coloured("flat.png", i) - (int)expected[i]) > 5)
+      fail_msg("%d lines of pixels, not %g", count_coloured("flat.png", i), expected[i]);
+  }
+  riis_valve_destroy(&valve);
+}
+
+static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *drawn) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_null(options.unit);
+  options.width = drawn ? 800 : 400;
+  options.height = 400;
+  options.unit = unit;
+  options.view = RIIS_VTK_VIEW_OBLIQUE;
+  expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
+}
+
+/* A unit stands behind the number at the scale bar as it is, in place of the words. */
+static void test_unit(void **state) {
+  (void)state;
+  for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
+    const riis_vtk_mesh *const drawn = with_mesh ? mesh : NULL;
+    draw_unit("none.png", NULL, drawn);
+    draw_unit("empty.png", "", drawn);
+    draw_unit("one.png", with_mesh ? "mesh unit" : "unit", drawn);
+    draw_unit("more.png", with_mesh ? "mesh units" : "units", drawn);
+    draw_unit("mm.png", "mm", drawn);
+    draw_unit("mms.png", "mms", drawn);
+    assert_true(scratch_is_same("none.png", "empty.png"));
+    assert_true(scratch_is_same("none.png", "one.png") != scratch_is_same("none.png", "more.png"));
+    assert_false(scratch_is_same("none.png", "mm.png"));
+    assert_false(scratch_is_same("mms.png", "mm.png"));
+  }
+}
+
 /* If files have room for only n_bytes, as on a disk that fills up, there is no picture and nothing beside it. */
 static void test_full_disk(void **state) {
   (void)state;
@@ -386,12 +453,19 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_texts),           cmocka_unit_test(test_views),
-      cmocka_unit_test(test_one_panel),       cmocka_unit_test(test_nothing_marked),
-      cmocka_unit_test(test_full_disk),       cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_one_scene),       cmocka_unit_test(test_leaks),
-      cmocka_unit_test(test_partly_marked),   cmocka_unit_test(test_long_mesh),
+      cmocka_unit_test(test_texts),
+      cmocka_unit_test(test_views),
+      cmocka_unit_test(test_one_panel),
+      cmocka_unit_test(test_nothing_marked),
+      cmocka_unit_test(test_full_disk),
+      cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_one_scene),
+      cmocka_unit_test(test_leaks),
+      cmocka_unit_test(test_partly_marked),
+      cmocka_unit_test(test_long_mesh),
       cmocka_unit_test(test_scale_and_bands),
+      cmocka_unit_test(test_edge_on),
+      cmocka_unit_test(test_unit),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }
