@@ -178,7 +178,7 @@ void check_passage(const Options &options, const MarkedMesh &marked, Report &rep
   // A path along known edges is a path, whatever the others are.
   passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
-  if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end)
+  if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
     passage.closing_half_thickness = closing_half_thickness(options, marked, passage.found, ends);
   warn_of_passage(asked, passage, marked.surface_name, unknown);
   leaks.passage = passage;

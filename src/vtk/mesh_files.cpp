@@ -101,10 +101,12 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
   return guarded([&](const CaughtOutput &caught) {
     require(path, "path");
     require(mesh, "mesh");
-    auto made = std::make_unique<riis_vtk_mesh>();
-    made->grid = read_grid(path, caught);
-    make_points_double(made->grid);
-    *mesh = made.release();
+    naming(path, [&] {
+      auto made = std::make_unique<riis_vtk_mesh>();
+      made->grid = read_grid(path, caught);
+      make_points_double(made->grid);
+      *mesh = made.release();
+    });
   });
 }
 
@@ -204,7 +206,8 @@ RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path) {
   return guarded([&](const CaughtOutput &caught) {
     require(mesh, "mesh");
-    write_xml<vtkXMLUnstructuredGridWriter>(require(path, "path"), "vtu", mesh->grid, caught);
+    require(path, "path");
+    naming(path, [&] { write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught); });
   });
 }
 
