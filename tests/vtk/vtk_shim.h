@@ -20,6 +20,13 @@ enum { SHIM_ASCII, SHIM_BINARY, SHIM_COMPRESSED, SHIM_RAW, SHIM_LEGACY_ASCII, SH
 int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
                    int float_points);
 
+/* Writes a box as shim_write_box does, of tetrahedra and polyhedra (.vtu), or its outer triangles (.vtp), with these arrays of
+ * numbers. The data is SHIM_ASCII, SHIM_BINARY, or appended in base64 (SHIM_COMPRESSED) or as it is (SHIM_RAW).
+ *   compressor   0 none, 1 zlib, 2 LZ4, 3 LZMA; blocks are small, so that there are several
+ *   header_bits  32 or 64
+ * Returns 1 on success. */
+int shim_write_blocks(const char *path, int encoding, int compressor, int header_bits);
+
 /* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. It has the data that VTK's writer puts behind
  * arrays: ranges, and the name of one component of "flow". Its last array is the bit array "bits". Returns 1 on success. */
 int shim_write_legacy(const char *path, int binary, int version);
