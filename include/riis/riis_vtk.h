@@ -7,8 +7,10 @@
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print while a function runs are caught and become the message of the error.
- * - Files that are cut short or of another kind are refused. VTK's own readers can still crash on a .vtu
- *   whose bytes were damaged: read files that you do not trust in a process that you can lose.
+ * - Files that are cut short or of another kind are refused, and files that claim more points, cells, values
+ *   or bytes than they hold. VTK's own readers can still crash on a .vtu whose bytes were damaged: read files
+ *   that you do not trust in a process that you can lose.
+ * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - A path that cannot be read or written is RIIS_FILE_ERROR naming the file.
  * - A written file is complete or not there: it is written beside its place and then moved. It takes the
  *   permissions of a file that it replaces. If the path is a link, its target is written and the link stays.
@@ -33,6 +35,7 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
 
 /* Reads an unstructured grid; it may have no cells.
  *   path  ends in .vtu (XML) or .vtk (legacy). A legacy file without cells must have CELLS 0 0, CELL_TYPES 0
+ * Polyhedra may have their faces in streams, or in lists as VTK 9.4 writes them.
  * Errors: RIIS_FILE_ERROR naming the file: missing, unreadable, another data set, truncated, no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Destroys the mesh. */

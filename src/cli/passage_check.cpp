@@ -52,7 +52,8 @@ class JoinedNodes {
       const double away = distance_between(p, point);
       if (found < 0 || away < least) found = i, least = away;
     }
-    if (found < 0) refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
+    if (found < 0)
+      refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
     for (int k = 0; k < 3; ++k)
       if (point[k] < lower[k] || point[k] > upper[k])
         refuse("is outside the mesh, which goes from " + text_of(lower) + " to " + text_of(upper));

@@ -33,7 +33,7 @@ struct PassageReport {
 
 struct LeakReport {
   riis_leaks found{};
-  double closing_half_thickness = 0;     // for the user to type; 0: none
+  double closing_half_thickness = 0;  // for the user to type; 0: none
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;          // cells of volume whose edges are not known
   std::optional<PassageReport> passage;  // if two points are checked

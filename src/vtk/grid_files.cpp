@@ -200,8 +200,8 @@ class WatchedReader : public Reader {
  protected:
   using FieldType = typename Reader::FieldType;
 
-  int ReadArrayValues(vtkXMLDataElement *element, vtkIdType index, vtkAbstractArray *array, vtkIdType begin, vtkIdType n,
-                      FieldType type = Reader::OTHER) override {
+  int ReadArrayValues(vtkXMLDataElement *element, vtkIdType index, vtkAbstractArray *array, vtkIdType begin,
+                      vtkIdType n, FieldType type = Reader::OTHER) override {
     const auto check_number = [&] { check_held(element, begin + n, array); };
     const auto check_next = [&] { check_next_array(element, vtkDataArray::SafeDownCast(array), begin + n); };
     return steps_.run(check_number) && Reader::ReadArrayValues(element, index, array, begin, n, type) &&
@@ -409,7 +409,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
 
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught) {
   check_xml(path, "PolyData");
-  vtkSmartPointer<vtkPolyData> data = read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkXMLPolyDataReader, vtkPolyData>(path, caught);
+  vtkSmartPointer<vtkPolyData> data =
+      read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkXMLPolyDataReader, vtkPolyData>(path, caught);
   check_data_set(path, data);
   if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
     fail_file(path, "holds " + std::to_string(data->GetNumberOfVerts()) + " vertices and " +

@@ -186,8 +186,7 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
            n_lattice_nodes(type, orders) == static_cast<double>(n_nodes);
   };
   if (given) {
-    for (std::size_t i = 0; i < 3; ++i)
-      orders[i] = given[i] >= 1 && given[i] <= 1000 ? static_cast<int>(given[i]) : 0;
+    for (std::size_t i = 0; i < 3; ++i) orders[i] = given[i] >= 1 && given[i] <= 1000 ? static_cast<int>(given[i]) : 0;
     if (fit()) return true;
   }
   for (int order = 1; order <= 1000; ++order) {
@@ -209,8 +208,7 @@ bool is_long_and_near(const double *a, const double *b, double least_square, con
 
 }  // namespace
 
-CellEdges::CellEdges(vtkUnstructuredGrid *grid)
-    : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
+CellEdges::CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
   if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
 }
 

@@ -21,9 +21,9 @@ namespace {
 
 // The bits that a value takes at least. A string has at least its end.
 std::uint64_t bits_of(const char *type) {
-  static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},   {"UInt16", 16},
-                                                                  {"Int32", 32}, {"UInt32", 32},  {"Float32", 32},
-                                                                  {"Int64", 64}, {"UInt64", 64},  {"Float64", 64}};
+  static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},  {"UInt16", 16},
+                                                                  {"Int32", 32}, {"UInt32", 32}, {"Float32", 32},
+                                                                  {"Int64", 64}, {"UInt64", 64}, {"Float64", 64}};
   const auto found = sizes.find(type ? type : "");
   return found == sizes.end() ? 8 : found->second;
 }
@@ -122,7 +122,8 @@ std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *
     if (n_held < word_size) return 0;
     const std::uint64_t n = words(place, word, is_big, 1)[0];
     if (n > n_held - word_size)
-      refuse(element, "claims " + std::to_string(n) + " bytes, and the file holds " + std::to_string(n_held - word_size));
+      refuse(element,
+             "claims " + std::to_string(n) + " bytes, and the file holds " + std::to_string(n_held - word_size));
     return n;
   }
   if (n_held < 3 * word_size) return 0;
@@ -133,7 +134,8 @@ std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *
     refuse(element, "claims " + std::to_string(n_blocks) + " compressed blocks, and the file holds " +
                         std::to_string(n_held) + " bytes");
   if (block == 0 || last > block)
-    refuse(element, "claims compressed blocks of " + std::to_string(block) + " bytes, the last of " + std::to_string(last));
+    refuse(element,
+           "claims compressed blocks of " + std::to_string(block) + " bytes, the last of " + std::to_string(last));
   const std::uint64_t n_head = (3 + n_blocks) * word_size;
   const std::uint64_t n_before = place.form == Place::raw ? n_head : (n_head + 2) / 3 * 4;
   std::uint64_t n_left = n_decoded(place.end - std::min(place.begin + n_before, place.end)), n_bytes = 0;
@@ -222,7 +224,8 @@ void XmlSizes::check_piece(vtkXMLDataParser *parser, vtkXMLDataElement *piece) {
   for_each_nested(piece, [&](vtkXMLDataElement *nested) {
     const bool are_points = is_named(nested, "Points") || is_named(nested, "PointData");
     if (are_points || is_named(nested, "CellData"))
-      for_each_nested(nested, [&](vtkXMLDataElement *array) { check_array(parser, array, are_points ? n_points : n_cells); });
+      for_each_nested(nested,
+                      [&](vtkXMLDataElement *array) { check_array(parser, array, are_points ? n_points : n_cells); });
   });
 }
 
@@ -234,7 +237,8 @@ void XmlSizes::check_pieces(vtkXMLDataParser *parser) {
   for_each_nested(primary, [&](vtkXMLDataElement *nested) {
     if (is_named(nested, "Piece")) check_piece(parser, nested);
     if (is_named(nested, "FieldData"))
-      for_each_nested(nested, [&](vtkXMLDataElement *array) { check_array(parser, array, count(array, "NumberOfTuples")); });
+      for_each_nested(nested,
+                      [&](vtkXMLDataElement *array) { check_array(parser, array, count(array, "NumberOfTuples")); });
   });
 }
 

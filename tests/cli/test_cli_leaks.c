@@ -254,8 +254,8 @@ static void test_polyhedra(void **state) {
     assert_int_equal(program_exit_code, 0);
     assert_true(json_number(program_out, "n_leaking_edges") > 10);
     keep("\"n_leaking_edges\"", said[i][0]);
-    run_program(scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", "--check-leaks", "0,0,2.1",
-                "1,1,0.6", NULL);
+    run_program(scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", "--check-leaks",
+                "0,0,2.1", "1,1,0.6", NULL);
     assert_int_equal(program_exit_code, 0);
     keep("\"passage\"", said[i][1]);
     for (int k = 0; k < 2; ++k) assert_string_equal(said[i][k], said[0][k]);
@@ -304,18 +304,20 @@ static void test_unknown(void **state) {
                   "0.1,0,0.6", "0,0.1,0.6");
   }
   /* The tetrahedron joins its nodes, whatever else joins them. It does not join the others. */
-  run_program(scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6", "0,0.1,0.6", NULL);
+  run_program(scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6",
+              "0,0.1,0.6", NULL);
   assert_non_null(strstr(program_out, "\npassage   open: at "));
   scratch_write_text("two.vtk",
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n"
                      "0 0 0.5 1 0 0.5 0 1 0.5 0 0 1 5 0 0.5 6 0 0.5 5 1 0.5 5 0 1 4 4 4\n"
                      "CELLS 3 16\n4 0 1 2 3\n4 4 5 6 7\n5 0 1 5 7 8\nCELL_TYPES 3\n10\n10\n41\n");
-  run_program(scratch_path("two.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6", "5.1,0,0.6", "--stats",
-              scratch_path("stats.json"), NULL);
+  run_program(scratch_path("two.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6",
+              "5.1,0,0.6", "--stats", scratch_path("stats.json"), NULL);
   assert_int_equal(program_exit_code, 0);
-  assert_non_null(strstr(program_err,
-                         "riis-mark: whether unmarked nodes join 0.1 0 0.6 and 5.1 0 0.6 is unknown: riis does not know the edges "
-                         "of 1 of 3 volume cells in "));
+  assert_non_null(
+      strstr(program_err,
+             "riis-mark: whether unmarked nodes join 0.1 0 0.6 and 5.1 0 0.6 is unknown: riis does not know the edges "
+             "of 1 of 3 volume cells in "));
   assert_non_null(strstr(program_out, "\npassage   unknown; along the known edges none: "));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_has_text(json, "state", "\"unknown\""));
@@ -338,10 +340,14 @@ static void test_other_cells(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_coarse_meshes_leak), cmocka_unit_test(test_fine_meshes_do_not),
-      cmocka_unit_test(test_surface_from_file),  cmocka_unit_test(test_searches_and_distances),
-      cmocka_unit_test(test_one_edge),           cmocka_unit_test(test_other_cells),
-      cmocka_unit_test(test_quadratic_cells),    cmocka_unit_test(test_polyhedra),
+      cmocka_unit_test(test_coarse_meshes_leak),
+      cmocka_unit_test(test_fine_meshes_do_not),
+      cmocka_unit_test(test_surface_from_file),
+      cmocka_unit_test(test_searches_and_distances),
+      cmocka_unit_test(test_one_edge),
+      cmocka_unit_test(test_other_cells),
+      cmocka_unit_test(test_quadratic_cells),
+      cmocka_unit_test(test_polyhedra),
       cmocka_unit_test(test_unknown),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

@@ -29,28 +29,19 @@ using Place = std::array<double, 3>;
 using Edges = std::set<std::pair<int, int>>;
 
 struct Kind {
-  int type, n_nodes, n_corners, order;  // order 0: has nodes at the middles of sides and perhaps of faces, but no whole lattice
+  int type, n_nodes, n_corners,
+      order;  // order 0: has nodes at the middles of sides and perhaps of faces, but no whole lattice
 };
-constexpr Kind kinds[] = {{VTK_QUADRATIC_TETRA, 10, 4, 0},
-                          {VTK_QUADRATIC_HEXAHEDRON, 20, 8, 0},
-                          {VTK_QUADRATIC_WEDGE, 15, 6, 0},
-                          {VTK_QUADRATIC_PYRAMID, 13, 5, 0},
-                          {VTK_QUADRATIC_LINEAR_WEDGE, 12, 6, 0},
-                          {VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 24, 8, 0},
-                          {VTK_TRIQUADRATIC_HEXAHEDRON, 27, 8, 2},
-                          {VTK_BIQUADRATIC_QUADRATIC_WEDGE, 18, 6, 2},
-                          {VTK_LAGRANGE_TETRAHEDRON, 4, 4, 1},
-                          {VTK_LAGRANGE_TETRAHEDRON, 10, 4, 2},
-                          {VTK_LAGRANGE_TETRAHEDRON, 35, 4, 4},
-                          {VTK_BEZIER_TETRAHEDRON, 20, 4, 3},
-                          {VTK_LAGRANGE_HEXAHEDRON, 8, 8, 1},
-                          {VTK_LAGRANGE_HEXAHEDRON, 27, 8, 2},
-                          {VTK_LAGRANGE_HEXAHEDRON, 64, 8, 3},
-                          {VTK_BEZIER_HEXAHEDRON, 27, 8, 2},
-                          {VTK_LAGRANGE_WEDGE, 6, 6, 1},
-                          {VTK_LAGRANGE_WEDGE, 18, 6, 2},
-                          {VTK_LAGRANGE_WEDGE, 40, 6, 3},
-                          {VTK_BEZIER_WEDGE, 18, 6, 2}};
+constexpr Kind kinds[] = {{VTK_QUADRATIC_TETRA, 10, 4, 0},         {VTK_QUADRATIC_HEXAHEDRON, 20, 8, 0},
+                          {VTK_QUADRATIC_WEDGE, 15, 6, 0},         {VTK_QUADRATIC_PYRAMID, 13, 5, 0},
+                          {VTK_QUADRATIC_LINEAR_WEDGE, 12, 6, 0},  {VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON, 24, 8, 0},
+                          {VTK_TRIQUADRATIC_HEXAHEDRON, 27, 8, 2}, {VTK_BIQUADRATIC_QUADRATIC_WEDGE, 18, 6, 2},
+                          {VTK_LAGRANGE_TETRAHEDRON, 4, 4, 1},     {VTK_LAGRANGE_TETRAHEDRON, 10, 4, 2},
+                          {VTK_LAGRANGE_TETRAHEDRON, 35, 4, 4},    {VTK_BEZIER_TETRAHEDRON, 20, 4, 3},
+                          {VTK_LAGRANGE_HEXAHEDRON, 8, 8, 1},      {VTK_LAGRANGE_HEXAHEDRON, 27, 8, 2},
+                          {VTK_LAGRANGE_HEXAHEDRON, 64, 8, 3},     {VTK_BEZIER_HEXAHEDRON, 27, 8, 2},
+                          {VTK_LAGRANGE_WEDGE, 6, 6, 1},           {VTK_LAGRANGE_WEDGE, 18, 6, 2},
+                          {VTK_LAGRANGE_WEDGE, 40, 6, 3},          {VTK_BEZIER_WEDGE, 18, 6, 2}};
 
 const Kind *kind_of(int type, int n_nodes) {
   for (const Kind &kind : kinds)

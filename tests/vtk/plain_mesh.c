@@ -8,7 +8,8 @@
 #include "scratch.h"
 
 /* Looking out of the cell. */
-static const int hexahedron_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+static const int hexahedron_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 static plain_mesh new_mesh(int type, int n_corners, int64_t n_nodes, int64_t n_cells) {
   plain_mesh mesh = {type, n_corners, n_nodes, n_cells, NULL, NULL};
@@ -32,7 +33,8 @@ plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]) 
   for (int64_t i = 0; i < mesh.n_cells; ++i) {
     const int m = n - 1;
     const int64_t first = i % m + n * (i / m % m + n * (i / m / m)), up = (int64_t)n * n;
-    const int64_t corners[8] = {first, first + 1, first + n + 1, first + n, first + up, first + up + 1, first + up + n + 1, first + up + n};
+    const int64_t corners[8] = {first,      first + 1,      first + n + 1,      first + n,
+                                first + up, first + up + 1, first + up + n + 1, first + up + n};
     memcpy(mesh.ids + 8 * i, corners, sizeof corners);
   }
   return mesh;
@@ -87,7 +89,8 @@ static void write_numbers(FILE *file, const char *name, int64_t n, const int64_t
 static int is_polyhedron(int64_t cell, enum plain_layout layout) { return layout != PLAIN_CELLS && cell % 3 != 2; }
 
 /* Each cell's stream: number of faces, then for each face its size and corners. The offsets are the ends, -1 for other cells. */
-static void write_streams(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers, int64_t *ends) {
+static void write_streams(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers,
+                          int64_t *ends) {
   int64_t at = 0;
   for (int64_t i = 0; i < n; ++i) {
     ends[i] = -1;
@@ -132,17 +135,18 @@ static void write_lists(FILE *file, const plain_mesh *mesh, int64_t first, int64
 
 void plain_write(const char *name, const plain_mesh *mesh, enum plain_layout layout, int n_pieces) {
   FILE *file = fopen(scratch_path(name), "w");
-  int64_t *numbers = malloc((size_t)(40 * mesh->n_cells) * sizeof *numbers), *ends = malloc((size_t)mesh->n_cells * sizeof *ends);
+  int64_t *numbers = malloc((size_t)(40 * mesh->n_cells) * sizeof *numbers),
+          *ends = malloc((size_t)mesh->n_cells * sizeof *ends);
   if (!file || !numbers || !ends) abort();
-  fprintf(file,
-          "<VTKFile type=\"UnstructuredGrid\" version=\"%s\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n",
+  fprintf(file, "<VTKFile type=\"UnstructuredGrid\" version=\"%s\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n",
           layout == PLAIN_LISTS ? "2.3" : "1.0");
   for (int piece = 0; piece < n_pieces; ++piece) {
     const int64_t first = mesh->n_cells * piece / n_pieces, n = mesh->n_cells * (piece + 1) / n_pieces - first;
-    fprintf(file,
-            "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n<Points><DataArray type=\"Float64\" Name=\"Points\" "
-            "NumberOfComponents=\"3\" format=\"ascii\">\n",
-            (long long)mesh->n_nodes, (long long)n);
+    fprintf(
+        file,
+        "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n<Points><DataArray type=\"Float64\" Name=\"Points\" "
+        "NumberOfComponents=\"3\" format=\"ascii\">\n",
+        (long long)mesh->n_nodes, (long long)n);
     for (int64_t i = 0; i < 3 * mesh->n_nodes; ++i) fprintf(file, "%.17g\n", mesh->xyz[i]);
     fprintf(file, "</DataArray></Points>\n<Cells>\n");
     write_numbers(file, "connectivity", mesh->n_corners * n, mesh->ids + mesh->n_corners * first);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * XML files of meshes and surfaces that claim more than they hold. They are refused before memory is taken for it. Files with random
- * damage are read or refused, each by a process of its own, whose memory is limited. */
+ * XML files of meshes and surfaces that claim more than they hold. They are refused before memory is taken for it. Files with
+ * random damage are read or refused, each by a process of its own, whose memory is limited. */
 #include <riis/riis_vtk.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -71,21 +71,24 @@ static void test_promised_numbers(void **state) {
   static const struct {
     const char *name, *from, *to, *text;
   } cases[] = {
-      {"f.vtu", "NumberOfPoints=\"125\"", "NumberOfPoints=\"1000000000\"", "array pressure must have 1000000000 values and has "},
+      {"f.vtu", "NumberOfPoints=\"125\"", "NumberOfPoints=\"1000000000\"",
+       "array pressure must have 1000000000 values and has "},
       {"f.vtu", "NumberOfPoints=\"125\"", "NumberOfPoints=\"-125\"", "is damaged: NumberOfPoints is -125"},
       {"f.vtu", "NumberOfCells=\"389\"", "NumberOfCells=\"100000000000\"", "must have 100000000000 values and has "},
       {"f.vtu", "Name=\"Points\" NumberOfComponents=\"3\"", "Name=\"Points\" NumberOfComponents=\"300000000\"",
        "array Points must have 37500000000 values and has "},
       {"f.vtu", "Name=\"velocity\" NumberOfComponents=\"3\"", "Name=\"velocity\" NumberOfComponents=\"2147483647\"",
        "array velocity must have 268435455875 values and has "},
-      {"f.vtu", "NumberOfTuples=\"2\"", "NumberOfTuples=\"5000000000\"", "array time must have 5000000000 values and has "},
+      {"f.vtu", "NumberOfTuples=\"2\"", "NumberOfTuples=\"5000000000\"",
+       "array time must have 5000000000 values and has "},
       {"f.vtu", "Name=\"offsets\"", "Name=\"offset\"", "promises 389 cells and has no array of their offsets"},
       {"f.vtu", "Name=\"types\"", "Name=\"type\"", "promises 389 cells and has no array of their types"},
       {"f.vtp", "NumberOfPoints=\"104\"", "NumberOfPoints=\"1000000000\"", "must have 1000000000 values and has "},
       {"f.vtp", "NumberOfPolys=\"212\"", "NumberOfPolys=\"1000000000000\"", "must have 1000000000000 values and has "},
       {"f.vtp", "NumberOfVerts=\"0\"", "NumberOfVerts=\"30000000000\"", "must have 30000000000 values and has "},
       {"f.vtp", "NumberOfStrips=\"0\"", "NumberOfStrips=\"-1\"", "is damaged: NumberOfStrips is -1"},
-      {"f.vtp", "NumberOfPolys=\"212\"", "NumberOfPolys=\"9223372036854775807\"", "must have 9223372036854775807 values"}};
+      {"f.vtp", "NumberOfPolys=\"212\"", "NumberOfPolys=\"9223372036854775807\"",
+       "must have 9223372036854775807 values"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
     for (int encoding = SHIM_ASCII; encoding <= SHIM_RAW; ++encoding) {
       assert_int_equal(shim_write_blocks(scratch_path(cases[i].name), encoding, 0, 64), 1);
@@ -171,13 +174,15 @@ static void test_sizes_of_blocks(void **state) {
       for (int compressor = 1; compressor <= 3; ++compressor)
         for (int i = 0; i < 4; ++i) {
           snprintf(text, sizeof text, "array Points %s", texts[i]);
-          expect_number_refused(encoding, compressor, bits, "Points", (size_t)(i * bits / 8), bits / 8, 268435457, text);
+          expect_number_refused(encoding, compressor, bits, "Points", (size_t)(i * bits / 8), bits / 8, 268435457,
+                                text);
         }
       expect_number_refused(encoding, 1, bits, "Points", (size_t)(bits / 8), bits / 8, 0,
                             "array Points claims compressed blocks of 0 bytes");
     }
   expect_number_refused(SHIM_RAW, 0, 64, "Points", 0, 8, UINT64_MAX, "array Points claims 18446744073709551615 bytes");
-  expect_number_refused(SHIM_RAW, 1, 64, "Points", 0, 8, UINT64_MAX, "array Points claims 18446744073709551615 compressed");
+  expect_number_refused(SHIM_RAW, 1, 64, "Points", 0, 8, UINT64_MAX,
+                        "array Points claims 18446744073709551615 compressed");
 }
 
 /* The last offset is the number of values of another array. 389 cells: 384 tetrahedra and 5 polyhedra. */
@@ -195,11 +200,11 @@ static void test_last_offsets(void **state) {
   assert_int_equal(shim_write_blocks(scratch_path("f.vtp"), SHIM_ASCII, 0, 64), 1);
   replace_text("f.vtp", "636\n", "1000000000000\n", "damaged.vtp");
   assert_int_equal(read_apart("damaged.vtp", "offsets of faces"), 0);
-  expect_refused(read_any("damaged.vtp"), RIIS_FILE_ERROR, "array connectivity must have 1000000000000 values and has at most ");
+  expect_refused(read_any("damaged.vtp"), RIIS_FILE_ERROR,
+                 "array connectivity must have 1000000000000 values and has at most ");
 }
 
-/* Damage as of a bad disk or a bad transfer: some bytes of the data get other values, mostly characters of base64, or digits of the
- * text. */
+/* Damage as of a bad disk or a bad transfer: some bytes get other values, mostly characters of base64 and digits. */
 static void damage(random_source *random, char *bytes, size_t size) {
   const int n = 1 + (int)(random_bits(random) % 3);
   for (int i = 0; i < n; ++i) {
@@ -220,8 +225,10 @@ static void test_random_damage(void **state) {
   const int n_trials = is_long_test() ? 2000 : fewer_if_sanitized(24);
   int n_read = 0, n_all = 0;
   for (int form = 0; form < 2 * 2 * 4 * 3; ++form) {
-    const int surface = form % 2, bits = form / 2 % 2 ? 64 : 32, compressor = form / 4 % 4, encoding = SHIM_BINARY + form / 16;
-    const char *const whole = surface ? "whole.vtp" : "whole.vtu", *const damaged = surface ? "damaged.vtp" : "damaged.vtu";
+    const int surface = form % 2, bits = form / 2 % 2 ? 64 : 32, compressor = form / 4 % 4,
+              encoding = SHIM_BINARY + form / 16;
+    const char *const whole = surface ? "whole.vtp" : "whole.vtu", *const damaged =
+                                                                       surface ? "damaged.vtp" : "damaged.vtu";
     char what[128];
     size_t size = 0;
     assert_int_equal(shim_write_blocks(scratch_path(whole), encoding, compressor, bits), 1);
@@ -232,7 +239,8 @@ static void test_random_damage(void **state) {
       const unsigned long long seed = random.state;
       damage(&random, copy, size);
       scratch_write(damaged, copy, size);
-      snprintf(what, sizeof what, "%s, encoding %d, compressor %d, header %d, seed %llu", damaged, encoding, compressor, bits, seed);
+      snprintf(what, sizeof what, "%s, encoding %d, compressor %d, header %d, seed %llu", damaged, encoding, compressor,
+               bits, seed);
       n_read += read_apart(damaged, what);
       ++n_all;
     }

@@ -16,8 +16,8 @@
 #include "vtk_shim.h"
 
 enum { n_side = 9, n_box = n_side * n_side * n_side };
-/* VTK's numbers of the types of cells of volume with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, pentagonal and
- * hexagonal prism, polyhedron. */
+/* VTK's numbers of the types of cells of volume with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, prisms of five
+ * and six sides, polyhedron. */
 static const int volume_types[] = {10, 11, 12, 13, 14, 15, 16, 42};
 
 static riis_vtk_mesh *read_mesh(const char *name) {
@@ -35,7 +35,8 @@ static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joine
   for (size_t t = 0; t <= n_types; ++t) {
     const int64_t n = t < n_types ? shim_read_edges(path, volume_types[t], NULL) : shim_read_curved_edges(path, NULL);
     assert_in_range(n, 0, 40000);
-    assert_int_equal(t < n_types ? shim_read_edges(path, volume_types[t], edges) : shim_read_curved_edges(path, edges), n);
+    assert_int_equal(t < n_types ? shim_read_edges(path, volume_types[t], edges) : shim_read_curved_edges(path, edges),
+                     n);
     for (int64_t i = 0; i < n; ++i) {
       const int64_t a = edges[2 * i], b = edges[2 * i + 1];
       n_pairs += 2 * !are_joined[a * n_nodes + b];
@@ -135,8 +136,8 @@ static void test_triquadratic_pyramid(void **state) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* Neighbours of: a corner of the base, the apex, the middle of a side of the base, that of a side to the apex, the middle of the
-   * base, of a triangle, of the cell. */
+  /* Neighbours of: a corner of the base, the apex, the middle of a side of the base, that of a side to the apex, the middle of
+   * the base, of a triangle, of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
@@ -339,7 +340,8 @@ static void test_voxel(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Meshes without cells of volume, or of cells whose edges are not known, have empty rows. The neighbour search still finds all nodes. */
+/* Meshes without cells of volume, or of cells whose edges are not known, have empty rows. The neighbour search still finds all
+ * nodes. */
 static void test_no_volume(void **state) {
   (void)state;
   const char *cells[] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n",
@@ -417,11 +419,18 @@ static void test_threads(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tetrahedra),         cmocka_unit_test(test_every_cell), cmocka_unit_test(test_voxel),
-      cmocka_unit_test(test_no_volume),          cmocka_unit_test(test_threads),    cmocka_unit_test(test_long_edges),
-      cmocka_unit_test(test_long_edges_refused), cmocka_unit_test(test_curved_cells), cmocka_unit_test(test_triquadratic_pyramid),
+      cmocka_unit_test(test_tetrahedra),
+      cmocka_unit_test(test_every_cell),
+      cmocka_unit_test(test_voxel),
+      cmocka_unit_test(test_no_volume),
+      cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_long_edges),
+      cmocka_unit_test(test_long_edges_refused),
+      cmocka_unit_test(test_curved_cells),
+      cmocka_unit_test(test_triquadratic_pyramid),
       cmocka_unit_test(test_polyhedra),
-      cmocka_unit_test(test_quadratic_tetrahedra), cmocka_unit_test(test_unknown_cells),
+      cmocka_unit_test(test_quadratic_tetrahedra),
+      cmocka_unit_test(test_unknown_cells),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

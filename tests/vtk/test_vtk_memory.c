@@ -103,11 +103,11 @@ static void the_components_memory_runs_out(void **state) {
         n_injected += n_failed;
         if (n_failed > 0) {
           const char *const text = riis_last_error(), *const end = strstr(text, "out of memory");
-          n_named += strstr(text, scenarios[i].file) != NULL && end && end > text && strcmp(end - 2, ": out of memory") == 0;
+          n_named +=
+              strstr(text, scenarios[i].file) != NULL && end && end > text && strcmp(end - 2, ": out of memory") == 0;
           if (status != RIIS_OUT_OF_MEMORY || !end || strlen(end) != 13)
             fail_msg("%s, allocation %d: %s (%s)", name, (int)n, riis_status_name(status), riis_last_error());
-          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before ||
-              motion != motion_before)
+          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before || motion != motion_before)
             fail_msg("%s, allocation %d: a handle was written", name, (int)n);
           if (scratch_n_files() != n_files) fail_msg("%s, allocation %d: leaves a file", name, (int)n);
           expect_fine(scenarios[i].call());

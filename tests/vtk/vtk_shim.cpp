@@ -222,7 +222,9 @@ int shim_write_blocks(const char *path, int encoding, int compressor, int header
     writer->SetInputData(grid);
   }
   writer->SetFileName(path);
-  writer->SetDataMode(encoding == SHIM_ASCII ? vtkXMLWriter::Ascii : encoding == SHIM_BINARY ? vtkXMLWriter::Binary : vtkXMLWriter::Appended);
+  writer->SetDataMode(encoding == SHIM_ASCII    ? vtkXMLWriter::Ascii
+                      : encoding == SHIM_BINARY ? vtkXMLWriter::Binary
+                                                : vtkXMLWriter::Appended);
   writer->SetEncodeAppendedData(encoding != SHIM_RAW);
   writer->SetCompressorType(compressor);
   writer->SetBlockSize(1024);
