@@ -177,6 +177,13 @@ class Steps {
   std::exception_ptr failure_;
 };
 
+// Returns a value as an id. Those that no file can hold become -1 or a large one.
+vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
+  constexpr double most = 1e15;
+  const double value = array->GetTuple1(i);
+  return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
+}
+
 // Makes public what VTK's XML readers know about their own failure, and refuses an array before VTK reads it where the file holds
 // less than VTK would read.
 template <class Reader>
@@ -184,11 +191,16 @@ class WatchedReader : public Reader {
  public:
   static WatchedReader *New() { VTK_STANDARD_NEW_BODY(WatchedReader); }
 
-  void read(const std::string &path) {
+  enum class Data { all, without_arrays };
+  void read(const std::string &path, Data wanted) {
     path_ = path;
     sizes_.emplace(path_);
     this->SetFileName(path.c_str());
     this->UpdateInformation();
+    if (wanted == Data::without_arrays) {
+      this->GetPointDataArraySelection()->DisableAllArrays();
+      this->GetCellDataArraySelection()->DisableAllArrays();
+    }
     if (!this->InformationError) steps_.run([&] { sizes_->check_pieces(this->XMLParser); });
     if (!steps_.have_failed()) this->Update();
     steps_.rethrow();
@@ -226,7 +238,7 @@ class WatchedReader : public Reader {
     if (name == "offsets") check_length("connectivity", element, array, array->GetNumberOfTuples() - 1);
     if (name == "faceoffsets") {
       face_ends_.assign(static_cast<std::size_t>(n), -1);
-      for (vtkIdType i = 0; i < n; ++i) view(face_ends_)[i] = static_cast<vtkIdType>(array->GetTuple1(i));
+      for (vtkIdType i = 0; i < n; ++i) view(face_ends_)[i] = id_at(array, i);
       for (vtkIdType i = n; i-- > 0;)
         if (view(face_ends_)[i] > -1) return check_length("faces", element, array, i);
     }
@@ -237,7 +249,7 @@ class WatchedReader : public Reader {
     vtkXMLDataElement *next = this->FindDataArrayWithName(offsets->GetParent(), name);
     if (!next) return;
     const auto values = vtkSmartPointer<vtkAbstractArray>::Take(this->CreateArray(next));
-    if (values) check_held(next, static_cast<vtkIdType>(array->GetTuple1(last)), values);
+    if (values) check_held(next, id_at(array, last), values);
   }
 
   // VTK follows the faces of polyhedra unchecked while it reads them.
@@ -247,7 +259,7 @@ class WatchedReader : public Reader {
       if (view(face_ends_)[cell] < 0) continue;
       const auto next = [&] {
         if (at >= n) fail_faces(path_, cell);
-        return static_cast<vtkIdType>(faces->GetTuple1(at++));
+        return id_at(faces, at++);
       };
       for (vtkIdType n_left = next(); n_left > 0; --n_left) {
         const vtkIdType n_corners = next();
@@ -326,7 +338,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
       fail_file(path(), std::string("is damaged: array ") + name + " cannot be read");
     }
     Ids ids(static_cast<std::size_t>(n));
-    for (vtkIdType i = 0; i < n; ++i) view(ids)[i] = static_cast<vtkIdType>(array->GetTuple1(i));
+    for (vtkIdType i = 0; i < n; ++i) view(ids)[i] = id_at(array, i);
     return ids;
   }
 
@@ -340,29 +352,25 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
 
 // VTK 9.1 crashes while it writes the message about an array that it cannot read. So the first reader runs with messages off. A
 // second reader, which leaves the arrays out, then names the fault of the rest.
-template <class Reader>
+template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  reader->UpdateInformation();
-  reader->GetPointDataArraySelection()->DisableAllArrays();
-  reader->GetCellDataArraySelection()->DisableAllArrays();
-  reader->Update();
+  vtkNew<Watched> reader;
+  reader->read(path, Watched::Data::without_arrays);
   caught.check(path);
   fail_file(path, "is damaged: not all of its arrays can be read");
 }
 
 // Runs a watched XML reader and compares its data set with the sizes that the file promised.
-template <class Watched, class Reader, class DataSet>
+template <class Watched, class DataSet>
 vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
   vtkObject::SetGlobalWarningDisplay(0);
-  reader->read(path);
+  reader->read(path, Watched::Data::all);
   vtkObject::SetGlobalWarningDisplay(1);
   vtkSmartPointer<DataSet> data = reader->GetOutput();
   if (reader->has_failed() || !data || data->GetNumberOfPoints() != reader->GetNumberOfPoints() ||
       data->GetNumberOfCells() != reader->GetNumberOfCells()) {
-    explain_failure<Reader>(path, caught);
+    explain_failure<Watched>(path, caught);
   }
   return data;
 }
@@ -397,7 +405,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   if (ending == "vtu") {
     check_xml(path, "UnstructuredGrid");
-    grid = read_xml<GridReader, vtkXMLUnstructuredGridReader, vtkUnstructuredGrid>(path, caught);
+    grid = read_xml<GridReader, vtkUnstructuredGrid>(path, caught);
   } else if (ending == "vtk") {
     grid = read_legacy(path, caught);
   } else {
@@ -409,8 +417,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
 
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught) {
   check_xml(path, "PolyData");
-  vtkSmartPointer<vtkPolyData> data =
-      read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkXMLPolyDataReader, vtkPolyData>(path, caught);
+  vtkSmartPointer<vtkPolyData> data = read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkPolyData>(path, caught);
   check_data_set(path, data);
   if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
     fail_file(path, "holds " + std::to_string(data->GetNumberOfVerts()) + " vertices and " +

@@ -75,10 +75,12 @@ static void test_promised_numbers(void **state) {
        "array pressure must have 1000000000 values and has "},
       {"f.vtu", "NumberOfPoints=\"125\"", "NumberOfPoints=\"-125\"", "is damaged: NumberOfPoints is -125"},
       {"f.vtu", "NumberOfCells=\"389\"", "NumberOfCells=\"100000000000\"", "must have 100000000000 values and has "},
-      {"f.vtu", "Name=\"Points\" NumberOfComponents=\"3\"", "Name=\"Points\" NumberOfComponents=\"300000000\"",
-       "array Points must have 37500000000 values and has "},
+      {"f.vtu", "Name=\"Points\" NumberOfComponents=\"3\"", "Name=\"Points\" NumberOfComponents=\"3000\"",
+       "array Points must have 375000 values and has "},
+      {"f.vtu", "Name=\"time\"", "Name=\"time\" NumberOfComponents=\"2147483647\"",
+       "has an array of 2147483647 components, more than it has bits"},
       {"f.vtu", "Name=\"velocity\" NumberOfComponents=\"3\"", "Name=\"velocity\" NumberOfComponents=\"2147483647\"",
-       "array velocity must have 268435455875 values and has "},
+       "has an array of 2147483647 components, more than it has bits"},
       {"f.vtu", "NumberOfTuples=\"2\"", "NumberOfTuples=\"5000000000\"",
        "array time must have 5000000000 values and has "},
       {"f.vtu", "Name=\"offsets\"", "Name=\"offset\"", "promises 389 cells and has no array of their offsets"},
@@ -222,7 +224,7 @@ static void damage(random_source *random, char *bytes, size_t size) {
 static void test_random_damage(void **state) {
   (void)state;
   random_source random = random_start("test_damaged_xml");
-  const int n_trials = is_long_test() ? 2000 : fewer_if_sanitized(24);
+  const int n_trials = is_long_test() ? 2000 : fewer_if_sanitized(9);
   int n_read = 0, n_all = 0;
   for (int form = 0; form < 2 * 2 * 4 * 3; ++form) {
     const int surface = form % 2, bits = form / 2 % 2 ? 64 : 32, compressor = form / 4 % 4,
