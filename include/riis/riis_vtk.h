@@ -7,8 +7,10 @@
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print while a function runs are caught and become the message of the error.
- * - Files that are cut short or of another kind are refused. VTK's own readers can still crash on a .vtu
- *   whose bytes were damaged: read files that you do not trust in a process that you can lose.
+ * - Files that are cut short or of another kind are refused, and files that claim more points, cells, values
+ *   or bytes than they hold. VTK's own readers can still crash on a .vtu whose bytes were damaged: read files
+ *   that you do not trust in a process that you can lose.
+ * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - A path that cannot be read or written is RIIS_FILE_ERROR naming the file.
  * - A written file is complete or not there: it is written beside its place and then moved. It takes the
  *   permissions of a file that it replaces. If the path is a link, its target is written and the link stays.
@@ -33,6 +35,7 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
 
 /* Reads an unstructured grid; it may have no cells.
  *   path  ends in .vtu (XML) or .vtk (legacy). A legacy file without cells must have CELLS 0 0, CELL_TYPES 0
+ * Polyhedra may have their faces in streams, or in lists as VTK 9.4 writes them.
  * Errors: RIIS_FILE_ERROR naming the file: missing, unreadable, another data set, truncated, no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Destroys the mesh. */
@@ -43,11 +46,23 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                          const double **xyz);
 
-/* Makes the adjacency of nodes that an edge of a tetrahedron, pyramid, wedge, hexahedron or voxel joins, for
- * riis_mesh_set_adjacency. It borrows nothing from the mesh. Nodes that belong only to other cells get empty
- * rows: RIIS_SEARCH_NEIGHBOR still finds them, RIIS_SEARCH_PAPER does not. */
+/* Makes the adjacency of nodes that an edge of a cell of volume joins, for riis_mesh_set_adjacency. It borrows
+ * nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds them,
+ * RIIS_SEARCH_PAPER does not.
+ * - A linear cell, a prism of more sides and a polyhedron have the edges of their faces.
+ * - A quadratic cell has edges from each corner to the middle of each of its sides, and between the middles of
+ *   neighbouring sides of a face. If the face has a node in its middle, that node has edges to the others
+ *   instead.
+ * - A tetrahedron, wedge or hexahedron by Lagrange or Bezier has edges along the lines of its lattice.
+ * The edges of other cells of volume are not known here: convex point sets, and lattices with further nodes. */
 RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                              riis_adjacency **adjacency);
+/* Counts the cells of volume. A mesh without them, such as one of triangles, has no edge that leaks, and says
+ * nothing about leaks.
+ *   n_volume_cells    NULL if not wanted
+ *   n_cells_left_out  of these the cells whose edges are not known here, NULL if not wanted */
+RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
+                                                int64_t *n_cells_left_out);
 
 /* Makes only the edges of that adjacency that riis_find_leaks needs, in one pass over the cells: those longer
  * than a length whose bounding box meets that of the surface. It borrows nothing. Use it for riis_find_leaks
@@ -55,8 +70,7 @@ RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t 
  *   longer_than       twice the half thickness of the marking; 0, for all edges near the surface, if it was
  *                     by RIIS_SEARCH_PAPER or by other distances than the triangles'. Edges up to a billionth
  *                     shorter count also
- *   n_cells_left_out  the number of cells of volume whose edges are not known here: polyhedra, prisms of more
- *                     sides, cells of higher order; NULL if not wanted
+ *   n_cells_left_out  as in riis_vtk_mesh_volume_cells
  * Errors: RIIS_INVALID_ARGUMENT for longer_than below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
                                               double longer_than, int32_t n_threads,
@@ -91,9 +105,9 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
                                                    int64_t n_components, const double *values);
 /* Tells whether the mesh has a point array of that name: *has is 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the edges of linear cells (triangle, quad, pixel, tetrahedron, pyramid, wedge,
- * hexahedron, voxel), 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells,
- * evenly spaced in their order, are measured. */
+/* Gives the median length of the edges of cells of volume, as of riis_vtk_mesh_adjacency, and of faces but
+ * polygons; 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells, evenly spaced
+ * in their order, are measured. */
 RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Makes a mesh of some nodes and of all cells that have one of them, with the cells' other nodes. Nodes and

@@ -35,7 +35,7 @@ bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
 void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vtk_picture_options &how) {
   static constexpr int64_t none = 0;
   check(riis_mark_result_leaking_edges(result, &how.n_leaking_edges, &how.leaking_edges, nullptr, nullptr));
-  if (how.n_leaking_edges == 0 && leaks.n_cells_left_out == 0) how.leaking_edges = &none;
+  if (how.n_leaking_edges == 0 && leaks.has_all_edges()) how.leaking_edges = &none;
 }
 
 }  // namespace

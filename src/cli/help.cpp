@@ -89,7 +89,8 @@ Cases
 
 Leaks
   The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
-  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. It does not
+  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Leaks are unknown in a
+  mesh without volume cells, and at cells whose edges are not known, such as convex point sets. It does not
   find gaps between leaflets, nor ways round the valve. --check-leaks FROM TO does: two points, one on either side, each as
   X,Y,Z in the mesh. The program says whether unmarked nodes join them, where the widest passage is, and which half thickness
   closes it. Take points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z].

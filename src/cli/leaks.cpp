@@ -108,10 +108,14 @@ void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &re
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
   leaks.found = leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
+  check(riis_vtk_mesh_volume_cells(marked.file, &leaks.n_volume_cells, nullptr));
   if (leaks.found.n_edges > 0 && !options.check_leaks) {
     if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
     warn_of_leaks(options, leaks, marked.surface_name, half_thickness);
   }
+  if (!options.check_leaks && !leaks.has_all_edges())
+    warn((leaks.found.n_edges > 0 ? "more leaks of " : "leaks of ") + marked.surface_name +
+         " are unknown: " + why_unknown(leaks, options.mesh));
   report.seconds.leaks = stage.seconds();
 }
 

@@ -38,8 +38,8 @@ class JoinedNodes {
   JoinedNodes(const JoinedNodes &) = delete;
   JoinedNodes &operator=(const JoinedNodes &) = delete;
 
-  // Returns the nearest node that has a neighbour. name is FROM or TO.
-  int64_t nearest(const Options &options, const char *name, const double *point) const {
+  // Returns the nearest node that has a neighbour. name is FROM or TO. why_none says why no node may have one.
+  int64_t nearest(const Options &options, const char *name, const double *point, const std::string &why_none) const {
     const LeakCheck &asked = *options.check_leaks;
     const auto refuse = [&](const std::string &why) {
       throw Refusal{asked.exit_code, asked.subject + ": " + name + ", " + text_of(point) + ", " + why};
@@ -56,7 +56,8 @@ class JoinedNodes {
       const double away = distance_between(p, point);
       if (found < 0 || away < least) found = i, least = away;
     }
-    if (found < 0) refuse("has no node near it: no edge joins two nodes of the mesh");
+    if (found < 0)
+      refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
     for (int k = 0; k < 3; ++k)
       if (point[k] < lower[k] || point[k] > upper[k])
         refuse("is outside the mesh, which goes from " + place_text(options, lower, longest_edge(found)) + " to " +
@@ -135,10 +136,14 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
 }
 
 // Not even --quiet silences this: the valve does not hold.
-void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface) {
+void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
+                     const std::string &unknown) {
   const std::string ends = text_of(asked.from) + " and " + text_of(asked.to);
   const riis_passage &found = report.found;
-  if (found.state == RIIS_PASSAGE_NONE) warn("nothing to seal: the mesh itself does not join " + ends);
+  if (report.is_unknown)
+    warn("whether unmarked nodes join " + ends + " is unknown: " + unknown);
+  else if (found.state == RIIS_PASSAGE_NONE)
+    warn("nothing to seal: the mesh itself does not join " + ends);
   if (found.state != RIIS_PASSAGE_OPEN) return;
   const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is at ";
   if (report.is_end)
@@ -168,16 +173,21 @@ void check_passage(const Options &options, const MarkedMesh &marked, Report &rep
   const Stage stage("looking for a passage", options.quiet);
   const LeakCheck &asked = *options.check_leaks;
   const JoinedNodes nodes(marked, options.mark_options.n_threads);
-  const Ends ends{nodes.nearest(options, "FROM", asked.from), nodes.nearest(options, "TO", asked.to)};
+  LeakReport &leaks = report.leaks;
+  check(riis_vtk_mesh_volume_cells(marked.file, &leaks.n_volume_cells, &leaks.n_cells_left_out));
+  const std::string unknown = why_unknown(leaks, options.mesh);
+  const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
   PassageReport passage;
   passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
+  // A path along known edges is a path, whatever the others are.
+  passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
-  if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end)
+  if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
     passage.closing_half_thickness = closing_half_thickness(options, marked, passage.found, ends);
   if (passage.found.node_id >= 0)
     passage.place = place_text(options, passage.found.point, nodes.longest_edge(passage.found.node_id));
-  warn_of_passage(asked, passage, marked.surface_name);
-  report.leaks.passage = passage;
+  warn_of_passage(asked, passage, marked.surface_name, unknown);
+  leaks.passage = passage;
   report.seconds.leaks += stage.seconds();
 }
 

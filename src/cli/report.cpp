@@ -60,14 +60,15 @@ void add_marks(const Report &report, std::ostringstream &out) {
 }
 
 void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
+  const std::string unknown = why_unknown(leaks, "the mesh");
   out << "leaks     ";
-  if (leaks.found.n_edges == 0)
+  if (leaks.found.n_edges > 0)
+    out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
+        << leaks.found.longest_length << (unknown.empty() ? "" : "; more are unknown: ") << unknown;
+  else if (unknown.empty())
     out << "none: no edge crosses the surface between unmarked nodes";
   else
-    out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
-        << leaks.found.longest_length;
-  if (leaks.n_cells_left_out > 0)
-    out << "; unknown for " << counted(leaks.n_cells_left_out, "cell") << " of kinds whose edges riis does not know";
+    out << "unknown: " << unknown;
   out << "\n";
 }
 
@@ -90,7 +91,7 @@ const char *state_name(int32_t state) {
 
 nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
   const riis_passage &found = passage.found;
-  return {{"state", state_name(found.state)},
+  return {{"state", passage.is_unknown ? "unknown" : state_name(found.state)},
           {"node_id", found.node_id},
           {"distance", found.distance},
           {"point", found.point},
@@ -130,11 +131,18 @@ std::string surface_title(const Report &report) {
   return out.str();
 }
 
+std::string why_unknown(const LeakReport &leaks, const std::string &mesh) {
+  if (leaks.has_all_edges()) return "";
+  if (leaks.n_volume_cells == 0) return mesh + " has no volume cells";
+  return "riis does not know the edges of " + grouped(leaks.n_cells_left_out) + " of " +
+         counted(leaks.n_volume_cells, "volume cell") + " in " + mesh;
+}
+
 std::string line_of_passage(const LeakReport &leaks) {
   if (!leaks.passage) return "";
   const riis_passage &found = leaks.passage->found;
   std::ostringstream out = table_stream();
-  out << "passage   ";
+  out << "passage   " << (leaks.passage->is_unknown ? "unknown; along the known edges " : "");
   if (found.state == RIIS_PASSAGE_NONE)
     out << "none: the mesh itself does not join the two points";
   else
@@ -147,6 +155,11 @@ std::string line_of_passage(const LeakReport &leaks) {
 std::string json_of(const Report &report) {
   const riis_mark_stats &marks = report.marks;
   const Seconds &seconds = report.seconds;
+  const riis_leaks &leaks = report.leaks.found;
+  const bool are_unknown = leaks.n_edges == 0 && !report.leaks.has_all_edges();
+  const auto if_known = [&](const nlohmann::ordered_json &value) {
+    return are_unknown ? nlohmann::ordered_json() : value;
+  };
   nlohmann::ordered_json json = {{"version", riis_version_string()}};
   json[report.opening ? "valve" : "surface"] = report.surface_name;
   if (report.opening) json["opening"] = *report.opening;
@@ -166,12 +179,13 @@ std::string json_of(const Report &report) {
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
                {"n_unreached", marks.n_unreached},
-               {"n_leaking_edges", report.leaks.found.n_edges},
-               {"longest_leaking_edge", report.leaks.found.longest_length},
-               {"longest_leaking_edge_middle", report.leaks.found.longest_middle},
+               {"n_leaking_edges", if_known(leaks.n_edges)},
+               {"longest_leaking_edge", if_known(leaks.longest_length)},
+               {"longest_leaking_edge_middle", if_known(leaks.longest_middle)},
                {"closing_half_thickness", report.leaks.closing_half_thickness > 0
                                               ? nlohmann::ordered_json(report.leaks.closing_half_thickness)
                                               : nlohmann::ordered_json()},
+               {"n_volume_cells", report.leaks.n_volume_cells},
                {"n_cells_without_known_edges", report.leaks.n_cells_left_out},
                {"seconds",
                 {{"read", seconds.read},

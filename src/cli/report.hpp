@@ -29,13 +29,17 @@ struct PassageReport {
   bool is_end = false;                // the place is the node of a point: the passage may be wider
   double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
   std::string place{};                // the point, in text
+  bool is_unknown = false;            // not open along the edges that are known
 };
 
 struct LeakReport {
   riis_leaks found{};
-  double closing_half_thickness = 0;     // for the user to type; 0: none
+  double closing_half_thickness = 0;  // for the user to type; 0: none
+  int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;          // cells of volume whose edges are not known
   std::optional<PassageReport> passage;  // if two points are checked
+
+  bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
 struct CrossingReport {
@@ -67,6 +71,8 @@ std::string grouped(int64_t n);
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);
+// Says why leaks are unknown, such as "MESH has no volume cells"; "" if all edges of the mesh are known.
+std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
 // A line of the table; "" if no points were checked.
 std::string line_of_passage(const LeakReport &leaks);
 std::string json_of(const Report &report);

@@ -63,8 +63,11 @@ riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::
 }
 
 riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) {
+  const VolumeCounts counts = count_volumes(grid);
+  if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
+    return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
+  // Lists of cells are a third of the lists of their edges.
   const VolumeCells volumes = volume_cells_of(grid);
-  if (volumes.node_ids.empty()) return adjacency_of_edges(grid->GetNumberOfPoints(), {}, n_threads);
   riis_cells cells;
   check_core(riis_cells_init(&cells, sizeof cells));
   cells.n_nodes = grid->GetNumberOfPoints();
@@ -98,10 +101,12 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
   return guarded([&](const CaughtOutput &caught) {
     require(path, "path");
     require(mesh, "mesh");
-    auto made = std::make_unique<riis_vtk_mesh>();
-    made->grid = read_grid(path, caught);
-    make_points_double(made->grid);
-    *mesh = made.release();
+    naming(path, [&] {
+      auto made = std::make_unique<riis_vtk_mesh>();
+      made->grid = read_grid(path, caught);
+      make_points_double(made->grid);
+      *mesh = made.release();
+    });
   });
 }
 
@@ -139,9 +144,18 @@ RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const r
     require(adjacency, "adjacency");
     riis_surface_info info;
     check_core(riis_surface_get_info(surface, &info, sizeof info));
-    const LongEdges edges = long_edges_of(grid, points_of(grid), longer_than, info.lower, info.upper);
+    const VolumeEdges edges = long_edges_of(grid, points_of(grid), longer_than, info.lower, info.upper);
     *adjacency = adjacency_of_edges(grid->GetNumberOfPoints(), edges.node_ids, n_threads);
     if (n_cells_left_out) *n_cells_left_out = edges.n_cells_left_out;
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
+                                                int64_t *n_cells_left_out) {
+  return guarded([&](const CaughtOutput &) {
+    const VolumeCounts counts = count_volumes(require(mesh, "mesh")->grid);
+    if (n_volume_cells) *n_volume_cells = counts.n_volumes;
+    if (n_cells_left_out) *n_cells_left_out = counts.n_unknown;
   });
 }
 
@@ -192,7 +206,8 @@ RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path) {
   return guarded([&](const CaughtOutput &caught) {
     require(mesh, "mesh");
-    write_xml<vtkXMLUnstructuredGridWriter>(require(path, "path"), "vtu", mesh->grid, caught);
+    require(path, "path");
+    naming(path, [&] { write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught); });
   });
 }
 

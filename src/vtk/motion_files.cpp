@@ -64,9 +64,8 @@ RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaf
   return guarded([&](const CaughtOutput &caught) {
     require(path, "path");
     require(motion, "motion");
-    Collection collection = read_collection(path, caught);
-    Frames frames =
-        frames_of_files(collection.paths, std::move(collection.times), leaflet_array_of(leaflets), caught);
+    Collection collection = naming(path, [&] { return read_collection(path, caught); });
+    Frames frames = frames_of_files(collection.paths, std::move(collection.times), leaflet_array_of(leaflets), caught);
     *motion = motion_of(std::move(frames), std::move(collection.paths));
   });
 }
@@ -94,13 +93,15 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
     require(motion, "motion");
     const bool in_file = n_times == 0 && !times;
     const std::vector<double> given = in_file ? std::vector<double>{} : checked_times("n_times", n_times, times);
-    *motion = motion_of(
-        frames_of_displacements(path, prefix, in_file ? nullptr : &given, leaflet_array_of(leaflets), caught), {path});
+    *motion = naming(path, [&] {
+      return motion_of(
+          frames_of_displacements(path, prefix, in_file ? nullptr : &given, leaflet_array_of(leaflets), caught),
+          {path});
+    });
   });
 }
 
-RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files,
-                                           const char *const **paths) {
+RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files, const char *const **paths) {
   return guarded([&](const CaughtOutput &) {
     require(motion, "motion");
     if (n_files) *n_files = riis::view(motion->paths).size();

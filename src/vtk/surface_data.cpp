@@ -13,11 +13,13 @@
 namespace riis::vtk {
 
 vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught) {
-  const std::string ending = ending_of(path);
-  if (ending == "vtp") return read_polydata(path, caught);
-  if (ending == "vtu") return read_grid(path, caught);
-  if (ending == "stl") return read_stl(path, caught);
-  fail_file(path, "a surface must be a .vtp, .vtu or .stl file");
+  return naming(path, [&]() -> vtkSmartPointer<vtkPointSet> {
+    const std::string ending = ending_of(path);
+    if (ending == "vtp") return read_polydata(path, caught);
+    if (ending == "vtu") return read_grid(path, caught);
+    if (ending == "stl") return read_stl(path, caught);
+    fail_file(path, "a surface must be a .vtp, .vtu or .stl file");
+  });
 }
 
 void point_at(const Faces &faces, const char *name, riis_surface_arrays *arrays) {

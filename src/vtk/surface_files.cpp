@@ -18,6 +18,21 @@ struct riis_vtk_surface {
   riis::vtk::Faces faces;
 };
 
+namespace riis::vtk {
+namespace {
+
+void read_faces(const char *path, const char *leaflets, bool are_required, const CaughtOutput &caught,
+                riis_vtk_surface **surface) {
+  naming(path, [&] {
+    auto made = std::make_unique<riis_vtk_surface>();
+    made->faces = faces_of(path, read_surface_data(path, caught), leaflets, are_required);
+    *surface = made.release();
+  });
+}
+
+}  // namespace
+}  // namespace riis::vtk
+
 using namespace riis::vtk;
 
 extern "C" {
@@ -26,9 +41,7 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **
   return guarded([&](const CaughtOutput &caught) {
     require(path, "path");
     require(surface, "surface");
-    auto made = std::make_unique<riis_vtk_surface>();
-    made->faces = faces_of(path, read_surface_data(path, caught), leaflet_array, false);
-    *surface = made.release();
+    read_faces(path, leaflet_array, false, caught, surface);
   });
 }
 
@@ -38,9 +51,7 @@ RIIS_API riis_status riis_vtk_surface_read_with_leaflets(const char *path, const
     require(path, "path");
     require(leaflets, "leaflets");
     require(surface, "surface");
-    auto made = std::make_unique<riis_vtk_surface>();
-    made->faces = faces_of(path, read_surface_data(path, caught), leaflets, true);
-    *surface = made.release();
+    read_faces(path, leaflets, true, caught, surface);
   });
 }
 
@@ -68,7 +79,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
   return guarded([&](const CaughtOutput &caught) {
     require(surface, "surface");
     require(path, "path");
-    write_xml<vtkXMLPolyDataWriter>(path, "vtp", polydata_of(surface), caught);
+    naming(path, [&] { write_xml<vtkXMLPolyDataWriter>(path, "vtp", polydata_of(surface), caught); });
   });
 }
 

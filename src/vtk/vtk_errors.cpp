@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtk/vtk_errors.hpp"
 
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <utility>
@@ -36,12 +37,16 @@ std::string message_of(const std::string &vtk_text) {
 }
 
 // Makes a text fit for a message, which is one line. A path may hold any byte.
+char printable(char c) { return static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c; }
 std::string printable(std::string text) {
-  for (char &c : text) {
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
-  }
+  for (char &c : text) c = printable(c);
   return text;
 }
+
+// Memory that ran out at a file. The text is in the exception, because there may be no memory for it.
+struct OutOfMemory {
+  char text[longest_path + 32];
+};
 
 }  // namespace
 
@@ -50,6 +55,15 @@ void fail(riis_status status, std::string text) { throw Failure{status, printabl
 void fail_file(const std::string &path, const std::string &reason) {
   const bool fits = path.size() <= longest_path;
   fail(RIIS_FILE_ERROR, (fits ? path : "..." + path.substr(path.size() - longest_path)) + ": " + reason);
+}
+
+void fail_memory(const std::string &path) {
+  const std::size_t n_left_out = path.size() <= longest_path ? 0 : path.size() - longest_path;
+  OutOfMemory failure;
+  std::snprintf(failure.text, sizeof failure.text, "%s%s: out of memory", n_left_out == 0 ? "" : "...",
+                path.c_str() + n_left_out);
+  for (char *c = failure.text; *c; ++c) *c = printable(*c);
+  throw failure;
 }
 
 void check_core(riis_status status) {
@@ -109,6 +123,8 @@ riis_status record_current_exception() noexcept {
     throw;
   } catch (const Failure &failure) {
     return riis_component_error(failure.status, failure.text.c_str());
+  } catch (const OutOfMemory &failure) {
+    return riis_component_error(RIIS_OUT_OF_MEMORY, failure.text);
   } catch (const std::bad_alloc &) {
     return riis_component_error(RIIS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &exception) {

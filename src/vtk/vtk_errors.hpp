@@ -6,6 +6,7 @@
 #include <riis/riis.h>
 
 #include <cstdint>
+#include <new>
 #include <string>
 
 #include <vtkSmartPointer.h>
@@ -25,6 +26,17 @@ struct Failure {
 [[noreturn]] void fail(riis_status status, std::string text);
 // Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path too long for the message loses its beginning, not the reason.
 [[noreturn]] void fail_file(const std::string &path, const std::string &reason);
+// Throws that memory ran out at the file, with the message "PATH: out of memory". It takes no memory itself.
+[[noreturn]] void fail_memory(const std::string &path);
+// Does what reads or writes the file, which is named if memory runs out.
+template <class Work>
+auto naming(const std::string &path, const Work &work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc &) {
+    fail_memory(path);
+  }
+}
 // Passes on an error of the core, with the core's message.
 void check_core(riis_status status);
 // Fails unless a struct has the size of some release: first_size is that of the first release that had it, size_here that of this

@@ -2,9 +2,12 @@
 #include "vtk/xml_scan.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <set>
 #include <string_view>
 
+#include "base/array_view.hpp"
 #include "vtk/files.hpp"
 #include "vtk/text.hpp"
 #include "vtk/vtk_errors.hpp"
@@ -12,9 +15,9 @@
 namespace riis::vtk {
 namespace {
 
-// A start tag: the element's name and the value of its attribute "type", or "" if it lacks one.
+// A start tag: the element's name and the values of its attributes "type" and "NumberOfComponents", or "" if it lacks one.
 struct Tag {
-  std::string_view name, type;
+  std::string_view name, type, n_components;
 };
 
 // Walks the start tags of an XML text and passes over comments, instructions and end tags. In an attribute's value, '>' does not
@@ -33,7 +36,7 @@ class Tags {
         continue;
       }
       rest_.remove_prefix(1);
-      tag = {take_until(" \t\r\n/>"), ""};
+      tag = {take_until(" \t\r\n/>"), "", ""};
       if (!tag.name.empty() && tag.name[0] != '?' && tag.name[0] != '!') break;
     }
     while (const char quote = next_attribute()) {
@@ -42,6 +45,7 @@ class Tags {
       const std::string_view value = take_until(std::string_view(&quote, 1));
       rest_.remove_prefix(std::min<std::size_t>(1, rest_.size()));
       if (name == "type") tag.type = value;
+      if (name == "NumberOfComponents") tag.n_components = value;
     }
     return true;
   }
@@ -68,7 +72,16 @@ class Tags {
   std::string_view attribute_;
 };
 
-void check_array_types(const std::string &path, std::string_view text) {
+// VTK looks for a name of each component, even before it knows where the array is.
+void check_components(const std::string &path, std::string_view text, std::string_view given) {
+  const std::string_view number = take_word(given);
+  std::int64_t n = 0;
+  std::from_chars(number.data(), number.data() + number.size(), n);
+  if (n > 8 * view(text).size())
+    fail_file(path, "has an array of " + std::string(number) + " components, more than it has bits");
+}
+
+void check_arrays(const std::string &path, std::string_view text) {
   static const std::set<std::string_view> known = {"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32",  "UInt32",
                                                    "Int64", "UInt64", "Float32", "Float64", "String", "Bit"};
   Tag tag;
@@ -77,6 +90,7 @@ void check_array_types(const std::string &path, std::string_view text) {
     if (is_array && known.count(tag.type) == 0) {
       fail_file(path, "has an array of the unknown type '" + std::string(tag.type.substr(0, 40)) + "'");
     }
+    if (is_array) check_components(path, text, tag.n_components);
   }
 }
 
@@ -101,7 +115,7 @@ void check_xml(const std::string &path, const std::string &wanted_type) {
       std::string_view::npos) {
     fail_file(path, "is truncated: </VTKFile> is missing");
   }
-  check_array_types(path, bytes);
+  check_arrays(path, bytes);
 }
 
 }  // namespace riis::vtk

@@ -503,6 +503,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
   SIGNATURE(riis_vtk_mesh_long_edges, int32_t,
             (const riis_vtk_mesh *, const riis_surface *, double, int32_t, int64_t *, riis_adjacency **));
+  SIGNATURE(riis_vtk_mesh_volume_cells, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *));
   SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
   SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
   SIGNATURE(riis_vtk_mesh_set_point_array, int32_t, (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));

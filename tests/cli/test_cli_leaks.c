@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "expect.h"
+#include "plain_mesh.h"
 #include "program.h"
 #include "scratch.h"
 #include "vtk_shim.h"
@@ -228,17 +229,150 @@ static void test_places(void **state) {
   }
 }
 
-/* There is no warning for cells whose edges are not known. */
+/* A box around the closed mitral valve whose edges leak. */
+static plain_mesh box_of_mitral(int n) {
+  riis_surface *surface = make_surface("mitral", 0.1);
+  riis_surface_info info;
+  double lower[3], upper[3];
+  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+  riis_surface_destroy(&surface);
+  for (int i = 0; i < 3; ++i) lower[i] = info.lower[i] - 0.33, upper[i] = info.upper[i] + 0.37;
+  return plain_hexahedra(n, lower, upper);
+}
+
+static riis_leaks leaks_of_mitral(const char *name) {
+  riis_surface *surface = make_surface("mitral", 0.1);
+  const riis_leaks leaks = leaks_by_c(name, surface);
+  riis_surface_destroy(&surface);
+  return leaks;
+}
+
+/* Quadratic cells leak where the linear cells leak that their nodes cut them into. These have one edge more inside each. */
+static void test_quadratic_cells(void **state) {
+  (void)state;
+  plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
+             cut = plain_cut(&quadratic, 8), corners = plain_cut(&quadratic, 4);
+  plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
+  plain_write("cut.vtu", &cut, PLAIN_CELLS, 1);
+  plain_write("corners.vtu", &corners, PLAIN_CELLS, 1);
+  const riis_leaks all = leaks_of_mitral("cut.vtu"), expected = leaks_of_mitral("corners.vtu");
+  assert_true(expected.n_edges > 20 && expected.n_edges <= all.n_edges);
+  assert_true(all.n_edges < expected.n_edges + quadratic.n_cells / 10);
+  RUN_FINE(scratch_path("quadratic.vtu"), "--valve", "mitral", "--opening", "0", "--stats", "-");
+  assert_true(json_number(program_out, "n_leaking_edges") == (double)expected.n_edges);
+  assert_true(json_number(program_out, "longest_leaking_edge") == expected.longest_length);
+  assert_true(json_number(program_out, "n_volume_cells") == (double)quadratic.n_cells);
+  assert_true(json_number(program_out, "n_cells_without_known_edges") == 0);
+  char text[128];
+  snprintf(text, sizeof text, "the surface leaks: %d edges", (int)expected.n_edges);
+  assert_non_null(strstr(program_leaks, text));
+  plain_free(&hexahedra);
+  plain_free(&quadratic);
+  plain_free(&cut);
+  plain_free(&corners);
+}
+
+/* Copies 300 bytes of what the run said about this key, and its warning. */
+static void keep(const char *key, char said[1000]) {
+  const char *const found = strstr(program_out, key);
+  assert_non_null(found);
+  snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
+}
+
+/* Polyhedra leak as the hexahedra do that they are, in both layouts, and the passage is the same. */
+static void test_polyhedra(void **state) {
+  (void)state;
+  static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};
+  static char said[3][2][1000];
+  plain_mesh hexahedra = box_of_mitral(9);
+  for (int i = 0; i < 3; ++i) {
+    plain_write(names[i], &hexahedra, (enum plain_layout)i, 2);
+    run_program(scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", NULL);
+    assert_int_equal(program_exit_code, 0);
+    assert_true(json_number(program_out, "n_leaking_edges") > 10);
+    keep("\"n_leaking_edges\"", said[i][0]);
+    run_program(scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", "--check-leaks",
+                "0,0,2.1", "1,1,0.6", NULL);
+    assert_int_equal(program_exit_code, 0);
+    keep("\"passage\"", said[i][1]);
+    for (int k = 0; k < 2; ++k) assert_string_equal(said[i][k], said[0][k]);
+  }
+  plain_free(&hexahedra);
+}
+
+/* Runs the program on this mesh, far from the valve or around it, and expects that it calls leaks unknown for this reason. */
+static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
+  char text[512];
+  run_program(scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
+  assert_int_equal(program_exit_code, exit_code);
+  snprintf(text, sizeof text, "riis-mark: leaks of the surface are unknown: %s in %s\n", reason, scratch_path(name));
+  if (strstr(reason, "no volume"))
+    snprintf(text, sizeof text, "riis-mark: leaks of the surface are unknown: %s %s\n", scratch_path(name), reason);
+  if (!strstr(program_err, text)) fail_msg("no '%s' in '%s'", text, program_err);
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_has_text(json, "n_leaking_edges", "null"));
+  assert_true(json_has_text(json, "longest_leaking_edge", "null"));
+  free(json);
+  run_program(scratch_path(name), "--translate", place, NULL);
+  snprintf(text, sizeof text, "\nleaks     unknown: %s in the mesh\n", reason);
+  if (strstr(reason, "no volume")) snprintf(text, sizeof text, "\nleaks     unknown: the mesh %s\n", reason);
+  assert_non_null(strstr(program_out, text));
+}
+
+/* A cloud of points, triangles, and a cell whose edges riis does not know. */
+static void test_unknown(void **state) {
+  (void)state;
+  static const char *const cells[4] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
+                                       "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n41\n",
+                                       "CELLS 2 12\n6 0 1 2 3 4 5\n4 0 1 2 3\nCELL_TYPES 2\n41\n10\n"};
+  static const char *const reasons[4] = {"has no volume cells", "has no volume cells",
+                                         "riis does not know the edges of 1 of 1 volume cell",
+                                         "riis does not know the edges of 1 of 2 volume cells"};
+  for (int i = 0; i < 4; ++i) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n"
+             "0 0 0.5 1 0 0.5 0 1 0.5 0 0 1 1 1 1 1.2 1.3 1.5\n%s",
+             cells[i]);
+    scratch_write_text("other.vtk", text);
+    expect_unknown("other.vtk", "50,0,0", 3, reasons[i]);
+    if (i < 3)
+      RUN_REFUSED(2, reasons[i], scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks",
+                  "0.1,0,0.6", "0,0.1,0.6");
+  }
+  /* The tetrahedron joins its nodes, whatever else joins them. It does not join the others. */
+  run_program(scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6",
+              "0,0.1,0.6", NULL);
+  assert_non_null(strstr(program_out, "\npassage   open: at "));
+  scratch_write_text("two.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n"
+                     "0 0 0.5 1 0 0.5 0 1 0.5 0 0 1 5 0 0.5 6 0 0.5 5 1 0.5 5 0 1 4 4 4\n"
+                     "CELLS 3 16\n4 0 1 2 3\n4 4 5 6 7\n5 0 1 5 7 8\nCELL_TYPES 3\n10\n10\n41\n");
+  run_program(scratch_path("two.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6",
+              "5.1,0,0.6", "--stats", scratch_path("stats.json"), NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(
+      strstr(program_err,
+             "riis-mark: whether unmarked nodes join 0.1 0 0.6 and 5.1 0 0.6 is unknown: riis does not know the edges "
+             "of 1 of 3 volume cells in "));
+  assert_non_null(strstr(program_out, "\npassage   unknown; along the known edges none: "));
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_has_text(json, "state", "\"unknown\""));
+  free(json);
+}
+
+/* The edges of all cells of the zoo are known. */
 static void test_other_cells(void **state) {
   (void)state;
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   RUN_FINE(scratch_path("zoo.vtu"), "--translate", "50,0,0", "--allow-none", "--quiet", "--stats",
            scratch_path("stats.json"));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
-  assert_true(json_number(json, "n_cells_without_known_edges") == 9);
+  assert_true(json_number(json, "n_cells_without_known_edges") == 0);
+  assert_true(json_number(json, "n_volume_cells") == 3 * 8);
   free(json);
   run_program(scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
-  assert_non_null(strstr(program_out, "between unmarked nodes; unknown for 9 cells of kinds whose edges"));
+  assert_non_null(strstr(program_out, "\nleaks     none: no edge crosses the surface between unmarked nodes\n"));
 }
 
 static void expect_warned(int exit_code) {
@@ -305,6 +439,9 @@ int main(void) {
       cmocka_unit_test(test_other_cells),
       cmocka_unit_test(test_places),
       cmocka_unit_test(test_strict),
+      cmocka_unit_test(test_quadratic_cells),
+      cmocka_unit_test(test_polyhedra),
+      cmocka_unit_test(test_unknown),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -365,6 +365,52 @@ static void test_cells_of_polyhedra(void **state) {
   }
 }
 
+/* Two tetrahedra as polyhedra that share a face, with their faces in one list, as VTK writes since 9.4. */
+static void test_lists_of_faces(void **state) {
+  (void)state;
+  static const char *const corners = "0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 4";
+  const struct {
+    const char *corners, *ends, *faces, *face_ends, *text;
+  } cases[] = {{corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 8 8", NULL},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3", "4 4 4", "cell 1 has broken polyhedron faces"},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 3 8", "has broken polyhedron_offsets"},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "-1 8 8", "has broken polyhedron_offsets"},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 80000000 80000000",
+                "array polyhedron_to_faces must have 80000000 values and has at most 8"},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 8",
+                "array polyhedron_offsets must have 3 values and has at most 2"},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 -6", "4 8 8", "cell 1 has broken polyhedron faces"},
+               {corners, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 70", "4 8 8",
+                "array face_offsets must have 71 values and has at most "},
+               {corners, "3 6 9 12 15 18 17", "0 1 2 3 3 4 5 6", "4 8 8", "has broken face_offsets"},
+               {corners, "3 6 9 12 15 18 99", "0 1 2 3 3 4 5 6", "4 8 8",
+                "array face_connectivity must have 99 values and has at most "},
+               {"0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 5", "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 8 8",
+                "cell 1 names point 5 of 5"},
+               {"0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 -1", "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 8 8",
+                "cell 1 names point -1 of 5"},
+               {NULL, "3 6 9 12 15 18 21", "0 1 2 3 3 4 5 6", "4 8 8", "has polyhedra without face_connectivity"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[2048];
+    snprintf(text, sizeof text,
+             "<VTKFile type=\"UnstructuredGrid\" version=\"2.3\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>"
+             "<Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<Points><DataArray type=\"Float64\" "
+             "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points>\n<Cells>"
+             "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 1 2 3 4 0 1 2 3</DataArray>\n"
+             "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 8 12</DataArray>\n"
+             "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">42 42 10</DataArray>\n"
+             "<DataArray type=\"Int64\" Name=\"%s\" format=\"ascii\">%s</DataArray>\n"
+             "<DataArray type=\"Int64\" Name=\"face_offsets\" format=\"ascii\">%s</DataArray>\n"
+             "<DataArray type=\"Int64\" Name=\"polyhedron_to_faces\" format=\"ascii\">%s</DataArray>\n"
+             "<DataArray type=\"Int64\" Name=\"polyhedron_offsets\" format=\"ascii\">%s</DataArray></Cells>\n"
+             "</Piece></UnstructuredGrid></VTKFile>\n",
+             cases[i].corners ? "face_connectivity" : "faces_connected", cases[i].corners ? cases[i].corners : corners,
+             cases[i].ends, cases[i].faces, cases[i].face_ends);
+    scratch_write_text("lists.vtu", text);
+    expect_file("lists.vtu", cases[i].text);
+  }
+}
+
 /* VTK closes a file at a word that is not a number of its type, and reads on. */
 static void test_words_for_numbers(void **state) {
   (void)state;
@@ -408,6 +454,7 @@ int main(void) {
       cmocka_unit_test(test_truncated),          cmocka_unit_test(test_endless_information),
       cmocka_unit_test(test_names_of_arrays),    cmocka_unit_test(test_polyhedra),
       cmocka_unit_test(test_cells_of_polyhedra), cmocka_unit_test(test_words_for_numbers),
+      cmocka_unit_test(test_lists_of_faces),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

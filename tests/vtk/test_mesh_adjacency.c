@@ -1,19 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The adjacency of meshes from files against the edges that VTK's own cells have. */
+ * The adjacency of meshes from files against the edges that VTK's own cells have, and against the edges of other cells with the
+ * same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../support/test_support.h"
+
 #include "expect.h"
+#include "plain_mesh.h"
 #include "scratch.h"
 #include "vtk_shim.h"
 
 enum { n_side = 9, n_box = n_side * n_side * n_side };
-/* VTK's numbers of the types of cells whose edges count: tetrahedron, voxel, hexahedron, wedge, pyramid. */
-static const int volume_types[] = {10, 11, 12, 13, 14};
+/* VTK's numbers of the types of cells of volume with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, prisms of five
+ * and six sides, polyhedron. */
+static const int volume_types[] = {10, 11, 12, 13, 14, 15, 16, 42};
 
 static riis_vtk_mesh *read_mesh(const char *name) {
   riis_vtk_mesh *mesh = NULL;
@@ -26,10 +31,12 @@ static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joine
   static int64_t edges[2 * 40000];
   int64_t n_pairs = 0;
   memset(are_joined, 0, (size_t)(n_nodes * n_nodes));
-  for (size_t t = 0; t < sizeof volume_types / sizeof volume_types[0]; ++t) {
-    const int64_t n = shim_read_edges(path, volume_types[t], NULL);
+  const size_t n_types = sizeof volume_types / sizeof volume_types[0];
+  for (size_t t = 0; t <= n_types; ++t) {
+    const int64_t n = t < n_types ? shim_read_edges(path, volume_types[t], NULL) : shim_read_curved_edges(path, NULL);
     assert_in_range(n, 0, 40000);
-    assert_int_equal(shim_read_edges(path, volume_types[t], edges), n);
+    assert_int_equal(t < n_types ? shim_read_edges(path, volume_types[t], edges) : shim_read_curved_edges(path, edges),
+                     n);
     for (int64_t i = 0; i < n; ++i) {
       const int64_t a = edges[2 * i], b = edges[2 * i + 1];
       n_pairs += 2 * !are_joined[a * n_nodes + b];
@@ -91,9 +98,153 @@ static void test_every_cell(void **state) {
   (void)state;
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   for (size_t t = 0; t < sizeof volume_types / sizeof volume_types[0]; ++t) {
+    if (volume_types[t] == 16) continue;
     assert_true(shim_read_edges(scratch_path("zoo.vtu"), volume_types[t], NULL) >= 3 * 6);
   }
+  assert_int_equal(shim_read_curved_edges(scratch_path("zoo.vtu"), NULL), 3 * 24);
   expect_adjacency("zoo.vtu", n_shim_zoo, 100);
+}
+
+/* Cells of all types of higher order, drawn at random, and prisms of six sides. */
+static void test_curved_cells(void **state) {
+  (void)state;
+  enum { n_nodes = 300 };
+  random_source random = random_start("test_mesh_adjacency");
+  for (int round = 0; round < 5; ++round) {
+    assert_int_equal(shim_write_curved(scratch_path("curved.vtu"), n_nodes, (uint32_t)random_bits(&random)), 1);
+    expect_adjacency("curved.vtu", n_nodes, 1000);
+    riis_vtk_mesh *mesh = read_mesh("curved.vtu");
+    int64_t n_volumes = 0, n_left_out = -1, n_cells = 0;
+    expect_fine(riis_vtk_mesh_nodes(mesh, NULL, &n_cells, NULL));
+    expect_fine(riis_vtk_mesh_volume_cells(mesh, &n_volumes, &n_left_out));
+    assert_true(n_volumes == n_cells && n_left_out == 0);
+    riis_vtk_mesh_destroy(&mesh);
+  }
+  scratch_write_text("prism.vtk",
+                     "# vtk DataFile Version 3.0\nprism\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n"
+                     "0 0 0 1 0 0 2 1 0 1 2 0 0 2 0 -1 1 0 0 0 1 1 0 1 2 1 1 1 2 1 0 2 1 -1 1 1\n"
+                     "CELLS 1 13\n12 0 1 2 3 4 5 6 7 8 9 10 11\nCELL_TYPES 1\n16\n");
+  expect_adjacency("prism.vtk", 12, 36);
+}
+
+/* A node in the middle of a triangle is joined to all others of it, one in the middle of the cell to those of the faces. */
+static void test_triquadratic_pyramid(void **state) {
+  (void)state;
+  char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n";
+  for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), "%d %d %d\n", k % 3, k / 3 % 3, k / 9);
+  strcat(text, "CELLS 1 20\n19");
+  for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
+  strcat(text, "\nCELL_TYPES 1\n37\n");
+  scratch_write_text("pyramid.vtk", text);
+  /* Neighbours of: a corner of the base, the apex, the middle of a side of the base, that of a side to the apex, the middle of
+   * the base, of a triangle, of the cell. */
+  static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
+  riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
+  riis_adjacency *adjacency = NULL;
+  riis_csr csr;
+  expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
+  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  const int64_t *offsets = csr.offsets;
+  for (int i = 0; i < 7; ++i) assert_int_equal(offsets[nodes[i] + 1] - offsets[nodes[i]], n_neighbors[i]);
+  assert_int_equal(offsets[19], 2 * 49);
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+/* Tells whether both files have the same rows. */
+static void expect_same_rows(const char *name, const riis_csr *expected) {
+  riis_vtk_mesh *mesh = read_mesh(name);
+  riis_adjacency *adjacency = NULL;
+  riis_csr csr;
+  expect_fine(riis_vtk_mesh_adjacency(mesh, 2, &adjacency));
+  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  assert_int_equal(csr.n_rows, expected->n_rows);
+  assert_memory_equal(csr.offsets, expected->offsets, (size_t)(csr.n_rows + 1) * 8);
+  assert_memory_equal(csr.columns, expected->columns, (size_t)((const int64_t *)csr.offsets)[csr.n_rows] * 4);
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+/* Hexahedra have the same edges as the polyhedra of their faces, in either layout and in several pieces. */
+static void test_polyhedra(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
+  plain_mesh hexahedra = plain_hexahedra(5, lower, upper);
+  for (int n_pieces = 1; n_pieces <= 3; ++n_pieces) {
+    riis_adjacency *adjacency = NULL;
+    riis_csr csr;
+    plain_write("cells.vtu", &hexahedra, PLAIN_CELLS, n_pieces);
+    plain_write("streams.vtu", &hexahedra, PLAIN_STREAMS, n_pieces);
+    plain_write("lists.vtu", &hexahedra, PLAIN_LISTS, n_pieces);
+    riis_vtk_mesh *mesh = read_mesh("cells.vtu");
+    expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+    assert_int_equal(csr.n_rows, n_pieces * 125);
+    assert_true(((const int64_t *)csr.offsets)[csr.n_rows] > 300);
+    expect_same_rows("streams.vtu", &csr);
+    expect_same_rows("lists.vtu", &csr);
+    riis_adjacency_destroy(&adjacency);
+    riis_vtk_mesh_destroy(&mesh);
+    /* The file that riis writes again has the faces. */
+    mesh = read_mesh("lists.vtu");
+    expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
+    expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+    expect_same_rows("again.vtu", &csr);
+    riis_adjacency_destroy(&adjacency);
+    riis_vtk_mesh_destroy(&mesh);
+  }
+  plain_free(&hexahedra);
+}
+
+/* The four tetrahedra at the corners of a quadratic one have just its edges. */
+static void test_quadratic_tetrahedra(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  plain_mesh hexahedra = plain_hexahedra(4, lower, upper), quadratic = plain_quadratic_tetrahedra(&hexahedra),
+             corners = plain_cut(&quadratic, 4);
+  riis_cells cells;
+  riis_adjacency *adjacency = NULL;
+  riis_csr csr;
+  expect_fine(riis_cells_init(&cells, sizeof cells));
+  cells.n_nodes = corners.n_nodes, cells.n_cells = corners.n_cells, cells.nodes_per_cell = 4;
+  cells.node_ids = corners.ids, cells.id_bits = 64;
+  expect_fine(riis_adjacency_create_from_cells(&cells, &adjacency));
+  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
+  expect_same_rows("quadratic.vtu", &csr);
+  riis_adjacency_destroy(&adjacency);
+  plain_free(&hexahedra);
+  plain_free(&quadratic);
+  plain_free(&corners);
+}
+
+/* Cells whose edges are not known are counted: a convex point set, a Lagrange tetrahedron with nodes beyond its lattice, and a
+ * Lagrange wedge of 21 nodes. Faces and points are no cells of volume. */
+static void test_unknown_cells(void **state) {
+  (void)state;
+  const struct {
+    const char *cells;
+    int n_volumes, n_left_out;
+  } cases[] = {{"CELLS 0 0\nCELL_TYPES 0\n", 0, 0},
+               {"CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n", 0, 0},
+               {"CELLS 2 11\n5 0 1 2 3 4\n4 4 5 6 7\nCELL_TYPES 2\n41\n10\n", 2, 1},
+               {"CELLS 1 16\n15 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\nCELL_TYPES 1\n71\n", 1, 1},
+               {"CELLS 1 22\n21 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\nCELL_TYPES 1\n73\n", 1, 1}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 21 double\n";
+    for (int k = 0; k < 21; ++k) sprintf(text + strlen(text), "%d %d %d\n", k % 3, k / 3 % 3, k / 9);
+    strcat(text, cases[i].cells);
+    scratch_write_text("unknown.vtk", text);
+    riis_vtk_mesh *mesh = read_mesh("unknown.vtk");
+    int64_t n_volumes = -1, n_left_out = -1;
+    expect_fine(riis_vtk_mesh_volume_cells(mesh, &n_volumes, &n_left_out));
+    assert_int_equal(n_volumes, cases[i].n_volumes);
+    assert_int_equal(n_left_out, cases[i].n_left_out);
+    expect_fine(riis_vtk_mesh_volume_cells(mesh, NULL, NULL));
+    expect_refused(riis_vtk_mesh_volume_cells(NULL, &n_volumes, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+    riis_vtk_mesh_destroy(&mesh);
+  }
 }
 
 /* Makes a triangle whose bounds are a box. */
@@ -149,7 +300,7 @@ static void test_long_edges(void **state) {
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0); /* equal within a billionth */
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
-  expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 3 * 3);
+  expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
 }
 
 static void test_long_edges_refused(void **state) {
@@ -189,11 +340,12 @@ static void test_voxel(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Meshes without volume cells have empty rows. The neighbour search still finds all nodes. */
+/* Meshes without cells of volume, or of cells whose edges are not known, have empty rows. The neighbour search still finds all
+ * nodes. */
 static void test_no_volume(void **state) {
   (void)state;
   const char *cells[] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n",
-                         "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n"};
+                         "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n41\n"};
   const uint8_t are_joined[100] = {0};
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -267,9 +419,18 @@ static void test_threads(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tetrahedra),         cmocka_unit_test(test_every_cell), cmocka_unit_test(test_voxel),
-      cmocka_unit_test(test_no_volume),          cmocka_unit_test(test_threads),    cmocka_unit_test(test_long_edges),
+      cmocka_unit_test(test_tetrahedra),
+      cmocka_unit_test(test_every_cell),
+      cmocka_unit_test(test_voxel),
+      cmocka_unit_test(test_no_volume),
+      cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_long_edges),
       cmocka_unit_test(test_long_edges_refused),
+      cmocka_unit_test(test_curved_cells),
+      cmocka_unit_test(test_triquadratic_pyramid),
+      cmocka_unit_test(test_polyhedra),
+      cmocka_unit_test(test_quadratic_tetrahedra),
+      cmocka_unit_test(test_unknown_cells),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -53,12 +53,20 @@ static const struct {
   const char *name;
   void (*make)(void);
   riis_status (*call)(void);
+  const char *file; /* that the message names; "" if no file is at hand */
 } scenarios[] = {
-    {"read .vtu", nothing, read_vtu}, {"read .vtk", nothing, read_vtk},      {"adjacency", mesh_read, make_adjacency},
-    {"marks", mesh_read, set_marks},  {"write .vtu", marks_set, write_mesh}, {"write .vtp", nothing, write_surface},
-    {"read .vtp", nothing, read_vtp}, {"read .stl", nothing, read_stl},
-    {"read .pvd", nothing, read_pvd}, {"read .stl files", nothing, read_stls},
-    {"displacements", nothing, read_displacements}, {"pieces", motion_read, number_pieces},
+    {"read .vtu", nothing, read_vtu, "box.vtu"},
+    {"read .vtk", nothing, read_vtk, "box.vtk"},
+    {"adjacency", mesh_read, make_adjacency, ""},
+    {"marks", mesh_read, set_marks, ""},
+    {"write .vtu", marks_set, write_mesh, "written.vtu"},
+    {"write .vtp", nothing, write_surface, "written.vtp"},
+    {"read .vtp", nothing, read_vtp, "surface.vtp"},
+    {"read .stl", nothing, read_stl, "surface.stl"},
+    {"read .pvd", nothing, read_pvd, "motion.pvd"},
+    {"read .stl files", nothing, read_stls, "surface.stl"},
+    {"displacements", nothing, read_displacements, "displaced.vtp"},
+    {"pieces", motion_read, number_pieces, ""},
 };
 
 static void destroy(void) {
@@ -75,7 +83,7 @@ static void the_components_memory_runs_out(void **state) {
   int64_t n_injected = 0;
   for (size_t i = 0; i < sizeof scenarios / sizeof scenarios[0]; ++i) {
     const char *name = scenarios[i].name;
-    int64_t n_failed = 1, n = 0;
+    int64_t n_failed = 1, n = 0, n_named = 0;
     scenarios[i].make(); /* makes the objects that VTK makes once, and shows that the call succeeds */
     expect_fine(scenarios[i].call());
     destroy();
@@ -94,10 +102,12 @@ static void the_components_memory_runs_out(void **state) {
         n_failed = memory_stop_failing();
         n_injected += n_failed;
         if (n_failed > 0) {
-          if (status != RIIS_OUT_OF_MEMORY || strcmp(riis_last_error(), "out of memory") != 0)
+          const char *const text = riis_last_error(), *const end = strstr(text, "out of memory");
+          n_named +=
+              strstr(text, scenarios[i].file) != NULL && end && end > text && strcmp(end - 2, ": out of memory") == 0;
+          if (status != RIIS_OUT_OF_MEMORY || !end || strlen(end) != 13)
             fail_msg("%s, allocation %d: %s (%s)", name, (int)n, riis_status_name(status), riis_last_error());
-          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before ||
-              motion != motion_before)
+          if (adjacency != no_adjacency || read_surface != no_surface || mesh != mesh_before || motion != motion_before)
             fail_msg("%s, allocation %d: a handle was written", name, (int)n);
           if (scratch_n_files() != n_files) fail_msg("%s, allocation %d: leaves a file", name, (int)n);
           expect_fine(scenarios[i].call());
@@ -109,8 +119,9 @@ static void the_components_memory_runs_out(void **state) {
           fail_msg("%s, allocation %d: leaks %d", name, (int)n, (int)(memory_live_of_library() - live));
       }
     }
-    printf("%s: %d allocations\n", name, (int)n - 1);
+    printf("%s: %d allocations, %d of %d failures name the file\n", name, (int)n - 1, (int)n_named, 2 * ((int)n - 1));
     assert_true(n > 1);
+    if (scenarios[i].file[0]) assert_in_range(n_named, 1, INT64_MAX);
   }
   printf("%d failures injected\n", (int)n_injected);
 }

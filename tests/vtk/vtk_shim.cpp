@@ -21,6 +21,7 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
+#include <vtkGeometryFilter.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkImplicitPolyDataDistance.h>
@@ -38,6 +39,7 @@
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -198,6 +200,35 @@ int shim_write_box(const char *path, int encoding, int n, const double lower[3],
   if (encoding == SHIM_COMPRESSED || encoding == SHIM_RAW) writer->SetDataModeToAppended();
   if (encoding != SHIM_COMPRESSED) writer->SetCompressorTypeToNone();
   if (encoding == SHIM_RAW) writer->EncodeAppendedDataOff();
+  return writer->Write();
+}
+
+int shim_write_blocks(const char *path, int encoding, int compressor, int header_bits) {
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  const auto grid = box(5, lower, upper, false, false);
+  for (int i = 0; i < 5; ++i) {
+    const vtkIdType corners[4] = {i, i + 20, i + 40, i + 60};
+    add_polyhedron(grid, {corners, corners + 4});
+  }
+  grid->GetCellData()->AddArray(numbered<vtkShortArray>("region", 1, grid->GetNumberOfCells(), 1));
+  vtkNew<vtkGeometryFilter> outside;
+  vtkSmartPointer<vtkXMLWriter> writer;
+  if (ends_with(path, ".vtp")) {
+    outside->SetInputData(grid);
+    writer = vtkSmartPointer<vtkXMLPolyDataWriter>::New();
+    writer->SetInputConnection(outside->GetOutputPort());
+  } else {
+    writer = vtkSmartPointer<vtkXMLUnstructuredGridWriter>::New();
+    writer->SetInputData(grid);
+  }
+  writer->SetFileName(path);
+  writer->SetDataMode(encoding == SHIM_ASCII    ? vtkXMLWriter::Ascii
+                      : encoding == SHIM_BINARY ? vtkXMLWriter::Binary
+                                                : vtkXMLWriter::Appended);
+  writer->SetEncodeAppendedData(encoding != SHIM_RAW);
+  writer->SetCompressorType(compressor);
+  writer->SetBlockSize(1024);
+  writer->SetHeaderType(header_bits);
   return writer->Write();
 }
 

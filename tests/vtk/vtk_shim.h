@@ -20,6 +20,13 @@ enum { SHIM_ASCII, SHIM_BINARY, SHIM_COMPRESSED, SHIM_RAW, SHIM_LEGACY_ASCII, SH
 int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
                    int float_points);
 
+/* Writes a box as shim_write_box does, of tetrahedra and polyhedra (.vtu), or its outer triangles (.vtp), with these arrays of
+ * numbers. The data is SHIM_ASCII, SHIM_BINARY, or appended in base64 (SHIM_COMPRESSED) or as it is (SHIM_RAW).
+ *   compressor   0 none, 1 zlib, 2 LZ4, 3 LZMA; blocks are small, so that there are several
+ *   header_bits  32 or 64
+ * Returns 1 on success. */
+int shim_write_blocks(const char *path, int encoding, int compressor, int header_bits);
+
 /* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. It has the data that VTK's writer puts behind
  * arrays: ranges, and the name of one component of "flow". Its last array is the bit array "bits". Returns 1 on success. */
 int shim_write_legacy(const char *path, int binary, int version);
@@ -32,14 +39,20 @@ int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char
 int64_t shim_read_corners(const char *path, int64_t *ids);
 
 /* Writes a .vtu of cells of many types among n_shim_zoo nodes, several of each type, with nodes drawn at random. The types are
- * the linear volumes whose edges riis uses, and vertices, lines, triangles, quads, pentagonal prisms, quadratic tetrahedra and
- * polyhedra. The last nodes are in no volume cell. Returns 1 on success. */
+ * the linear volumes, vertices, lines, triangles, quads, pentagonal prisms, quadratic tetrahedra and polyhedra. Returns 1 on
+ * success. */
 enum { n_shim_zoo = 60 };
 int shim_write_zoo(const char *path);
 
 /* Reads the edges of the cells of one VTK type by vtkCell::GetEdge, as pairs of nodes. Returns their number, or -1. edges may be
  * NULL. */
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
+
+/* Writes a .vtu of cells of all types of higher order among n_nodes nodes, 64 or more, drawn at random. Returns 1 on success. */
+int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
+/* Reads the edges of these cells from a .vtu, as pairs of nodes, found by the places of nodes in unit cells. Returns their number.
+ * edges may be NULL. */
+int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
 /* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). All points are kept in their order, as
  * doubles. Returns 1 on success. */
