@@ -9,11 +9,6 @@ void raise_status(riis_status status, const std::string &message) {
   throw nb::python_error();
 }
 
-void raise_buffer_error(const std::string &message) {
-  PyErr_SetString(PyExc_BufferError, message.c_str());
-  throw nb::python_error();
-}
-
 std::string name_of_type(nb::handle object) { return nb::cast<std::string>(nb::str(object.type().attr("__name__"))); }
 
 }  // namespace riis_python

@@ -16,9 +16,6 @@ namespace nb = nanobind;
 // Throws the Python exception of a status.
 [[noreturn]] void raise_status(riis_status status, const std::string &message);
 
-// Throws BufferError.
-[[noreturn]] void raise_buffer_error(const std::string &message);
-
 template <class... Parts>
 std::string text_of(const Parts &...parts) {
   std::ostringstream text;

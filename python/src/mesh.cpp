@@ -60,7 +60,7 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
     Adjacency &made = object<Adjacency>(adjacency, "adjacency");
     const Reading reading(made.usage, "adjacency");
     call_shortly(riis_adjacency_csr(made.handle, &csr, sizeof csr));
-    kept = new_view(adjacency, made.usage.n_views);
+    kept = made.share();
   } else {
     if (!adjacency.is_none()) {
       if (!nb::hasattr(adjacency, "indptr") || !nb::hasattr(adjacency, "indices"))
@@ -173,8 +173,8 @@ std::size_t last_offset(const void *offsets, std::int64_t n_rows) {
 nb::object offsets(nb::handle self) {
   Adjacency &adjacency = object<Adjacency>(self, "adjacency");
   const riis_csr csr = rows_of(adjacency);
-  return view_of(static_cast<const std::int64_t *>(csr.offsets), {static_cast<std::size_t>(csr.n_rows) + 1}, self,
-                 adjacency.usage.n_views);
+  return view_of(static_cast<const std::int64_t *>(csr.offsets), {static_cast<std::size_t>(csr.n_rows) + 1},
+                 adjacency.share());
 }
 
 nb::object columns(nb::handle self) {
@@ -182,8 +182,8 @@ nb::object columns(nb::handle self) {
   const riis_csr csr = rows_of(adjacency);
   const std::size_t n = last_offset<std::int64_t>(csr.offsets, csr.n_rows);
   if (csr.column_bits == 32)
-    return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
-  return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
+    return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, adjacency.share());
+  return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, adjacency.share());
 }
 
 // Returns the caller's array, or a new one of the caller's three.

@@ -21,9 +21,11 @@ struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
 struct Surface : Handle<riis_surface, riis_surface_destroy> {
   static constexpr const char *python_name = "Surface";
   riis_surface_options options{};  // those in use
-  int n_pair_views = 0;            // arrays of the last find_crossings
+  // Copies of the content's arrays that were requested: an update writes the memory where they were.
+  nb::object vertices, uv, velocities, triangles;
 
   void close(const char *name);
+  void drop_copies() { vertices = uv = velocities = triangles = nb::object(); }
 };
 
 struct Adjacency : Handle<riis_adjacency, riis_adjacency_destroy> {
@@ -34,7 +36,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   static constexpr const char *python_name = "Mesh";
   Points points;                 // the caller's arrays, kept alive
   std::vector<Array> rows;       // those of an adjacency
-  nb::object adjacency;          // an object whose rows are borrowed
+  nb::object adjacency;          // keeps the rows of an Adjacency
 
   ~Mesh() { riis_mesh_destroy(&handle); }  // before what it borrows
   void close(const char *name);
@@ -45,9 +47,7 @@ struct MarkResult : Handle<riis_mark_result, riis_mark_result_destroy> {
   std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
   std::int32_t n_threads = 0;  // that it requested
   int marking_fork = 0;        // fork_number() at the marking
-  int n_edge_views = 0;        // arrays of the last find_leaks
 
-  void close(const char *name);
   // Refuses calls on several threads that a child of fork() lacks.
   void check_threads(const char *name) const;
 };
@@ -75,6 +75,8 @@ void add_closest(nb::class_<Surface> &surface);
 void add_mesh(nb::module_ &module);
 void add_marking(nb::module_ &module);
 void add_resistance(nb::class_<MarkResult> &result);
+void add_leaking_edges(nb::class_<MarkResult> &result);
+void add_crossing_pairs(nb::class_<Surface> &surface);
 void add_leaks(nb::module_ &module);
 void add_laws(nb::module_ &module);
 
