@@ -112,6 +112,20 @@ def _is_its_parameters(valve: Valve) -> bool:
     return numpy.array_equal(Surface(alone).vertices, Surface(valve).vertices)
 
 
+def _reals(data: Any, name: str, or_else: str = "") -> Reals:
+    """Returns an array of float64, and refuses all else as the calls in C++ do."""
+    if isinstance(data, numpy.ma.MaskedArray):
+        raise TypeError(
+            f"{name}: is a masked array, and its mask would be lost; pass {name}.filled(...), or {name}.data if the mask "
+            "does not matter"
+        )
+    if not isinstance(data, numpy.ndarray) or data.dtype != numpy.float64:
+        what = f"an array of {data.dtype}" if isinstance(data, numpy.ndarray) else type(data).__name__
+        hint = "" if data is None or isinstance(data, str) else f"; pass numpy.ascontiguousarray({name}, dtype=float)"
+        raise TypeError(f"{name}: must be a numpy array of float64{or_else}, not {what}{hint}")
+    return data
+
+
 def _points_of(data: Any) -> tuple[Reals, Reals | None]:
     """Returns points, and the areas around them where they are vertices of a surface."""
     pyvista = sys.modules.get("pyvista")
@@ -122,10 +136,7 @@ def _points_of(data: Any) -> tuple[Reals, Reals | None]:
         points = numpy.array(data.points, numpy.float64)  # PyVista's are often float32
         triangles = data.triangulate().faces.reshape(-1, 4)[:, 1:] if data.faces.size > 0 else None
         return points, None if triangles is None else vertex_areas(points, triangles)
-    if not isinstance(data, numpy.ndarray) or data.dtype != numpy.float64:
-        what = f"an array of {data.dtype}" if isinstance(data, numpy.ndarray) else type(data).__name__
-        raise TypeError(f"points: must be a numpy array of float64, a riis.Surface or a pyvista.PolyData, not {what}")
-    return data, None
+    return _reals(data, "points", ", a riis.Surface or a pyvista.PolyData"), None
 
 
 def _check_points(points: Reals) -> None:
@@ -137,9 +148,7 @@ def _check_points(points: Reals) -> None:
 
 
 def _checked_weights(weights: Any, n: int) -> Reals:
-    if not isinstance(weights, numpy.ndarray) or weights.dtype != numpy.float64:
-        what = f"an array of {weights.dtype}" if isinstance(weights, numpy.ndarray) else type(weights).__name__
-        raise TypeError(f"weights: must be a numpy array of float64, not {what}")
+    weights = _reals(weights, "weights")
     if weights.shape != (n,):
         raise InvalidArgumentError(f"weights: its shape is {weights.shape}; there are {n} points")
     bad = numpy.flatnonzero(~(numpy.isfinite(weights) & (weights >= 0.0)))

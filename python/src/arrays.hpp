@@ -26,9 +26,10 @@ class Array {
   // An array of 32 or 64 bit integers.
   static Array of_integers(nb::handle object, const char *name);
 
-  Array(Array &&other) noexcept : name_(other.name_), view_(other.view_) { other.view_.obj = nullptr; }
+  Array(Array &&other) noexcept : name_(other.name_), access_(other.access_), view_(other.view_) { other.view_.obj = nullptr; }
   Array &operator=(Array &&other) noexcept {
     std::swap(name_, other.name_);
+    std::swap(access_, other.access_);
     std::swap(view_, other.view_);
     return *this;
   }
@@ -55,7 +56,12 @@ class Array {
  private:
   Array(nb::handle object, const char *name, Access access, const char *wanted);
 
+  // Refuses an object, and says how to convert it. A conversion of an array that is written would be written in its place.
+  template <class... Parts>
+  [[noreturn]] void refuse_entries(nb::handle object, const char *wanted, const Parts &...parts) const;
+
   const char *name_;
+  Access access_;
   Py_buffer view_;
 };
 

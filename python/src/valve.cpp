@@ -29,7 +29,7 @@ std::int64_t n_values(const Valve &valve, const std::string &name) {
 void set(Valve &valve, nb::handle key, nb::handle value) {
   const Writing writing(valve.usage, "valve");
   const std::string name = text(key, "name");
-  if (PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr())) {
+  if (has_entries(value)) {
     double values[3];
     three_numbers(value, name.c_str(), values);
     call_shortly(riis_valve_set(valve.handle, name.c_str(), 3, values));

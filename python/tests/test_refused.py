@@ -2,6 +2,7 @@
 """Bad input is refused with an exception of a class per kind, whose text names the argument."""
 
 import math
+import re
 
 import numpy
 import pytest
@@ -17,6 +18,7 @@ class Objects:
     def __init__(self):
         self.valve = riis.Valve("mitral", opening=0.3)
         self.surface = riis.Surface(self.valve, half_thickness=0.15)
+        self.thin = riis.Surface(self.valve, half_thickness=0.005)
         self.xyz = numpy.random.default_rng(1).uniform(-1.0, 1.0, (60, 3))
         self.mesh = riis.Mesh(self.xyz)
         self.marks = riis.mark(self.surface, self.mesh)
@@ -256,6 +258,143 @@ REFUSED = {
     "long step": (riis.LimitExceededError, "take shorter steps",
                   lambda o: riis.OpeningAngle(5500.0, 2.0, 50.0, 7.0).advance(riis.OpeningAngleState(), 1e9, 1.0, 1.0)),
 }
+
+
+def patches(o, degree=None, control=None, curve_id=None, **rest):
+    """A square between four straight lines."""
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0)]
+    return riis.Valve.from_patches(
+        numpy.ones(4, "i4") if degree is None else degree,
+        numpy.array(corners, float) if control is None else control,
+        numpy.array([[0, 1, 2, 3]], "i4") if curve_id is None else curve_id, **rest)
+
+
+def lines(n):
+    """Rows of an adjacency in which each node has the next one for its neighbour."""
+    ends = numpy.cumsum([0, 1, *[2] * (n - 2), 1])
+    return ends, numpy.array([j for i in range(n) for j in (i - 1, i + 1) if 0 <= j < n])
+
+
+def chain(o):
+    mesh = riis.Mesh(o.xyz)
+    mesh.set_adjacency(offsets=lines(o.n)[0], columns=lines(o.n)[1])
+    return mesh
+
+
+def with_sides(o):
+    return riis.mark(o.surface, o.mesh, fields="side, rim")
+
+
+# Each array argument that a call reads: its name, a good value, the call.
+READ = [
+    ("xyz", lambda o: o.xyz, lambda o, a: riis.Mesh(a)),
+    ("xyz", lambda o: o.xyz, lambda o, a: riis.Mesh(o.xyz).update(a)),
+    ("x", lambda o: o.reals, lambda o, a: riis.Mesh(a, o.reals, o.reals)),
+    ("z", lambda o: o.reals, lambda o, a: riis.Mesh(o.reals, o.reals, a)),
+    ("degree", lambda o: numpy.ones(4, "i4"), lambda o, a: patches(o, degree=a)),
+    ("control", lambda o: numpy.array([(x, y, 0) for x, y in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 0), (0, 1), (1, 0), (1, 1))], float),
+     lambda o, a: patches(o, control=a)),
+    ("curve_id", lambda o: numpy.array([[0, 1, 2, 3]], "i4"), lambda o, a: patches(o, curve_id=a)),
+    ("reversed", lambda o: numpy.zeros((1, 4), "i4"), lambda o, a: patches(o, reversed=a)),
+    ("leaflet_id", lambda o: numpy.zeros(1, "i4"), lambda o, a: patches(o, leaflet_id=a)),
+    ("vertices", lambda o: o.triangle, lambda o, a: riis.Surface.from_arrays(a, o.faces)),
+    ("faces", lambda o: o.faces, lambda o, a: riis.Surface.from_arrays(o.triangle, a)),
+    ("leaflet_id", lambda o: numpy.zeros(1, "i4"), lambda o, a: riis.Surface.from_arrays(o.triangle, o.faces, leaflet_id=a)),
+    ("velocities", lambda o: o.triangle, lambda o, a: riis.Surface.from_arrays(o.triangle, o.faces, velocities=a)),
+    ("vertices", lambda o: o.triangle,
+     lambda o, a: riis.Surface.from_arrays(o.triangle, o.faces).update_from_arrays(a)),
+    ("time", lambda o: numpy.zeros(1), lambda o, a: riis.Keyframes(a, o.triangle[None], o.faces)),
+    ("vertices", lambda o: o.triangle[None], lambda o, a: riis.Keyframes(numpy.zeros(1), a, o.faces)),
+    ("points", lambda o: o.xyz, lambda o, a: o.surface.closest_points(a)),
+    ("mask", lambda o: numpy.ones(o.n, bool), lambda o, a: o.surface.closest_points(o.xyz, mask=a)),
+    ("ids", lambda o: numpy.array([3, 5]), lambda o, a: o.surface.closest_points(o.xyz, ids=a)),
+    ("mask", lambda o: numpy.ones(o.n, bool), lambda o, a: riis.mark(o.surface, o.mesh, mask=a)),
+    ("offsets", lambda o: lines(o.n)[0], lambda o, a: riis.Mesh(o.xyz).set_adjacency(offsets=a, columns=lines(o.n)[1])),
+    ("columns", lambda o: lines(o.n)[1], lambda o, a: riis.Mesh(o.xyz).set_adjacency(offsets=lines(o.n)[0], columns=a)),
+    ("cells", lambda o: o.tetrahedron, lambda o, a: riis.Adjacency.from_cells(a, 4)),
+    ("offsets", lambda o: numpy.array([0, 4]), lambda o, a: riis.Adjacency.from_cells(o.tetrahedron[0], 4, offsets=a)),
+    ("owner", lambda o: numpy.array([0]), lambda o, a: riis.Adjacency.from_faces(a, numpy.array([1]), 2)),
+    ("neighbor", lambda o: numpy.array([1]), lambda o, a: riis.Adjacency.from_faces(numpy.array([0]), a, 2)),
+    ("velocity", lambda o: o.vectors, lambda o, a: o.marks.add_reaction(a, o.reals, resistance=1.0)),
+    ("weight", lambda o: o.reals, lambda o, a: o.marks.add_reaction(o.vectors, a, resistance=1.0)),
+    ("value", lambda o: o.reals, lambda o, a: with_sides(o).band_sums(a, o.reals, 0.0, 0.1)),
+    ("weight", lambda o: o.reals, lambda o, a: with_sides(o).band_sums(o.reals, a, 0.0, 0.1)),
+    ("from_ids", lambda o: numpy.array([0]), lambda o, a: riis.find_passage(o.thin, chain(o), a, numpy.array([o.n - 1]))),
+    ("to_ids", lambda o: numpy.array([o.n - 1]), lambda o, a: riis.find_passage(o.thin, chain(o), numpy.array([0]), a)),
+    ("time", lambda o: numpy.array([0.0, 1.0]), lambda o, a: riis.OpeningTable(a, numpy.zeros(2))(0.5)),
+    ("opening", lambda o: numpy.zeros(2), lambda o, a: riis.OpeningTable(numpy.array([0.0, 1.0]), a)(0.5)),
+    ("time", lambda o: numpy.zeros(2), lambda o, a: riis.OpeningTimes(0.0, 1.0, 2.0, 1.0)(a)),
+    ("points", lambda o: o.surface.vertices, lambda o, a: riis.fit(a, "mitral", free=["opening"], placement=[], n_starts=1)),
+    ("weights", lambda o: numpy.ones(o.surface.info.n_vertices),
+     lambda o, a: riis.fit(o.surface.vertices, "mitral", free=["opening"], placement=[], n_starts=1, weights=a)),
+]
+# Each array argument that a call writes.
+WRITTEN = [
+    ("distance", lambda o: o.reals, lambda o, a: o.surface.closest_points(o.xyz, distance=a)),
+    ("mark", lambda o: numpy.zeros(o.n, bool), lambda o, a: o.marks.dense(mark=a)),
+    ("coefficient", lambda o: o.reals, lambda o, a: o.marks.add_resistance(a, resistance=1.0)),
+    ("force", lambda o: numpy.zeros(3), lambda o, a: o.marks.add_reaction(o.vectors, o.reals, a, resistance=1.0)),
+    ("label", lambda o: numpy.zeros(o.n, int), lambda o, a: riis.label_open_regions(chain(o), o.marks, label=a)),
+]
+
+
+def cases(table):
+    return [pytest.param(*case, id=f"{i}-{case[0]}") for i, case in enumerate(table)]
+
+
+@pytest.mark.parametrize("name, good, call", cases(READ))
+def test_a_refused_array_converts_as_the_text_says(o, name, good, call):
+    good = good(o)
+    pytest.importorskip("scipy") if name in ("points", "weights") else None
+    call(o, good)
+    others = {"f8": numpy.float32, "i4": numpy.float64, "i8": numpy.float64, "b1": numpy.int64}
+    for wrong in good.tolist(), good.astype(others[good.dtype.str[1:]]):
+        with pytest.raises(TypeError, match=f"^{name}: ") as refusal:
+            call(o, wrong)
+        hint = re.search(r"; pass (numpy.ascontiguousarray\(.*\))$", str(refusal.value))
+        assert hint, str(refusal.value)
+        call(o, eval(hint[1], {"numpy": numpy, name: wrong}))
+
+
+@pytest.mark.parametrize("name, good, call", cases(WRITTEN))
+def test_an_array_that_is_written_is_not_converted(o, name, good, call):
+    good = good(o)
+    call(o, good)
+    for wrong in good.tolist(), good.astype(numpy.float32):
+        with pytest.raises(TypeError, match=rf"^{name}: .*; the call writes it, so make it by numpy.zeros\(\.\.\., dtype=\w"):
+            call(o, wrong)
+
+
+@pytest.mark.parametrize("name, good, call", cases(READ + WRITTEN))
+def test_a_masked_array_is_refused(o, name, good, call):
+    good = good(o)
+    for mask in numpy.arange(good.size).reshape(good.shape) == 0, False:
+        with pytest.raises(TypeError, match=f"^{name}: is a masked array, and its mask would be lost; pass {name}.filled"):
+            call(o, numpy.ma.masked_array(good, mask))
+
+
+def test_three_numbers_and_numbers_with_masks_are_refused(o):
+    with pytest.raises(TypeError, match="^translation: is a masked array"):
+        riis.Surface(o.valve, translation=numpy.ma.masked_array([0.0, 1.0, 2.0], [True, False, False]))
+    for masked in numpy.ma.masked, numpy.ma.masked_array(0.3, True):
+        with pytest.raises(TypeError, match="^opening: is a masked array"):
+            riis.Valve("mitral", opening=masked)
+
+
+def test_an_array_without_dimensions_is_a_number(o):
+    for number in numpy.array(3.0), numpy.array(3), numpy.float32(3.0), numpy.int64(3):
+        valve = riis.Valve("mitral", AP_diameter=number)
+        assert valve["AP_diameter"] == 3.0
+        valve["ALPM_diameter"] = number
+        valve.update(translation=[number, 0, numpy.array(1.0)])
+        assert valve["ALPM_diameter"] == 3.0 and valve["translation"].tolist() == [3.0, 0.0, 1.0]
+    surface = riis.Surface(o.valve, half_thickness=numpy.array(0.2), n_threads=numpy.array(1))
+    assert surface.half_thickness == 0.2
+    assert riis.OpeningTimes(numpy.array(0.0), 1.0, 2.0, 1.0)(numpy.array(0.5)) == 0.5
+    with pytest.raises(TypeError, match="translation: must be three numbers, not ndarray"):
+        riis.Surface(o.valve, translation=numpy.array(1.0))
+    with pytest.raises(Argument, match="AP_diameter: has 1 entry; it must have three numbers"):
+        riis.Valve("mitral", AP_diameter=numpy.array([3.0]))
 
 
 @pytest.mark.parametrize("name", REFUSED)
