@@ -9,6 +9,10 @@ void raise_status(riis_status status, const std::string &message) {
   throw nb::python_error();
 }
 
+std::string in_python(const char *text) {
+  return nb::cast<std::string>(nb::object(nb::module_::import_("riis._errors").attr("in_python")(text)));
+}
+
 std::string name_of_type(nb::handle object) { return nb::cast<std::string>(nb::str(object.type().attr("__name__"))); }
 
 }  // namespace riis_python

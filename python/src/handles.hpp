@@ -102,7 +102,7 @@ std::pair<riis_status, std::string> status_of(const Call &call) {
 template <class Call>
 void call_library(const Call &call) {
   const auto answer = status_of(call);
-  if (answer.first) raise_status(answer.first, answer.second);
+  if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
 // Does the same for a call that writes an object. After an internal error the object is closed.
@@ -110,12 +110,12 @@ template <class Call>
 void call_to_write(Usage &usage, const Call &call) {
   const auto answer = status_of(call);
   if (answer.first < 0) usage.is_closed = true;
-  if (answer.first) raise_status(answer.first, answer.second);
+  if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
 // Calls the library with the lock: the call takes less time than giving the lock away.
 inline void call_shortly(riis_status status) {
-  if (status) raise_status(status, riis_last_error());
+  if (status) raise_status(status, in_python(riis_last_error()));
 }
 
 // A handle of riis.h, destroyed with this object or, if arrays show its memory, with the last of these.

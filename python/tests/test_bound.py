@@ -7,9 +7,12 @@ import pathlib
 import re
 
 import bound
+import numpy
 import riis
+from riis import _errors
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+KINDS = "aortic", "mitral", "trileaflet", "bileaflet"
 
 
 def test_every_function_is_bound_or_left_out():
@@ -39,6 +42,55 @@ def test_options_of_surfaces_are_the_fields_of_their_struct():
     except TypeError as refusal:
         options = set(str(refusal).split("the options are ")[1].split(", "))
     assert options == fields
+
+
+def test_words_of_numbers_are_those_of_the_header():
+    header = (ROOT / "include/riis/riis.h").read_text(encoding="utf-8")
+    for name, words in _errors.WORDS.items():
+        values = re.findall(rf"^ +RIIS_{name.upper()}_(\w+) = (\d+)", header, re.MULTILINE)
+        assert [(word.lower(), int(value)) for word, value in values] == [(word, i) for i, word in enumerate(words)]
+    values = re.findall(r"^ +RIIS_FIELD_(\w+) = (\d+)", header, re.MULTILINE)
+    names = [name.removesuffix("_id").upper() for name in _errors.FIELDS]
+    assert values == [(name, str(1 << bit)) for bit, name in enumerate(names)]
+
+
+def texts_of_the_library():
+    """Yields every text of the library's sources that names something of riis.h."""
+    folders = [folder for folder in (ROOT / "src").iterdir() if folder.is_dir() and folder.name not in ("cli", "vtk")]
+    for path in sorted(path for folder in folders for path in folder.rglob("*.[ch]pp")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if not line.lstrip().startswith(("#", "//")) and path.name != "library_api.cpp":  # which has names of statuses
+                yield from re.findall(r'"((?:[^"\\]|\\.)*(?:riis_|RIIS_)(?:[^"\\]|\\.)*)"', line)
+
+
+def test_every_message_of_the_library_has_names_of_python():
+    texts = list(texts_of_the_library())
+    assert len(texts) > 20
+    for text in texts:
+        changed = _errors.in_python(text)
+        assert not re.search("riis_|RIIS_", changed), f"{text}: riis/_errors.py lacks a name"
+        for name in re.findall(r"\b(?:riis|Surface|Mesh|MarkResult|Valve)(?:\.\w+)+", changed):
+            found = riis
+            for part in name.removeprefix("riis.").split("."):
+                found = getattr(found, part)
+    for name, own in _errors._NAMES.items():
+        if name in bound.BOUND:
+            assert own.removeprefix("riis.") == bound.BOUND[name]
+
+
+def test_descriptions_and_warnings_have_names_of_python():
+    descriptions = [p.description for kind in KINDS for p in riis.Valve(kind).parameters.values()]
+    assert any("Valve.set_open_state" in text for text in descriptions)
+    assert not any(re.search("riis_|RIIS_", text) for text in descriptions)
+    warnings = []
+    riis.set_log(lambda level, message: warnings.append(message))
+    try:
+        far = riis.Mesh(1000.0 * numpy.random.default_rng(3).uniform(-1.0, 1.0, (2000, 3)))
+        riis.mark(riis.Surface(riis.Valve("mitral")), far)
+    finally:
+        riis.set_log(None)
+    assert any("See scale and half_thickness of riis.Surface" in text for text in warnings)
+    assert not any(re.search("riis_|RIIS_", text) for text in warnings)
 
 
 def public_objects():
@@ -76,4 +128,7 @@ def test_the_stub_has_every_name():
                 if not member.startswith("_"):
                     assert member in members, f"{name}.{member}"
                     assert members[member].returns is not None, f"{name}.{member} has no annotation"
+                    decorators = [ast.unparse(decorator) for decorator in members[member].decorator_list]
+                    assert decorators in ([], ["property"], ["staticmethod"]), f"{name}.{member}"
+                    assert isinstance(vars(found)[member], property) == (decorators == ["property"])
     assert pathlib.Path(riis.__file__).with_name("py.typed").exists()
