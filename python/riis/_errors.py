@@ -29,6 +29,12 @@ class InvalidParameterError(Error, ValueError):
     status_name = "RIIS_INVALID_PARAMETER"
 
 
+class UnknownParameterError(InvalidParameterError, KeyError):
+    """A valve has no parameter of the name to read."""
+
+    __str__ = Exception.__str__  # KeyError's shows the message in quotes
+
+
 class InvalidSurfaceError(Error, ValueError):
     """The caller's surface is empty, or has a bad vertex or face."""
 
@@ -84,7 +90,7 @@ _classes = {
         InternalError,
     )
 }
-for _class in (Error, *_classes.values()):
+for _class in (Error, UnknownParameterError, *_classes.values()):
     _class.__module__ = "riis"
 
 

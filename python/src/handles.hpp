@@ -174,6 +174,14 @@ struct Handle {
   std::shared_ptr<Owner> owner;  // of the handle, once it is shared
 };
 
+// Refuses pickle and copy for a class, and says what to keep in its place.
+template <class Type>
+void refuse_pickle(nb::class_<Type> &type, const char *instead) {
+  type.def(
+      "__reduce__", [instead](const Type &) { refuse_type(Type::python_name, "is neither pickled nor copied; ", instead); },
+      nb::sig("def __reduce__(self) -> typing.NoReturn"));
+}
+
 // Adds close(), closed and the with statement to a class.
 template <class Type>
 void add_closing(nb::class_<Type> &type) {

@@ -277,6 +277,8 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
       .def("__repr__", &description);
   add_resistance(result);
   add_leaking_edges(result);
+  refuse_pickle(result, "keep the arrays, such as marks.ids");
+  refuse_pickle(within, "keep the arrays, such as marks.within_limit.ids");
   add_closing(result);
 
   module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into").none() = nb::none(),

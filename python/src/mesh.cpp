@@ -239,6 +239,7 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
         return self.usage.is_closed ? std::string("<riis.Adjacency, closed>")
                                     : text_of("<riis.Adjacency, ", rows_of(self).n_rows, " rows>");
       });
+  refuse_pickle(adjacency, "keep its offsets and columns, which Mesh.set_adjacency takes");
   add_closing(adjacency);
 }
 
@@ -292,6 +293,7 @@ index_base        of offsets and columns)")
              return static_cast<std::size_t>(self.points.n);
            })
       .def("__repr__", &description);
+  refuse_pickle(mesh, "keep mesh.xyz, and make the mesh from it");
   add_closing(mesh);
 }
 

@@ -12,6 +12,8 @@ namespace riis_python {
 struct Valve : Handle<riis_valve, riis_valve_destroy> {
   static constexpr const char *python_name = "Valve";
   std::string kind;
+  // What the library does not give back: the arguments of from_patches, and a copy of the valve that it opens to.
+  nb::object patches = nb::none(), open = nb::none();
 };
 
 struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {

@@ -310,6 +310,7 @@ Cells have triangle_id, leaflet_id and patch_id; points have velocity if the las
       .def("__repr__", &description);
   add_closest(surface);
   add_crossing_pairs(surface);
+  refuse_pickle(surface, "keep the valve and the options, or the arrays, and make the surface from them");
   add_closing(surface);
 }
 
