@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import shlex
 import sys
@@ -157,6 +158,18 @@ def _checked_weights(weights: Any, n: int) -> Reals:
     return weights
 
 
+def _whole(number: Any, name: str, least: int) -> int:
+    try:
+        found = operator.index(number)
+    except TypeError:
+        found = None
+    if found is None or isinstance(number, bool):
+        raise TypeError(f"{name}: must be an int, not {number!r}")
+    if found < least:
+        raise InvalidArgumentError(f"{name}: is {found}; it must be at least {least}")
+    return found
+
+
 def _names_of(names: Any, argument: str) -> list[str]:
     if isinstance(names, str) or not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
         raise TypeError(f"{argument}: must be a list of names, not {names!r}")
@@ -264,11 +277,7 @@ def fit(
         weights = _checked_weights(weights, len(points))
     else:
         weights = numpy.ones(len(points)) if areas is None else areas / (areas.mean() or 1.0)
-    for name, number, least in ("n_starts", n_starts, 1), ("seed", seed, 0):
-        if not isinstance(number, int) or isinstance(number, bool):
-            raise TypeError(f"{name}: must be an int, not {number!r}")
-        if number < least:
-            raise InvalidArgumentError(f"{name}: is {number}; it must be at least {least}")
+    n_starts, seed = _whole(n_starts, "n_starts", 1), _whole(seed, "seed", 0)
     if not isinstance(whole, bool):
         raise TypeError(f"whole: must be True or False, not {whole!r}")
     given = {} if start is None else start

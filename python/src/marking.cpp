@@ -101,6 +101,7 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   result.n_nodes = mesh.points.n;
   result.n_threads = options.n_threads;
   result.marking_fork = fork_number();
+  result.places = mesh.places;
   return result_object;
 }
 
@@ -260,6 +261,7 @@ read-only, without a copy, and kept alive. While any is alive, the next marking 
             return WithinLimit{nb::borrow(self)};
           },
           nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
+      .def_prop_ro("_places", [](const MarkResult &self) { return self.places; })
       .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
       .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true, nb::arg("triangle_id").none() = false,
            nb::arg("leaflet_id").none() = false, nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,

@@ -29,6 +29,7 @@ void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   Points given = in_place ? Points{} : points_of(xyz, y, z);
   const Points &points = in_place ? self.points : given;
   const bool is_other_size = points.n != self.points.n;
+  self.places = Mesh::new_places();
   call_to_write(self.usage,
                 [&] { return riis_mesh_update(self.handle, points.n, points.x, points.y, points.z, points.stride); });
   if (!in_place) self.points = std::move(given);
@@ -245,6 +246,11 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
 
 }  // namespace
 
+std::int64_t Mesh::new_places() {
+  static std::int64_t n = 0;  // under the interpreter's lock
+  return ++n;
+}
+
 void Mesh::close(const char *name) {
   Handle::close(name);
   points = Points{};
@@ -287,6 +293,7 @@ index_base        of offsets and columns)")
             return self.points.n;
           },
           nb::sig("def n_nodes(self) -> int"), "The number of nodes.")
+      .def_prop_ro("_places", [](const Mesh &self) { return self.places; })
       .def("__len__",
            [](Mesh &self) {
              self.usage.check("mesh");

@@ -39,6 +39,10 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   Points points;                 // the caller's arrays, kept alive
   std::vector<Array> rows;       // those of an adjacency
   nb::object adjacency;          // keeps the rows of an Adjacency
+  std::int64_t places = new_places();
+
+  // Returns a number for nodes where they are now. No other mesh has it, nor has this one after an update.
+  static std::int64_t new_places();
 
   ~Mesh() { riis_mesh_destroy(&handle); }  // before what it borrows
   void close(const char *name);
@@ -49,6 +53,7 @@ struct MarkResult : Handle<riis_mark_result, riis_mark_result_destroy> {
   std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
   std::int32_t n_threads = 0;  // that it requested
   int marking_fork = 0;        // fork_number() at the marking
+  std::int64_t places = 0;     // those of the mesh at the marking
 
   // Refuses calls on several threads that a child of fork() lacks.
   void check_threads(const char *name) const;
