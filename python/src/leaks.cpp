@@ -104,7 +104,8 @@ void add_leaking_edges(nb::class_<MarkResult> &result) {
 
 void add_crossing_pairs(nb::class_<Surface> &surface) {
   surface.def_prop_ro("crossing_pairs", &crossing_pairs, nb::sig("def crossing_pairs(self) -> riis._records.CrossingPairs"),
-                      "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length (n,). Copies.");
+                      "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length "
+                      "(n,). Copies.");
 }
 
 void add_leaks(nb::module_ &module) {

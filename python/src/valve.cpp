@@ -66,7 +66,8 @@ void set_all(Valve &valve, const nb::dict &parameters) {
 void update(Valve &valve, nb::handle other, const nb::kwargs &parameters) {
   nb::dict all;
   if (!other.is_none()) {
-    if (!nb::hasattr(other, "__iter__")) refuse_type("other", "must be a mapping, or pairs of name and value, not ", name_of_type(other));
+    if (!nb::hasattr(other, "__iter__"))
+      refuse_type("other", "must be a mapping, or pairs of name and value, not ", name_of_type(other));
     all.attr("update")(other);
   }
   set_all(valve, all);
@@ -165,7 +166,8 @@ nb::dict parameters(Valve &valve) {
     const riis_parameter found = parameter(valve, id);
     const nb::object value =
         found.n_values == 1 ? nb::object(nb::float_(found.default_values[0])) : array_of(found.default_values, "float64");
-    all[found.name] = make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum, found.maximum);
+    all[found.name] = make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum,
+                           found.maximum);
   }
   return all;
 }
@@ -226,15 +228,16 @@ std::string description(Valve &valve) {
 nb::object record(const char *name) { return nb::module_::import_("riis._records").attr(name); }
 
 void add_valve(nb::module_ &module) {
-  nb::class_<Valve> valve(module, "Valve", nb::sig("class Valve(collections.abc.Mapping[str, typing.Any])"), R"(A parametric valve: its kind and the values of its parameters.
+  nb::class_<Valve> valve(module, "Valve", nb::sig("class Valve(collections.abc.Mapping[str, typing.Any])"),
+                          R"(A parametric valve: its kind and the values of its parameters.
 
 kind is 'aortic', the paper's three cusps, 'mitral', 'trileaflet', three equal cusps that close, or 'bileaflet',
 a mechanical prosthesis. Keywords set parameters: Valve('mitral', opening=0.3).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
-dict(valve) has all. Its names are fixed, and pickle takes it with all that it has. Lengths are in centimetres by default, angles in degrees. A name such as 'leaflet_angle' of an
-aortic valve stands for all three cusps and can only be set; 'right.leaflet_angle' is one cusp's. Rotation,
-translation, t0_* and t3_* have three values.)");
+dict(valve) has all. Its names are fixed, and pickle takes it with all that it has. Lengths are in centimetres by
+default, angles in degrees. A name such as 'leaflet_angle' of an aortic valve stands for all three cusps and can only
+be set; 'right.leaflet_angle' is one cusp's. Rotation, translation, t0_* and t3_* have three values.)");
   valve
       .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
            nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "

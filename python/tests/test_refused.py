@@ -18,6 +18,7 @@ class Objects:
     def __init__(self):
         self.valve = riis.Valve("mitral", opening=0.3)
         self.surface = riis.Surface(self.valve, half_thickness=0.15)
+        self.sampled = riis.Surface(self.valve, distance="sampling", distance_tolerance=0.5)
         self.thin = riis.Surface(self.valve, half_thickness=0.005)
         self.xyz = numpy.random.default_rng(1).uniform(-1.0, 1.0, (60, 3))
         self.mesh = riis.Mesh(self.xyz)
@@ -84,7 +85,7 @@ REFUSED = {
     "null in kind": (Argument, "kind: contains a null", lambda o: riis.Valve("mit\0ral")),
     "name": (riis.InvalidParameterError, "'height'", lambda o: riis.Valve("mitral", height=1.0)),
     "type of name": (TypeError, "name: must be a str, not int", lambda o: o.valve[3]),
-    "unknown name": (riis.InvalidParameterError, "'height'", lambda o: o.valve["height"]),
+    "unknown name": (riis.UnknownParameterError, "'height'", lambda o: o.valve["height"]),
     "value": (riis.InvalidParameterError, "opening.*2", lambda o: riis.Valve("mitral", opening=2.0)),
     "NaN value": (riis.InvalidParameterError, "opening.*nan", lambda o: riis.Valve("mitral", opening=math.nan)),
     "type of value": (TypeError, "opening: must be a number, not str", lambda o: riis.Valve("mitral", opening="0.3")),
@@ -92,7 +93,7 @@ REFUSED = {
     "one of three": (riis.InvalidParameterError, "translation", lambda o: riis.Valve("mitral", translation=1.0)),
     "three of one": (riis.InvalidParameterError, "opening", lambda o: riis.Valve("mitral", opening=(0, 0, 0))),
     "two values": (Argument, "translation: has 2 entries", lambda o: riis.Valve("mitral", translation=(1, 2))),
-    "all cusps": (riis.InvalidParameterError, "leaflet_angle", lambda o: riis.Valve("aortic")["leaflet_angle"]),
+    "all cusps": (riis.UnknownParameterError, "leaflet_angle", lambda o: riis.Valve("aortic")["leaflet_angle"]),
     "clash": (riis.InvalidParameterError, "bending_height is 0.71", lambda o: riis.Surface(riis.Valve("aortic", leaflet_height=0.1))),
     "open state of a list": (TypeError, "open: must be a riis.Valve, not list", lambda o: o.valve.set_open_state([])),
     "open state of None": (TypeError, "open: must be a riis.Valve, not NoneType", lambda o: o.valve.set_open_state(None)),
@@ -177,7 +178,8 @@ REFUSED = {
                        lambda o: o.mesh.set_adjacency(offsets=numpy.append(numpy.zeros(60, int), 2), columns=numpy.zeros(1, int))),
     "column": (riis.InvalidMeshError, "60",
                lambda o: o.mesh.set_adjacency(offsets=numpy.append(numpy.zeros(60, int), 1), columns=numpy.array([60]))),
-    "other size": (riis.Error, "^the number of rows is 8; the mesh has 60 nodes", lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(2, 2, 2))),
+    "other size": (riis.Error, "^the number of rows is 8; the mesh has 60 nodes",
+                   lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(2, 2, 2))),
     "cells": (Argument, "cells: has 3 nodes a cell", lambda o: riis.Adjacency.from_cells(o.faces, 3)),
     "node of a cell": (riis.InvalidMeshError, "3", lambda o: riis.Adjacency.from_cells(o.tetrahedron, 3)),
     "type of cells": (TypeError, "cells: its dtype is float64", lambda o: riis.Adjacency.from_cells(o.vectors, 3)),
@@ -211,14 +213,13 @@ REFUSED = {
     "positional": (TypeError, "mark", lambda o: riis.mark(o.surface, o.mesh, o.marks)),
     "no such field": (Argument, "normal: the marking did not request it; mark with fields='normal'", lambda o: riis.mark(
         o.surface, riis.Mesh(o.surface.vertices)).normal),
-    "velocity of several fields": (Argument, "^fields is 'normal, side, velocity', with 'velocity', but .*Surface.update_moving, or",
+    "velocity of several fields": (Argument, "^fields is 'normal, side, velocity', with 'velocity', .*Surface.update_moving, or",
                                    lambda o: riis.mark(o.surface, o.mesh, fields="velocity side normal")),
     "uv of arrays": (Argument, "^fields is 'uv', with 'uv', but the surface is from arrays", lambda o: riis.mark(
         riis.Surface.from_arrays(o.triangle, o.faces), o.mesh, fields="uv")),
     "fields of samples": (Argument, "^fields is 'rim', but .* sampling.* no fields but 'point', 'normal' and 'patch_id'",
-                          lambda o: riis.mark(riis.Surface(o.valve, distance="sampling", distance_tolerance=0.5), o.mesh, fields="rim")),
-    "clusters of samples": (Argument, "^search is 'clusters'", lambda o: riis.mark(
-        riis.Surface(o.valve, distance="sampling", distance_tolerance=0.5), o.mesh, search="clusters")),
+                          lambda o: riis.mark(o.sampled, o.mesh, fields="rim")),
+    "clusters of samples": (Argument, "^search is 'clusters'", lambda o: riis.mark(o.sampled, o.mesh, search="clusters")),
     "samples of arrays": (Argument, "^distance is 'sampling', .* it must be 'triangles'$",
                           lambda o: riis.Surface.from_arrays(o.triangle, o.faces, distance="sampling")),
     "fixed arrays": (Argument, "^triangulation is 'fixed', .* it must be 'adapted'$",
@@ -229,8 +230,7 @@ REFUSED = {
                              lambda o: o.surface.closest_points(o.triangle, ids=numpy.arange(4))),
     "ids and mask": (Argument, "^ids and mask are both given$", lambda o: o.surface.closest_points(
         o.triangle, ids=numpy.arange(1), mask=numpy.ones(3, bool))),
-    "side of samples": (Argument, "^side is given, but", lambda o: riis.Surface(
-        o.valve, distance="sampling", distance_tolerance=0.5).closest_points(o.xyz, side=True)),
+    "side of samples": (Argument, "^side is given, but", lambda o: o.sampled.closest_points(o.xyz, side=True)),
     "no node to come from": (Argument, "^the number of from_ids is 0", lambda o: riis.find_passage(
         o.surface, chain(o), numpy.zeros(0, int), numpy.zeros(1, int))),
     "node to go to": (Argument, r"^to_ids\[0\] is 99; the mesh has 60 nodes", lambda o: riis.find_passage(
@@ -294,12 +294,14 @@ REFUSED = {
 }
 
 
-def patches(o, degree=None, control=None, curve_id=None, **rest):
-    """A square between four straight lines."""
-    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0)]
+# The control points of four straight lines between the corners of a square.
+CONTROL = numpy.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0)], float)
+
+
+def patches(o, degree=None, control=CONTROL, curve_id=None, **rest):
     return riis.Valve.from_patches(
         numpy.ones(4, "i4") if degree is None else degree,
-        numpy.array(corners, float) if control is None else control,
+        control,
         numpy.array([[0, 1, 2, 3]], "i4") if curve_id is None else curve_id, **rest)
 
 
@@ -337,8 +339,7 @@ READ = [
     ("x", lambda o: o.reals, lambda o, a: riis.Mesh(a, o.reals, o.reals)),
     ("z", lambda o: o.reals, lambda o, a: riis.Mesh(o.reals, o.reals, a)),
     ("degree", lambda o: numpy.ones(4, "i4"), lambda o, a: patches(o, degree=a)),
-    ("control", lambda o: numpy.array([(x, y, 0) for x, y in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 0), (0, 1), (1, 0), (1, 1))], float),
-     lambda o, a: patches(o, control=a)),
+    ("control", lambda o: CONTROL, lambda o, a: patches(o, control=a)),
     ("curve_id", lambda o: numpy.array([[0, 1, 2, 3]], "i4"), lambda o, a: patches(o, curve_id=a)),
     ("reversed", lambda o: numpy.zeros((1, 4), "i4"), lambda o, a: patches(o, reversed=a)),
     ("leaflet_id", lambda o: numpy.zeros(1, "i4"), lambda o, a: patches(o, leaflet_id=a)),
@@ -418,6 +419,26 @@ def test_a_masked_array_is_refused(o, name, good, call):
             call(o, numpy.ma.masked_array(good, mask))
 
 
+class Frame:
+    """Has a function mask and gives an array, as pandas' frames."""
+
+    def __init__(self, array):
+        self.array = array
+
+    def __array__(self, dtype=None, copy=None):
+        return numpy.array(self.array, dtype)
+
+    def mask(self):
+        raise NotImplementedError
+
+
+def test_what_gives_an_array_converts_as_the_text_says(o):
+    text = "xyz: must be a numpy array of float64, not Frame; pass numpy.ascontiguousarray(xyz, dtype=float)"
+    with pytest.raises(TypeError, match=f"^{re.escape(text)}$"):
+        riis.Mesh(Frame(o.xyz))
+    assert len(riis.Mesh(numpy.ascontiguousarray(Frame(o.xyz), dtype=float))) == o.n
+
+
 def test_three_numbers_and_numbers_with_masks_are_refused(o):
     with pytest.raises(TypeError, match="^translation: is a masked array"):
         riis.Surface(o.valve, translation=numpy.ma.masked_array([0.0, 1.0, 2.0], [True, False, False]))
@@ -443,7 +464,7 @@ def test_an_array_without_dimensions_is_a_number(o):
 
 
 # What names something of C that Python lacks.
-OF_C = re.compile(r"riis_|RIIS_|\bNULL\b|(?<!')\b(arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.[a-z]")
+OF_C = re.compile(r"riis_|RIIS_|\bNULL\b|\b(arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.[a-z]")
 
 
 @pytest.mark.parametrize("name", REFUSED)
