@@ -147,7 +147,7 @@ def _constant_of(match: re.Match[str]) -> str:
 _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"riis_valve_parameter and riis-mark --print-params list them", "Valve.parameters lists them"),
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
-    (r"\bRIIS_([A-Z]+)_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
+    (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
     (r"(?<!['\w])(?:arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),

@@ -27,7 +27,7 @@ bool has_entries(nb::handle value) {
 }
 
 double number(nb::handle value, const char *name) {
-  if (PyFloat_CheckExact(value.ptr())) return PyFloat_AS_DOUBLE(value.ptr());
+  if (PyFloat_CheckExact(value.ptr())) return PyFloat_AsDouble(value.ptr());
   refuse_mask(value, name);
   if (!is_text(value) && !PyBool_Check(value.ptr())) {
     const double found = PyFloat_AsDouble(value.ptr());

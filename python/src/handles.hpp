@@ -126,7 +126,7 @@ struct Handle {
   Handle(const Handle &) = delete;
   Handle &operator=(const Handle &) = delete;
 
-  // Frees the memory now.
+  // Frees the memory now, or with the last array that shows it.
   void close(const char *name) {
     if (!usage.is_closed) {
       const Writing writing(usage, name);

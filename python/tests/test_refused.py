@@ -84,6 +84,8 @@ REFUSED = {
     "type of kind": (TypeError, "kind: must be a str, not int", lambda o: riis.Valve(3)),
     "null in kind": (Argument, "kind: contains a null", lambda o: riis.Valve("mit\0ral")),
     "name": (riis.InvalidParameterError, "'height'", lambda o: riis.Valve("mitral", height=1.0)),
+    "name that is cut within a letter": (riis.InvalidParameterError, "^'aé+\ufffd' is not a parameter",
+                                         lambda o: riis.Valve("mitral", **{"a" + 60 * "é": 1.0})),
     "type of name": (TypeError, "name: must be a str, not int", lambda o: o.valve[3]),
     "unknown name": (riis.UnknownParameterError, "'height'", lambda o: o.valve["height"]),
     "value": (riis.InvalidParameterError, "opening.*2", lambda o: riis.Valve("mitral", opening=2.0)),
