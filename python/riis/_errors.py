@@ -101,6 +101,7 @@ def class_of(status: int) -> type[Error]:
 
 # The functions and structs of riis.h that messages name.
 _NAMES = {
+    "riis_find_crossings": "riis.find_crossings",
     "riis_mark_nodes": "riis.mark",
     "riis_mark_result_band_sums": "MarkResult.band_sums",
     "riis_mesh_set_adjacency": "Mesh.set_adjacency",
