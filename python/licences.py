@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""licences.py FOLDER MODULE: puts the licence texts of all that a wheel brings into its metadata.
+"""licences.py FOLDER MODULE: puts the licences of all that a wheel brings into its metadata, as texts and as an expression.
 
 FOLDER  the wheel, repaired by auditwheel and unpacked
 MODULE  the extension module as it was built. Its loader finds the libraries that the wheel has copies of
@@ -12,6 +12,10 @@ import pathlib
 import re
 import subprocess
 import sys
+
+# The licences of libraries by SPDX's names. That of the module is in pyproject.toml.
+GCC = "GPL-3.0-or-later WITH GCC-exception-3.1"
+EXPRESSIONS = {"libembree": "Apache-2.0", "libtbb": "Apache-2.0", "libgomp": GCC, "libgcc_s": GCC, "libstdc++": GCC}
 
 DOCUMENTS, COMMON = pathlib.Path("/usr/share/doc"), pathlib.Path("/usr/share/common-licenses")
 
@@ -29,6 +33,15 @@ def package_of(library):
     return fail(f"no Debian package has {library}, so its licence is unknown")
 
 
+def expression_of(own, libraries):
+    """The expression of the module, and of the libraries that the wheel has."""
+    parts = own.split(" AND ")
+    for name in libraries:
+        stem = re.match(r"lib[a-z_+]+", name)[0]
+        parts.append(EXPRESSIONS.get(stem) or fail(f"the SPDX expression of {name} is unknown; EXPRESSIONS lacks {stem}"))
+    return " AND ".join(dict.fromkeys(parts))
+
+
 def texts_of_nanobind():
     """The licence of nanobind, and that of robin_map, which is the comment at the top of its header."""
     files = {file.name: file for file in importlib.metadata.files("nanobind")}
@@ -44,10 +57,11 @@ def main(folder, module):
     found = {path.name: path for line in lines if "=> /" in line for path in [pathlib.Path(line.split()[2]).resolve()]}
     (metadata,) = folder.glob("*.dist-info/METADATA")
     licences = metadata.parent / "licenses"
-    texts = {}
+    texts, libraries = {}, []
     for bundled in sorted(folder.glob("riis.libs/*")):
         name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", bundled.name)  # auditwheel adds a part of the checksum
         library = found.get(name) or fail(f"{module} loads no {name}, which the wheel has as {bundled.name}")
+        libraries.append(name)
         package = package_of(library)
         copyright_ = DOCUMENTS / package / "copyright"
         if not copyright_.is_file():
@@ -64,6 +78,8 @@ def main(folder, module):
         (licences / name).parent.mkdir(parents=True, exist_ok=True)
         (licences / name).write_text(text, encoding="utf-8")
     head, blank, rest = metadata.read_text(encoding="utf-8").partition("\n\n")
+    own = re.search("^License-Expression: (.*)$", head, re.MULTILINE) or fail(f"{metadata} has no License-Expression")
+    head = head.replace(own[0], f"License-Expression: {expression_of(own[1], libraries)}")
     metadata.write_text("".join([head] + [f"\nLicense-File: {name}" for name in texts] + [blank, rest]), encoding="utf-8")
 
 

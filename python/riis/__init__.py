@@ -28,6 +28,7 @@ from riis._errors import (
     LimitExceededError,
     OutOfMemoryError,
     UnavailableError,
+    UnknownParameterError,
 )
 from riis._fit import FitResult, fit
 from riis._plot import animate, plot
@@ -131,6 +132,7 @@ __all__ = [
     "SurfaceInfo",
     "Triangles",
     "UnavailableError",
+    "UnknownParameterError",
     "Valve",
     "WithinLimit",
     "animate",

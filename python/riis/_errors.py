@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of riis: one class for each status of the C library."""
+"""The exceptions of riis: one class for each status of the C library, whose messages speak of C until they come here."""
+
+import re
+from collections.abc import Callable
 
 
 class Error(Exception):
@@ -24,6 +27,12 @@ class InvalidParameterError(Error, ValueError):
 
     status = 3
     status_name = "RIIS_INVALID_PARAMETER"
+
+
+class UnknownParameterError(InvalidParameterError, KeyError):
+    """A valve has no parameter of the name to read."""
+
+    __str__ = Exception.__str__  # KeyError's shows the message in quotes
 
 
 class InvalidSurfaceError(Error, ValueError):
@@ -81,10 +90,77 @@ _classes = {
         InternalError,
     )
 }
-for _class in (Error, *_classes.values()):
+for _class in (Error, UnknownParameterError, *_classes.values()):
     _class.__module__ = "riis"
 
 
 def class_of(status: int) -> type[Error]:
     """Returns the class of a status. A status without a class cannot come from the calls of this package."""
     return _classes.get(status, InternalError)
+
+
+# The functions and structs of riis.h that messages name.
+_NAMES = {
+    "riis_find_crossings": "riis.find_crossings",
+    "riis_mark_nodes": "riis.mark",
+    "riis_mark_result_band_sums": "MarkResult.band_sums",
+    "riis_mesh_set_adjacency": "Mesh.set_adjacency",
+    "riis_surface_options": "riis.Surface",
+    "riis_surface_update_moving": "Surface.update_moving",
+    "riis_valve_parameter": "Valve.parameters",
+    "riis_valve_set_open_state": "Valve.set_open_state",
+}
+# Fields of C's structs whose argument has another name. All other fields have the argument's.
+_ARGUMENTS = {
+    "arrays.vertex_ids": "faces",
+    "csr.n_rows": "the number of rows",
+    "options.n_point_ids": "the number of ids",
+    "options.node_mask": "mask",
+    "options.point_ids": "ids",
+    "options.point_mask": "mask",
+}
+# The words of numbers, by the argument.
+WORDS = {
+    "distance": ("triangles", "sampling", "minimization"),
+    "instructions": ("auto", "baseline", "avx2", "avx512"),
+    "search": ("auto", "exhaustive", "neighbor", "paper", "clusters"),
+    "triangulation": ("adapted", "fixed"),
+}
+FIELDS = ("point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id")
+
+
+def _word_of(match: re.Match[str]) -> str:
+    name, verb, number = match[1], match[2], int(match[3])
+    if name == "fields":
+        words = [word for bit, word in enumerate(FIELDS) if number >> bit & 1]
+        return f"{name}{verb}" + (repr(", ".join(words)) if words else "None")
+    return f"{name}{verb}{WORDS[name][number]!r}"
+
+
+def _constant_of(match: re.Match[str]) -> str:
+    group, word = match[1].lower(), match[2].lower()
+    if word == "*":
+        return f"the words of {group}"
+    word = {"patch": "patch_id"}.get(word, word)
+    return f"rim={word!r}" if group == "rim" else repr(word)
+
+
+_CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"riis_valve_parameter and riis-mark --print-params list them", "Valve.parameters lists them"),
+    (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
+    (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
+    (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
+    (r"(?<!['\w])(?:arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.([a-z]\w*)",
+     lambda match: _ARGUMENTS.get(match[0], match[1])),
+    (r"^result\b", "marks"),
+    (r"^(from|to)\[", r"\1_ids["),
+    (r"^n_(from|to) is", r"the number of \1_ids is"),
+    (r"\bNULL\b", "None"),
+)
+
+
+def in_python(message: str) -> str:
+    """Returns a message of the C library with Python's names for what it speaks of."""
+    for pattern, change in _CHANGES:
+        message = re.sub(pattern, change, message)
+    return message

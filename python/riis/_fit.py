@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import shlex
 import sys
@@ -112,6 +113,20 @@ def _is_its_parameters(valve: Valve) -> bool:
     return numpy.array_equal(Surface(alone).vertices, Surface(valve).vertices)
 
 
+def _reals(data: Any, name: str, or_else: str = "") -> Reals:
+    """Returns an array of float64, and refuses all else as the calls in C++ do."""
+    if isinstance(data, numpy.ma.MaskedArray):
+        raise TypeError(
+            f"{name}: is a masked array, and its mask would be lost; pass {name}.filled(...), or {name}.data if the mask "
+            "does not matter"
+        )
+    if not isinstance(data, numpy.ndarray) or data.dtype != numpy.float64:
+        what = f"an array of {data.dtype}" if isinstance(data, numpy.ndarray) else type(data).__name__
+        hint = "" if data is None or isinstance(data, str) else f"; pass numpy.ascontiguousarray({name}, dtype=float)"
+        raise TypeError(f"{name}: must be a numpy array of float64{or_else}, not {what}{hint}")
+    return data
+
+
 def _points_of(data: Any) -> tuple[Reals, Reals | None]:
     """Returns points, and the areas around them where they are vertices of a surface."""
     pyvista = sys.modules.get("pyvista")
@@ -122,10 +137,7 @@ def _points_of(data: Any) -> tuple[Reals, Reals | None]:
         points = numpy.array(data.points, numpy.float64)  # PyVista's are often float32
         triangles = data.triangulate().faces.reshape(-1, 4)[:, 1:] if data.faces.size > 0 else None
         return points, None if triangles is None else vertex_areas(points, triangles)
-    if not isinstance(data, numpy.ndarray) or data.dtype != numpy.float64:
-        what = f"an array of {data.dtype}" if isinstance(data, numpy.ndarray) else type(data).__name__
-        raise TypeError(f"points: must be a numpy array of float64, a riis.Surface or a pyvista.PolyData, not {what}")
-    return data, None
+    return _reals(data, "points", ", a riis.Surface or a pyvista.PolyData"), None
 
 
 def _check_points(points: Reals) -> None:
@@ -137,15 +149,25 @@ def _check_points(points: Reals) -> None:
 
 
 def _checked_weights(weights: Any, n: int) -> Reals:
-    if not isinstance(weights, numpy.ndarray) or weights.dtype != numpy.float64:
-        what = f"an array of {weights.dtype}" if isinstance(weights, numpy.ndarray) else type(weights).__name__
-        raise TypeError(f"weights: must be a numpy array of float64, not {what}")
+    weights = _reals(weights, "weights")
     if weights.shape != (n,):
         raise InvalidArgumentError(f"weights: its shape is {weights.shape}; there are {n} points")
     bad = numpy.flatnonzero(~(numpy.isfinite(weights) & (weights >= 0.0)))
     if len(bad) > 0:
         raise InvalidArgumentError(f"weights: entry {bad[0]} is {weights[bad[0]]}; it must be finite and at least 0")
     return weights
+
+
+def _whole(number: Any, name: str, least: int) -> int:
+    try:
+        found = operator.index(number)
+    except TypeError:
+        found = None
+    if found is None or isinstance(number, bool):
+        raise TypeError(f"{name}: must be an int, not {number!r}")
+    if found < least:
+        raise InvalidArgumentError(f"{name}: is {found}; it must be at least {least}")
+    return found
 
 
 def _names_of(names: Any, argument: str) -> list[str]:
@@ -255,11 +277,7 @@ def fit(
         weights = _checked_weights(weights, len(points))
     else:
         weights = numpy.ones(len(points)) if areas is None else areas / (areas.mean() or 1.0)
-    for name, number, least in ("n_starts", n_starts, 1), ("seed", seed, 0):
-        if not isinstance(number, int) or isinstance(number, bool):
-            raise TypeError(f"{name}: must be an int, not {number!r}")
-        if number < least:
-            raise InvalidArgumentError(f"{name}: is {number}; it must be at least {least}")
+    n_starts, seed = _whole(n_starts, "n_starts", 1), _whole(seed, "seed", 0)
     if not isinstance(whole, bool):
         raise TypeError(f"whole: must be True or False, not {whole!r}")
     given = {} if start is None else start

@@ -49,6 +49,13 @@ def _look(plotter: Any, zoom: float) -> None:
     plotter.camera.zoom(zoom)
 
 
+def _check_of_mesh(marks: MarkResult | None, mesh: Mesh | None) -> None:
+    if mesh is not None and marks is not None and marks._places != mesh._places:
+        raise InvalidArgumentError(
+            "marks: are not of mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates"
+        )
+
+
 def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: MarkResult | None) -> None:
     """Draws or replaces the leaflets and the marked nodes."""
     pyvista = _pyvista()
@@ -77,7 +84,7 @@ def plot(
 ) -> Any:
     """Draws a surface, coloured by leaflet, and the marked nodes, coloured by distance.
 
-    mesh, marks  those of the marking, both or none
+    mesh, marks  those of the marking, both or none; other nodes than those that were marked are refused
     screenshot   a .png file to write; no window opens then
     plotter      a pyvista.Plotter to draw into; None: a new one, which is shown if there is no screenshot
 
@@ -86,6 +93,7 @@ def plot(
     pyvista = _pyvista()
     if (mesh is None) != (marks is None):
         raise InvalidArgumentError("marks: goes together with mesh; one of them is None")
+    _check_of_mesh(marks, mesh)
     given = plotter is not None
     if not given:
         plotter = pyvista.Plotter(off_screen=screenshot is not None)
@@ -114,6 +122,7 @@ def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, MarkR
         raise TypeError(f"frames: frame {number} must be a Surface, (Surface, marks) or (Surface, marks, caption), not {item!r}")
     if marks is not None and mesh is None:
         raise InvalidArgumentError(f"mesh: is None, but frame {number} of frames has marks")
+    _check_of_mesh(marks, mesh)
     return surface, marks, caption
 
 
@@ -142,7 +151,7 @@ def animate(
     kind = os.path.splitext(name)[1].lower()
     if kind not in (".gif", ".mp4"):
         raise InvalidArgumentError(f"path: '{name}' must end in .gif or .mp4")
-    if not isinstance(frame_rate, (int, float)) or isinstance(frame_rate, bool):
+    if isinstance(frame_rate, (bool, str)) or not hasattr(frame_rate, "__float__") or numpy.ndim(frame_rate) != 0:
         raise TypeError(f"frame_rate: must be a number, not {frame_rate!r}")
     if not 0.0 < frame_rate <= 1000.0:
         raise InvalidArgumentError(f"frame_rate: is {frame_rate}; it must be above 0 and at most 1000")
@@ -158,7 +167,7 @@ def animate(
             if number == 0:
                 if not given:
                     _look(plotter, 1.1)
-                _open_movie(plotter, name, kind, frame_rate)
+                _open_movie(plotter, name, kind, float(frame_rate))
             plotter.write_frame()
             number += 1
         if number == 0:

@@ -43,7 +43,7 @@ class SurfaceInfo(NamedTuple):
 
 
 class Triangles(NamedTuple):
-    """The triangles of a surface, as views."""
+    """The triangles of a surface."""
 
     vertex_id: Ids  #: (n, 3)
     triangle_id: Ids  #: (n,), ascending: the id that queries report
@@ -119,7 +119,7 @@ class Leaks(NamedTuple):
 
 
 class LeakingEdges(NamedTuple):
-    """The edges of the last find_leaks, as views."""
+    """The edges of the last find_leaks."""
 
     node_id: Ids  #: (n, 2), the lower one first
     length: Reals  #: (n,)
@@ -149,7 +149,7 @@ class Crossings(NamedTuple):
 
 
 class CrossingPairs(NamedTuple):
-    """The pairs of the last find_crossings, as views."""
+    """The pairs of the last find_crossings."""
 
     triangle_id: Ids  #: (n, 2), the lower one first
     point: Reals  #: (n, 3)

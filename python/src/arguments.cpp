@@ -13,7 +13,22 @@ bool is_text(nb::handle value) { return PyUnicode_Check(value.ptr()) || PyBytes_
 
 }  // namespace
 
+void refuse_mask(nb::handle value, const char *name) {
+  if (nb::hasattr(value, "mask") && nb::hasattr(value, "filled"))  // pandas has a function mask
+    refuse_type(name, "is a masked array, and its mask would be lost; pass ", name, ".filled(...), or ", name,
+                ".data if the mask does not matter");
+}
+
+bool has_entries(nb::handle value) {
+  if (is_text(value) || !PySequence_Check(value.ptr())) return false;
+  if (PySequence_Size(value.ptr()) >= 0) return true;
+  PyErr_Clear();
+  return false;
+}
+
 double number(nb::handle value, const char *name) {
+  if (PyFloat_CheckExact(value.ptr())) return PyFloat_AsDouble(value.ptr());
+  refuse_mask(value, name);
   if (!is_text(value) && !PyBool_Check(value.ptr())) {
     const double found = PyFloat_AsDouble(value.ptr());
     if (found != -1.0 || !PyErr_Occurred()) return found;
@@ -70,13 +85,10 @@ std::int32_t choice(nb::handle value, const char *name, std::initializer_list<Wo
 }
 
 void three_numbers(nb::handle value, const char *name, double (&numbers)[3]) {
-  if (is_text(value) || !PySequence_Check(value.ptr()))
-    refuse_type(name, "must be three numbers, not ", name_of_type(value));
+  refuse_mask(value, name);
+  if (!has_entries(value)) refuse_type(name, "must be three numbers, not ", name_of_type(value));
   const Py_ssize_t size = PySequence_Size(value.ptr());
-  if (size != 3) {
-    PyErr_Clear();
-    refuse_value(name, "has ", size, " entries; it must have three numbers");
-  }
+  if (size != 3) refuse_value(name, "has ", size, size == 1 ? " entry" : " entries", "; it must have three numbers");
   for (Py_ssize_t i = 0; i < 3; ++i) {
     const nb::object entry = nb::steal(PySequence_GetItem(value.ptr(), i));
     if (!entry.is_valid()) throw nb::python_error();

@@ -9,6 +9,12 @@
 
 namespace riis_python {
 
+// Refuses a masked array, such as numpy.ma's: its buffer has values where the mask hides them.
+void refuse_mask(nb::handle value, const char *name);
+
+// Tells whether a value has entries. An array without dimensions has none: it is a number.
+bool has_entries(nb::handle value);
+
 // Returns a number. bool and text are none.
 double number(nb::handle value, const char *name);
 

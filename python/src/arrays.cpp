@@ -71,20 +71,48 @@ nb::tuple python_shape(std::initializer_list<std::int64_t> shape) {
   return nb::tuple(sizes);
 }
 
+// Returns the argument dtype of numpy that makes entries of the wanted type.
+const char *dtype_for(const std::string &wanted) {
+  if (wanted == "float64") return "float";
+  if (wanted == "int32") return "numpy.int32";
+  return wanted == "bool or uint8" ? "bool" : "numpy.int64";
+}
+
+// Tells whether numpy can make real numbers of an object.
+bool is_convertible(nb::handle object) {
+  if (nb::hasattr(object, "dtype") && nb::hasattr(object.attr("dtype"), "kind"))
+    return std::strchr("biuf", nb::cast<std::string>(object.attr("dtype").attr("kind"))[0]);
+  return (PySequence_Check(object.ptr()) && !PyUnicode_Check(object.ptr()) && !PyBytes_Check(object.ptr())) ||
+         nb::hasattr(object, "__array__");
+}
+
 }  // namespace
 
-Array::Array(nb::handle object, const char *name, Access access, const char *wanted) : name_(name), view_{} {
+template <class... Parts>
+void Array::refuse_entries(nb::handle object, const char *wanted, const Parts &...parts) const {
+  std::string text = text_of(parts...);
+  if (access_ == Access::write)
+    text += text_of("; the call writes it, so make it by numpy.zeros(..., dtype=", dtype_for(wanted), ")");
+  else if (is_convertible(object))
+    text += text_of("; pass numpy.ascontiguousarray(", name_, ", dtype=", dtype_for(wanted), ")");
+  refuse_type(name_, text);
+}
+
+Array::Array(nb::handle object, const char *name, Access access, const char *wanted) : name_(name), access_(access), view_{} {
+  refuse_mask(object, name);
   if (!PyObject_CheckBuffer(object.ptr()))
-    refuse_type(name, "must be a numpy array of ", wanted, ", not ", name_of_type(object));
+    refuse_entries(object, wanted, "must be a numpy array of ", wanted, ", not ", name_of_type(object));
   if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_FULL_RO)) {
     PyErr_Clear();
     view_.obj = nullptr;
-    refuse_type(name, "must be a numpy array of ", wanted, ", not ", dtype_of(object, name_of_type(object).c_str()));
+    refuse_entries(object, wanted, "must be a numpy array of ", wanted, ", not ",
+                   dtype_of(object, name_of_type(object).c_str()));
   }
   // The destructor does not run for a constructor that throws.
   try {
     if (view_.suboffsets) refuse_type(name, "must be a numpy array, not a buffer with suboffsets");
-    if (!is_of(view_, wanted)) refuse_type(name, "its dtype is ", dtype_of(object, view_.format), "; it must be ", wanted);
+    if (!is_of(view_, wanted))
+      refuse_entries(object, wanted, "its dtype is ", dtype_of(object, view_.format), "; it must be ", wanted);
     if (access == Access::write && view_.readonly) refuse_value(name, "is read-only, and the call writes it");
   } catch (...) {
     PyBuffer_Release(&view_);
@@ -120,7 +148,9 @@ const Array &Array::expect_shape(std::initializer_list<std::int64_t> shape) cons
 const Array &Array::expect(std::initializer_list<std::int64_t> shape) const {
   expect_shape(shape);
   if (!PyBuffer_IsContiguous(&view_, 'C'))
-    refuse_value(name_, "its entries must lie in C order without gaps; take numpy.ascontiguousarray(", name_, ")");
+    refuse_value(name_, "its entries must lie in C order without gaps; ",
+                 access_ == Access::read ? text_of("pass numpy.ascontiguousarray(", name_, ")")
+                                         : "the call writes it, so make it by numpy.zeros");
   if (reinterpret_cast<std::uintptr_t>(view_.buf) % static_cast<std::uintptr_t>(view_.itemsize) != 0)
     refuse_value(name_, "its entries are not aligned to ", view_.itemsize, " bytes; copy the array");
   return *this;

@@ -4,7 +4,9 @@
 
 #include <nanobind/ndarray.h>
 
+#include <functional>
 #include <initializer_list>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -24,9 +26,10 @@ class Array {
   // An array of 32 or 64 bit integers.
   static Array of_integers(nb::handle object, const char *name);
 
-  Array(Array &&other) noexcept : name_(other.name_), view_(other.view_) { other.view_.obj = nullptr; }
+  Array(Array &&other) noexcept : name_(other.name_), access_(other.access_), view_(other.view_) { other.view_.obj = nullptr; }
   Array &operator=(Array &&other) noexcept {
     std::swap(name_, other.name_);
+    std::swap(access_, other.access_);
     std::swap(view_, other.view_);
     return *this;
   }
@@ -53,7 +56,12 @@ class Array {
  private:
   Array(nb::handle object, const char *name, Access access, const char *wanted);
 
+  // Refuses an object, and says how to convert it. A conversion of an array that is written would be written in its place.
+  template <class... Parts>
+  [[noreturn]] void refuse_entries(nb::handle object, const char *wanted, const Parts &...parts) const;
+
   const char *name_;
+  Access access_;
   Py_buffer view_;
 };
 
@@ -74,12 +82,20 @@ nb::object new_array(const char *type, std::initializer_list<std::int64_t> shape
 // Returns a new numpy array of equal entries.
 nb::object new_filled_array(const char *type, std::initializer_list<std::int64_t> shape, nb::handle value);
 
-// Returns a read-only numpy array that shows memory of an object, without a copy.
+// Returns a read-only numpy array that shows memory without a copy, and keeps the memory's owner alive.
 template <class T>
-nb::object view_of(const T *data, std::initializer_list<std::size_t> shape, nb::handle object, int &n_views) {
+nb::object view_of(const T *data, std::initializer_list<std::size_t> shape, nb::handle owner) {
   static const T empty[1] = {};
-  const nb::object owner = new_view(object, n_views);
   return nb::cast(nb::ndarray<nb::numpy, const T>(data ? data : empty, shape.size(), shape.begin(), owner));
+}
+
+// Returns a read-only numpy array with a copy of memory that a later call may write.
+template <class T>
+nb::object copy_of(const T *data, std::initializer_list<std::size_t> shape) {
+  const std::size_t n = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  std::vector<T> copy(data, data + (data ? n : 0));
+  const T *const copied = copy.data();  // stays as the vector moves
+  return view_of(copied, shape, keeper_of(std::move(copy)));
 }
 
 // Returns three numbers as a new numpy array.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "errors.hpp"
 
+#include <cstring>
+
 namespace riis_python {
 
 void raise_status(riis_status status, const std::string &message) {
@@ -9,9 +11,11 @@ void raise_status(riis_status status, const std::string &message) {
   throw nb::python_error();
 }
 
-void raise_buffer_error(const std::string &message) {
-  PyErr_SetString(PyExc_BufferError, message.c_str());
-  throw nb::python_error();
+std::string in_python(const char *text) {
+  // The library may have cut a long name within a letter.
+  const nb::object letters = nb::steal(PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "replace"));
+  if (!letters.is_valid()) throw nb::python_error();
+  return nb::cast<std::string>(nb::object(nb::module_::import_("riis._errors").attr("in_python")(letters)));
 }
 
 std::string name_of_type(nb::handle object) { return nb::cast<std::string>(nb::str(object.type().attr("__name__"))); }

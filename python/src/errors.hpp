@@ -16,8 +16,8 @@ namespace nb = nanobind;
 // Throws the Python exception of a status.
 [[noreturn]] void raise_status(riis_status status, const std::string &message);
 
-// Throws BufferError.
-[[noreturn]] void raise_buffer_error(const std::string &message);
+// Returns a text of the library with Python's names for C's.
+std::string in_python(const char *text);
 
 template <class... Parts>
 std::string text_of(const Parts &...parts) {

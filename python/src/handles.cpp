@@ -22,18 +22,6 @@ void begin_child() {
 
 const int registered = pthread_atfork(nullptr, nullptr, begin_child);
 
-struct View {
-  PyObject *object;
-  int *n_views;
-};
-
-void drop_view(void *data) noexcept {
-  const auto *view = static_cast<View *>(data);
-  --*view->n_views;
-  Py_DECREF(view->object);
-  delete view;
-}
-
 }  // namespace
 
 bool is_forked() noexcept { return fork_number() > 0; }
@@ -60,17 +48,6 @@ void Usage::check(const char *name) {
 void Reading::refuse_busy(const char *name) {
   raise_status(RIIS_UNAVAILABLE,
                text_of(name, ": another thread is using it; one thread may write an object while no other reads it"));
-}
-
-void Writing::refuse_views(const char *name, int n_views) {
-  raise_buffer_error(text_of(name, ": ", n_views, n_views == 1 ? " array shows" : " arrays show", " its memory; delete ",
-                             n_views == 1 ? "it" : "them", " first, or copy"));
-}
-
-nb::object new_view(nb::handle object, int &n_views) {
-  auto *view = new View{object.inc_ref().ptr(), &n_views};
-  ++n_views;
-  return nb::capsule(view, drop_view);
 }
 
 Inside::Inside() noexcept { ++n_inside; }

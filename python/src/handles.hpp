@@ -24,7 +24,6 @@ struct Usage {
   int n_readers = 0;
   bool is_written = false;
   bool is_closed = false;
-  int n_views = 0;  // arrays that show the object's memory, and objects that borrow it
   int fork = fork_number();
 
   // Refuses an object that is closed, or that a thread of the parent was using at the fork.
@@ -49,28 +48,30 @@ class Reading {
   Usage &usage_;
 };
 
-// The object is written while this lives. No array may show the memory that is written, which n_views counts.
+// The object is written while this lives.
 class Writing {
  public:
-  Writing(Usage &usage, const char *name, const int &n_views) : usage_(usage) {
+  Writing(Usage &usage, const char *name) : usage_(usage) {
     usage.check(name);
     if (usage.is_written || usage.n_readers > 0) Reading::refuse_busy(name);
-    if (n_views > 0) refuse_views(name, n_views);
     usage.is_written = true;
   }
-  Writing(Usage &usage, const char *name) : Writing(usage, name, usage.n_views) {}
   ~Writing() { usage_.is_written = false; }
   Writing(const Writing &) = delete;
   Writing &operator=(const Writing &) = delete;
-
-  [[noreturn]] static void refuse_views(const char *name, int n_views);
 
  private:
   Usage &usage_;
 };
 
-// Returns an object that counts as a view of another object and keeps it alive. It is the owner of arrays without a copy.
-nb::object new_view(nb::handle object, int &n_views);
+// Returns an object of Python that keeps another alive.
+template <class T>
+nb::object keeper_of(T kept) {
+  auto own = std::make_unique<T>(std::move(kept));
+  nb::capsule made(own.get(), [](void *data) noexcept { delete static_cast<T *>(data); });
+  (void)own.release();
+  return made;
+}
 
 // Counts the calls inside the library, for forks.
 class Inside {
@@ -101,7 +102,7 @@ std::pair<riis_status, std::string> status_of(const Call &call) {
 template <class Call>
 void call_library(const Call &call) {
   const auto answer = status_of(call);
-  if (answer.first) raise_status(answer.first, answer.second);
+  if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
 // Does the same for a call that writes an object. After an internal error the object is closed.
@@ -109,43 +110,84 @@ template <class Call>
 void call_to_write(Usage &usage, const Call &call) {
   const auto answer = status_of(call);
   if (answer.first < 0) usage.is_closed = true;
-  if (answer.first) raise_status(answer.first, answer.second);
+  if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
 // Calls the library with the lock: the call takes less time than giving the lock away.
 inline void call_shortly(riis_status status) {
-  if (status) raise_status(status, riis_last_error());
+  if (status) raise_status(status, in_python(riis_last_error()));
 }
 
-// A handle of riis.h, destroyed with this object.
+// A handle of riis.h, destroyed with this object or, if arrays show its memory, with the last of these.
 template <class C, void (*destroy)(C **)>
 struct Handle {
   Handle() = default;
-  ~Handle() { destroy(&handle); }
+  ~Handle() { release(); }
   Handle(const Handle &) = delete;
   Handle &operator=(const Handle &) = delete;
 
-  // Frees the memory now.
+  // Frees the memory now, or with the last array that shows it.
   void close(const char *name) {
-    if (usage.is_closed) {
-      destroy(&handle);
-      return;
+    if (!usage.is_closed) {
+      const Writing writing(usage, name);
+      usage.is_closed = true;
     }
-    { const Writing writing(usage, name); }
-    usage.is_closed = true;
-    destroy(&handle);
+    release();
+  }
+
+  // Returns an object of Python that keeps the memory alive: the owner of arrays without a copy.
+  nb::object share() {
+    if (!owner) {
+      owner = std::make_shared<Owner>();
+      owner->handle = handle;
+    }
+    return keeper_of(owner);
+  }
+
+  // Tells whether anything besides this object uses the memory. It must not be written then.
+  bool is_shared() const { return owner.use_count() > 1; }
+
+  // Takes the memory of another, and leaves its own to the arrays that show it.
+  void take(Handle &other) {
+    release();
+    handle = std::exchange(other.handle, nullptr);
+    owner = std::move(other.owner);
   }
 
   C *handle = nullptr;
   Usage usage;
+
+ private:
+  struct Owner {
+    ~Owner() { destroy(&handle); }
+    C *handle = nullptr;
+  };
+
+  void release() {
+    if (owner)
+      handle = nullptr;
+    else
+      destroy(&handle);
+    owner.reset();
+  }
+
+  std::shared_ptr<Owner> owner;  // of the handle, once it is shared
 };
+
+// Refuses pickle and copy for a class, and says what to keep in its place.
+template <class Type>
+void refuse_pickle(nb::class_<Type> &type, const char *instead) {
+  type.def(
+      "__reduce__", [instead](const Type &) { refuse_type(Type::python_name, "is neither pickled nor copied; ", instead); },
+      nb::sig("def __reduce__(self) -> typing.NoReturn"));
+}
 
 // Adds close(), closed and the with statement to a class.
 template <class Type>
 void add_closing(nb::class_<Type> &type) {
   type.def(
           "close", [](Type &self) { self.close(Type::python_name); },
-          "Frees the memory now. Any later use raises an error. Raises BufferError while arrays show the memory.")
+          "Frees the memory now, or with the last array that shows it. Any later use of the object raises an error.")
       .def_prop_ro(
           "closed", [](const Type &self) { return self.usage.is_closed; }, "True after close().")
       .def("__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> typing.Self"))

@@ -54,6 +54,7 @@ Arrays are copied.)");
                         "numpy.typing.NDArray[numpy.float64], faces: numpy.typing.NDArray[numpy.integer], *, leaflet_id: "
                         "numpy.typing.NDArray[numpy.int32] | None = None, period: float = 0.0, interpolation: "
                         "typing.Literal['linear', 'cubic'] = 'linear', index_base: int = 0) -> None"));
+  refuse_pickle(keyframes, "keep the arrays, and make the keyframes from them");
   add_closing(keyframes);
 }
 

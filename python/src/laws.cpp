@@ -12,8 +12,7 @@ namespace {
 // Calls at(time, opening, rate) for a number or for an array of times. Returns (opening, rate).
 template <class At>
 nb::object at_times(nb::handle time, const At &at) {
-  if (!PyObject_CheckBuffer(time.ptr()) || !nb::hasattr(time, "shape") ||
-      nb::len(nb::object(time.attr("shape"))) == 0) {
+  if (!has_entries(time)) {
     double opening = 0, rate = 0;
     call_shortly(at(number(time, "time"), &opening, &rate));
     return nb::make_tuple(opening, rate);

@@ -12,7 +12,7 @@ nb::object find_leaks(nb::handle surface_, nb::handle mesh_, nb::handle marks_, 
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   MarkResult &marks = object<MarkResult>(marks_, "marks");
   const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
-  const Writing writing(marks.usage, "marks", marks.n_edge_views);
+  const Writing writing(marks.usage, "marks");
   if (marks.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
   const MarkOptions options(mesh, mask, n_threads);
   riis_leaks leaks;
@@ -23,16 +23,14 @@ nb::object find_leaks(nb::handle surface_, nb::handle mesh_, nb::handle marks_, 
                          array_of(leaks.longest_middle, "float64"), leaks.half_thickness, leaks.seconds);
 }
 
-nb::object leaking_edges(nb::handle self) {
-  MarkResult &marks = object<MarkResult>(self, "marks");
+nb::object leaking_edges(MarkResult &marks) {
   const Reading reading(marks.usage, "marks");
   std::int64_t n_edges = 0;
   const std::int64_t *node_id = nullptr;
   const double *length = nullptr, *distance = nullptr;
   call_shortly(riis_mark_result_leaking_edges(marks.handle, &n_edges, &node_id, &length, &distance));
   const auto n = static_cast<std::size_t>(n_edges);
-  return record("LeakingEdges")(view_of(node_id, {n, 2}, self, marks.n_edge_views), view_of(length, {n}, self, marks.n_edge_views),
-                                view_of(distance, {n}, self, marks.n_edge_views));
+  return record("LeakingEdges")(copy_of(node_id, {n, 2}), copy_of(length, {n}), copy_of(distance, {n}));
 }
 
 nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads, nb::handle label_) {
@@ -72,7 +70,7 @@ nb::object find_passage(nb::handle surface_, nb::handle mesh_, nb::handle from_,
 
 nb::object find_crossings(nb::handle surface_, nb::handle depth, nb::handle n_threads) {
   Surface &surface = object<Surface>(surface_, "surface");
-  const Writing writing(surface.usage, "surface", surface.n_pair_views);
+  const Writing writing(surface.usage, "surface");
   riis_crossing_options options;
   call_shortly(riis_crossing_options_init(&options, sizeof options));
   options.depth = number(depth, "depth");
@@ -83,23 +81,15 @@ nb::object find_crossings(nb::handle surface_, nb::handle depth, nb::handle n_th
                              array_of(found.triangle_id, "int64"), array_of(found.leaflet_id, "int32"), found.seconds);
 }
 
-nb::object crossing_pairs(nb::handle self) {
-  Surface &surface = object<Surface>(self, "surface");
+nb::object crossing_pairs(Surface &surface) {
   const Reading reading(surface.usage, "surface");
   std::int64_t n_pairs = 0;
   const std::int64_t *triangle_id = nullptr;
   const double *point = nullptr, *depth = nullptr, *length = nullptr;
   call_shortly(riis_surface_crossing_pairs(surface.handle, &n_pairs, &triangle_id, &point, &depth, &length));
   const auto n = static_cast<std::size_t>(n_pairs);
-  int &n_views = surface.n_pair_views;
-  return record("CrossingPairs")(view_of(triangle_id, {n, 2}, self, n_views), view_of(point, {n, 3}, self, n_views),
-                                 view_of(depth, {n}, self, n_views), view_of(length, {n}, self, n_views));
-}
-
-// Adds a read-only property to a class that an earlier part of the module made.
-void add_property(nb::module_ &module, const char *type, const char *name, nb::object getter) {
-  const nb::object property = nb::module_::import_("builtins").attr("property");
-  module.attr(type).attr(name) = property(getter);
+  return record("CrossingPairs")(copy_of(triangle_id, {n, 2}), copy_of(point, {n, 3}), copy_of(depth, {n}),
+                                 copy_of(length, {n}));
 }
 
 #define RIIS_MASK "mask: numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None"
@@ -107,16 +97,18 @@ void add_property(nb::module_ &module, const char *type, const char *name, nb::o
 
 }  // namespace
 
+void add_leaking_edges(nb::class_<MarkResult> &result) {
+  result.def_prop_ro("leaking_edges", &leaking_edges, nb::sig("def leaking_edges(self) -> riis._records.LeakingEdges"),
+                     "The edges of the last riis.find_leaks: node_id (n, 2), length and distance (n,). Copies.");
+}
+
+void add_crossing_pairs(nb::class_<Surface> &surface) {
+  surface.def_prop_ro("crossing_pairs", &crossing_pairs, nb::sig("def crossing_pairs(self) -> riis._records.CrossingPairs"),
+                      "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length "
+                      "(n,). Copies.");
+}
+
 void add_leaks(nb::module_ &module) {
-  add_property(module, "MarkResult", "leaking_edges",
-               nb::cpp_function(&leaking_edges, nb::arg("self").none(),
-                                nb::sig("def leaking_edges(self) -> riis._records.LeakingEdges"),
-                                "The edges of the last riis.find_leaks: node_id (n, 2), length and distance (n,). Views."));
-  add_property(module, "Surface", "crossing_pairs",
-               nb::cpp_function(&crossing_pairs, nb::arg("self").none(),
-                                nb::sig("def crossing_pairs(self) -> riis._records.CrossingPairs"),
-                                "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length "
-                                "(n,). Views."));
   module.def("find_leaks", &find_leaks, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
              nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
              nb::sig("def find_leaks(surface: Surface, mesh: Mesh, marks: MarkResult, *, " RIIS_MASK

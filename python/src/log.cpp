@@ -16,7 +16,7 @@ void forward(void *, std::int32_t level, const char *message) {
   const nb::error_scope pending;
   in_log_function = true;
   try {
-    function(level, nb::str(message));
+    function(level, in_python(message));
   } catch (nb::python_error &error) {
     error.discard_as_unraisable(function);
   } catch (...) {  // no exception may leave through the library

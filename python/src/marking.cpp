@@ -86,12 +86,22 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   options.fields = fields_of(wanted_fields);
   const nb::object result_object = into.is_none() ? nb::type<MarkResult>()() : nb::borrow(into);
   MarkResult &result = object<MarkResult>(result_object, "into");
-  const Writing writing(result.usage, "into", result.usage.n_views + result.n_edge_views);
-  call_to_write(result.usage,
-                [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, result.handle); });
+  const Writing writing(result.usage, "into");
+  const auto mark_into = [&](MarkResult &to) {
+    call_to_write(to.usage, [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, to.handle); });
+  };
+  if (result.is_shared()) {  // arrays show the last marking
+    MarkResult fresh;
+    call_shortly(riis_mark_result_create(&fresh.handle));
+    mark_into(fresh);
+    result.take(fresh);
+  } else {
+    mark_into(result);
+  }
   result.n_nodes = mesh.points.n;
   result.n_threads = options.n_threads;
   result.marking_fork = fork_number();
+  result.places = mesh.places;
   return result_object;
 }
 
@@ -133,8 +143,7 @@ struct ListReader {
   template <class T>
   nb::object view(const T *data, std::int64_t n, std::size_t n_components = 1) const {
     const auto size = static_cast<std::size_t>(n);
-    int &n_views = result->usage.n_views;
-    return n_components == 1 ? view_of(data, {size}, owner, n_views) : view_of(data, {size, n_components}, owner, n_views);
+    return n_components == 1 ? view_of(data, {size}, result->share()) : view_of(data, {size, n_components}, result->share());
   }
 
   bool is_limit = false;
@@ -226,11 +235,6 @@ MarkOptions::MarkOptions(const Mesh &mesh, nb::handle mask_, nb::handle n_thread
   options.node_mask = mask->data<std::uint8_t>();
 }
 
-void MarkResult::close(const char *name) {
-  if (n_edge_views > 0) Writing::refuse_views(name, n_edge_views);
-  Handle::close(name);
-}
-
 void MarkResult::check_threads(const char *name) const {
   if (marking_fork != fork_number() && n_threads != 1)
     raise_status(RIIS_UNAVAILABLE, text_of(name, ": the marking was made before the fork, for threads that the child lacks; mark "
@@ -241,7 +245,7 @@ void add_marking(nb::module_ &module) {
   nb::class_<MarkResult> result(module, "MarkResult", R"(The nodes that riis.mark found, ascending by their ids.
 
 MarkResult() is empty; riis.mark(..., into=result) fills it and reuses its memory. Arrays are views of that memory:
-read-only, without a copy, and kept alive. Marking into a result whose views are alive raises BufferError.)");
+read-only, without a copy, and kept alive. While any is alive, the next marking takes new memory, so they stay as they are.)");
   result.def("__init__", [](MarkResult *self) {
     new (self) MarkResult();
     call_shortly(riis_mark_result_create(&self->handle));
@@ -257,6 +261,7 @@ read-only, without a copy, and kept alive. Marking into a result whose views are
             return WithinLimit{nb::borrow(self)};
           },
           nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
+      .def_prop_ro("_places", [](const MarkResult &self) { return self.places; })
       .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
       .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true, nb::arg("triangle_id").none() = false,
            nb::arg("leaflet_id").none() = false, nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
@@ -273,6 +278,9 @@ leaflet_id   (n_nodes,) int32, -1 for far nodes
 far_distance  distance of nodes beyond the limit: any value outside [0, distance limit], NaN also)")
       .def("__repr__", &description);
   add_resistance(result);
+  add_leaking_edges(result);
+  refuse_pickle(result, "keep the arrays, such as marks.ids");
+  refuse_pickle(within, "keep the arrays, such as marks.within_limit.ids");
   add_closing(result);
 
   module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into").none() = nb::none(),

@@ -29,6 +29,7 @@ void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   Points given = in_place ? Points{} : points_of(xyz, y, z);
   const Points &points = in_place ? self.points : given;
   const bool is_other_size = points.n != self.points.n;
+  self.places = Mesh::new_places();
   call_to_write(self.usage,
                 [&] { return riis_mesh_update(self.handle, points.n, points.x, points.y, points.z, points.stride); });
   if (!in_place) self.points = std::move(given);
@@ -60,7 +61,7 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
     Adjacency &made = object<Adjacency>(adjacency, "adjacency");
     const Reading reading(made.usage, "adjacency");
     call_shortly(riis_adjacency_csr(made.handle, &csr, sizeof csr));
-    kept = new_view(adjacency, made.usage.n_views);
+    kept = made.share();
   } else {
     if (!adjacency.is_none()) {
       if (!nb::hasattr(adjacency, "indptr") || !nb::hasattr(adjacency, "indices"))
@@ -173,8 +174,8 @@ std::size_t last_offset(const void *offsets, std::int64_t n_rows) {
 nb::object offsets(nb::handle self) {
   Adjacency &adjacency = object<Adjacency>(self, "adjacency");
   const riis_csr csr = rows_of(adjacency);
-  return view_of(static_cast<const std::int64_t *>(csr.offsets), {static_cast<std::size_t>(csr.n_rows) + 1}, self,
-                 adjacency.usage.n_views);
+  return view_of(static_cast<const std::int64_t *>(csr.offsets), {static_cast<std::size_t>(csr.n_rows) + 1},
+                 adjacency.share());
 }
 
 nb::object columns(nb::handle self) {
@@ -182,8 +183,8 @@ nb::object columns(nb::handle self) {
   const riis_csr csr = rows_of(adjacency);
   const std::size_t n = last_offset<std::int64_t>(csr.offsets, csr.n_rows);
   if (csr.column_bits == 32)
-    return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
-  return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, self, adjacency.usage.n_views);
+    return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, adjacency.share());
+  return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, adjacency.share());
 }
 
 // Returns the caller's array, or a new one of the caller's three.
@@ -239,10 +240,16 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
         return self.usage.is_closed ? std::string("<riis.Adjacency, closed>")
                                     : text_of("<riis.Adjacency, ", rows_of(self).n_rows, " rows>");
       });
+  refuse_pickle(adjacency, "keep its offsets and columns, which Mesh.set_adjacency takes");
   add_closing(adjacency);
 }
 
 }  // namespace
+
+std::int64_t Mesh::new_places() {
+  static std::int64_t n = 0;  // under the interpreter's lock
+  return ++n;
+}
 
 void Mesh::close(const char *name) {
   Handle::close(name);
@@ -286,12 +293,14 @@ index_base        of offsets and columns)")
             return self.points.n;
           },
           nb::sig("def n_nodes(self) -> int"), "The number of nodes.")
+      .def_prop_ro("_places", [](const Mesh &self) { return self.places; })
       .def("__len__",
            [](Mesh &self) {
              self.usage.check("mesh");
              return static_cast<std::size_t>(self.points.n);
            })
       .def("__repr__", &description);
+  refuse_pickle(mesh, "keep mesh.xyz, and make the mesh from it");
   add_closing(mesh);
 }
 

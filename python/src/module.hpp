@@ -12,6 +12,8 @@ namespace riis_python {
 struct Valve : Handle<riis_valve, riis_valve_destroy> {
   static constexpr const char *python_name = "Valve";
   std::string kind;
+  // What the library does not give back: the arguments of from_patches, and a copy of the valve that it opens to.
+  nb::object patches = nb::none(), open = nb::none();
 };
 
 struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
@@ -21,9 +23,11 @@ struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
 struct Surface : Handle<riis_surface, riis_surface_destroy> {
   static constexpr const char *python_name = "Surface";
   riis_surface_options options{};  // those in use
-  int n_pair_views = 0;            // arrays of the last find_crossings
+  // Copies of the content's arrays that were requested: an update writes the memory where they were.
+  nb::object vertices, uv, velocities, triangles;
 
   void close(const char *name);
+  void drop_copies() { vertices = uv = velocities = triangles = nb::object(); }
 };
 
 struct Adjacency : Handle<riis_adjacency, riis_adjacency_destroy> {
@@ -34,7 +38,11 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   static constexpr const char *python_name = "Mesh";
   Points points;                 // the caller's arrays, kept alive
   std::vector<Array> rows;       // those of an adjacency
-  nb::object adjacency;          // an object whose rows are borrowed
+  nb::object adjacency;          // keeps the rows of an Adjacency
+  std::int64_t places = new_places();
+
+  // Returns a number for nodes where they are now. No other mesh has it, nor has this one after an update.
+  static std::int64_t new_places();
 
   ~Mesh() { riis_mesh_destroy(&handle); }  // before what it borrows
   void close(const char *name);
@@ -45,9 +53,8 @@ struct MarkResult : Handle<riis_mark_result, riis_mark_result_destroy> {
   std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
   std::int32_t n_threads = 0;  // that it requested
   int marking_fork = 0;        // fork_number() at the marking
-  int n_edge_views = 0;        // arrays of the last find_leaks
+  std::int64_t places = 0;     // those of the mesh at the marking
 
-  void close(const char *name);
   // Refuses calls on several threads that a child of fork() lacks.
   void check_threads(const char *name) const;
 };
@@ -75,6 +82,8 @@ void add_closest(nb::class_<Surface> &surface);
 void add_mesh(nb::module_ &module);
 void add_marking(nb::module_ &module);
 void add_resistance(nb::class_<MarkResult> &result);
+void add_leaking_edges(nb::class_<MarkResult> &result);
+void add_crossing_pairs(nb::class_<Surface> &surface);
 void add_leaks(nb::module_ &module);
 void add_laws(nb::module_ &module);
 

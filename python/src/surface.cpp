@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface.hpp"
 
-
 namespace riis_python {
 namespace {
 
@@ -34,13 +33,14 @@ template <class Make>
 void make_content(Surface &surface, riis_surface_options options, const Make &make) {
   check_surfaces_allowed("surface");
   const riis_surface_options now = for_this_process(options);
+  surface.drop_copies();
   call_to_write(surface.usage, [&] { return make(now); });
   surface.options = options;
 }
 
 template <class Make>
 void update_content(Surface &surface, nb::handle keywords, const Make &make) {
-  const Writing writing(surface.usage, "surface", surface.usage.n_views + surface.n_pair_views);
+  const Writing writing(surface.usage, "surface");
   riis_surface_options options = surface.options;
   set_surface_options(options, keywords, "options");
   make_content(surface, options, make);
@@ -145,27 +145,25 @@ nb::object info(Surface &surface) {
 using GetPoints = riis_status (*)(const riis_surface *, std::int64_t *, const double **);
 
 // Returns an array of the vertices, None if there is none.
-nb::object vertex_array(nb::handle self, GetPoints get, std::size_t n_components) {
-  Surface &surface = object<Surface>(self, "surface");
+nb::object vertex_array(Surface &surface, GetPoints get, std::size_t n_components, nb::object Surface::*copy) {
   const Reading reading(surface.usage, "surface");
+  if ((surface.*copy).is_valid()) return surface.*copy;
   std::int64_t n = 0;
   const double *data = nullptr;
   call_shortly(get(surface.handle, &n, &data));
-  if (!data) return nb::none();
-  return view_of(data, {static_cast<std::size_t>(n), n_components}, self, surface.usage.n_views);
+  return surface.*copy = data ? copy_of(data, {static_cast<std::size_t>(n), n_components}) : nb::object(nb::none());
 }
 
-nb::object triangles(nb::handle self) {
-  Surface &surface = object<Surface>(self, "surface");
+nb::object triangles(Surface &surface) {
   const Reading reading(surface.usage, "surface");
+  if (surface.triangles.is_valid()) return surface.triangles;
   std::int64_t n_triangles = 0;
   const std::int64_t *vertex_id = nullptr, *triangle_id = nullptr;
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;
   call_shortly(riis_surface_triangles(surface.handle, &n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
   const auto n = static_cast<std::size_t>(n_triangles);
-  int &n_views = surface.usage.n_views;
-  return record("Triangles")(view_of(vertex_id, {n, 3}, self, n_views), view_of(triangle_id, {n}, self, n_views),
-                             view_of(leaflet_id, {n}, self, n_views), view_of(patch_id, {n}, self, n_views));
+  return surface.triangles = record("Triangles")(copy_of(vertex_id, {n, 3}), copy_of(triangle_id, {n}),
+                                                 copy_of(leaflet_id, {n}), copy_of(patch_id, {n}));
 }
 
 std::string description(Surface &surface) {
@@ -212,8 +210,8 @@ void FaceArrays::set_vertices(nb::handle given_vertices, nb::handle given_veloci
 }
 
 void Surface::close(const char *name) {
-  if (n_pair_views > 0) Writing::refuse_views(name, n_pair_views);
   Handle::close(name);
+  drop_copies();
 }
 
 void add_surface(nb::module_ &module) {
@@ -235,7 +233,7 @@ triangulation       'adapted', or 'fixed': the same triangles at every opening
 zero_area           'refuse' or 'skip' triangles without area, in from_arrays
 n_threads           0: 1 for 4096 triangles, at most 1 a processor
 
-Updates keep the options that they do not name, and raise BufferError while arrays show the surface's memory.)");
+Updates keep the options that they do not name. Arrays of a surface are copies, made once after each update.)");
   surface
       .def("__init__", &create, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def __init__(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"))
@@ -289,19 +287,19 @@ The velocity, in mesh units over the unit of seconds, is the mean of the step.)"
       .def_prop_ro(
           "half_thickness", [](Surface &self) { return info_of(self).half_thickness; }, "The half thickness, mesh units.")
       .def_prop_ro(
-          "vertices", [](nb::handle self) { return vertex_array(self, riis_surface_vertices, 3); },
+          "vertices", [](Surface &self) { return vertex_array(self, riis_surface_vertices, 3, &Surface::vertices); },
           nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "(n_vertices, 3): the vertices after placement. A view.")
+          "(n_vertices, 3): the vertices after placement.")
       .def_prop_ro(
-          "uv", [](nb::handle self) { return vertex_array(self, riis_surface_vertex_parameters, 2); },
+          "uv", [](Surface &self) { return vertex_array(self, riis_surface_vertex_parameters, 2, &Surface::uv); },
           nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 2): each vertex's place on its patch, 0 to 1. None for a surface from arrays. A view.")
+          "(n_vertices, 2): each vertex's place on its patch, 0 to 1. None for a surface from arrays.")
       .def_prop_ro(
-          "velocities", [](nb::handle self) { return vertex_array(self, riis_surface_vertex_velocities, 3); },
+          "velocities", [](Surface &self) { return vertex_array(self, riis_surface_vertex_velocities, 3, &Surface::velocities); },
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 3): each vertex's velocity. None if the last update gave none. A view.")
+          "(n_vertices, 3): each vertex's velocity. None if the last update gave none.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
-                   "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,). Views.")
+                   "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(
           "to_pyvista",
           [](nb::handle self) { return nb::object(nb::module_::import_("riis._plot").attr("surface_to_pyvista")(self)); },
@@ -311,6 +309,8 @@ The velocity, in mesh units over the unit of seconds, is the mean of the step.)"
 Cells have triangle_id, leaflet_id and patch_id; points have velocity if the last update gave velocities.)")
       .def("__repr__", &description);
   add_closest(surface);
+  add_crossing_pairs(surface);
+  refuse_pickle(surface, "keep the valve and the options, or the arrays, and make the surface from them");
   add_closing(surface);
 }
 

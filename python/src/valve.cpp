@@ -17,19 +17,29 @@ riis_parameter parameter(const Valve &valve, std::int64_t id) {
   return found;
 }
 
-// Returns the number of values of a parameter; 1 for a name that the library is to refuse.
+// Returns the number of values of a parameter, 0 if there is none of the name.
 std::int64_t n_values(const Valve &valve, const std::string &name) {
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
     const riis_parameter found = parameter(valve, id);
     if (name == found.name) return found.n_values;
   }
-  return 1;
+  return 0;
+}
+
+// Throws the KeyError that a mapping has, with the library's message.
+[[noreturn]] void refuse_unknown(const Valve &valve, const std::string &name) {
+  double value = 0;
+  riis_valve_get(valve.handle, name.c_str(), 1, &value);
+  const std::string message = in_python(riis_last_error());
+  const nb::object error = nb::module_::import_("riis._errors").attr("UnknownParameterError");
+  PyErr_SetObject(error.ptr(), nb::str(message.c_str()).ptr());
+  throw nb::python_error();
 }
 
 void set(Valve &valve, nb::handle key, nb::handle value) {
   const Writing writing(valve.usage, "valve");
   const std::string name = text(key, "name");
-  if (PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr())) {
+  if (has_entries(value)) {
     double values[3];
     three_numbers(value, name.c_str(), values);
     call_shortly(riis_valve_set(valve.handle, name.c_str(), 3, values));
@@ -43,12 +53,25 @@ nb::object get(Valve &valve, nb::handle key) {
   const std::string name = text(key, "name");
   double values[3] = {};
   const std::int64_t n = n_values(valve, name);
+  if (n == 0) refuse_unknown(valve, name);
   call_shortly(riis_valve_get(valve.handle, name.c_str(), n, values));
   return n == 1 ? nb::object(nb::float_(values[0])) : array_of(values, "float64");
 }
 
-void set_all(Valve &valve, const nb::kwargs &parameters) {
+void set_all(Valve &valve, const nb::dict &parameters) {
   for (const auto [name, value] : parameters) set(valve, name, value);
+}
+
+// Takes what dict.update takes.
+void update(Valve &valve, nb::handle other, const nb::kwargs &parameters) {
+  nb::dict all;
+  if (!other.is_none()) {
+    if (!nb::hasattr(other, "__iter__"))
+      refuse_type("other", "must be a mapping, or pairs of name and value, not ", name_of_type(other));
+    all.attr("update")(other);
+  }
+  set_all(valve, all);
+  set_all(valve, parameters);
 }
 
 void create(Valve *self, nb::handle kind, const nb::kwargs &parameters) {
@@ -67,6 +90,8 @@ Valve *copy(Valve &valve) {
   const Reading reading(valve.usage, "valve");
   auto made = std::make_unique<Valve>();
   made->kind = valve.kind;
+  made->patches = valve.patches;
+  made->open = valve.open;
   call_shortly(riis_valve_copy(valve.handle, &made->handle));
   return made.release();
 }
@@ -104,6 +129,10 @@ Valve *from_patches(nb::handle degree, nb::handle control, nb::handle curve_id, 
   }
   auto made = std::make_unique<Valve>();
   made->kind = "patches";
+  const auto own = [](nb::handle array) {
+    return array.is_none() ? nb::object(nb::none()) : nb::module_::import_("numpy").attr("array")(array);
+  };
+  made->patches = nb::make_tuple(own(degree), own(control), own(curve_id), own(reversed), own(leaflet_id), patches.index_base);
   call_library([&] { return riis_valve_create_from_patches(&patches, &made->handle); });
   return made.release();
 }
@@ -113,10 +142,16 @@ void set_open_state(Valve &valve, nb::handle open_) {
   open.usage.check("open");
   const Writing writing(valve.usage, "valve");
   if (&open != &valve && open.usage.is_written) Reading::refuse_busy("open");
+  auto kept = std::make_unique<Valve>();
+  kept->kind = open.kind;
+  kept->patches = open.patches;
+  call_shortly(riis_valve_copy(open.handle, &kept->handle));
+  const nb::object owner = nb::cast(kept.release(), nb::rv_policy::take_ownership);
   call_shortly(riis_valve_set_open_state(valve.handle, open.handle));
+  valve.open = owner;
 }
 
-nb::list keys(Valve &valve) {
+nb::list names_of(Valve &valve) {
   const Reading reading(valve.usage, "valve");
   nb::list names;
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) names.append(parameter(valve, id).name);
@@ -131,14 +166,56 @@ nb::dict parameters(Valve &valve) {
     const riis_parameter found = parameter(valve, id);
     const nb::object value =
         found.n_values == 1 ? nb::object(nb::float_(found.default_values[0])) : array_of(found.default_values, "float64");
-    all[found.name] = make(found.name, found.unit, found.description, found.n_values, value, found.minimum, found.maximum);
+    all[found.name] = make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum,
+                           found.maximum);
   }
   return all;
 }
 
 bool contains(Valve &valve, nb::handle name) {
   if (!PyUnicode_Check(name.ptr())) return false;
-  return nb::cast<bool>(nb::object(keys(valve).attr("__contains__")(name)));
+  const Reading reading(valve.usage, "valve");
+  return n_values(valve, nb::cast<std::string>(name)) > 0;
+}
+
+nb::object get_or(Valve &valve, nb::handle name, nb::handle otherwise) {
+  return contains(valve, name) ? get(valve, name) : nb::borrow(otherwise);
+}
+
+// Returns a view of a mapping that collections.abc has.
+nb::object mapping_view(const char *view, nb::handle self) {
+  object<Valve>(self, "valve").usage.check("valve");
+  return nb::module_::import_("collections.abc").attr(view)(self);
+}
+
+nb::dict values_of(Valve &valve) {
+  nb::dict all;
+  for (const nb::handle name : names_of(valve)) all[name] = get(valve, name);
+  return all;
+}
+
+// Returns what pickle makes the valve from.
+nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches); }
+
+void make_from_state(Valve *self, const nb::tuple &state) {
+  const nb::object kind = state[0], open = state[2], patches = state[3];
+  const nb::handle type = nb::type<Valve>();
+  const nb::object made =
+      patches.is_none() ? type(kind)
+                        : type.attr("from_patches")(patches[0], patches[1], patches[2], nb::arg("reversed") = patches[3],
+                                                    nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
+  Valve &valve = object<Valve>(made, "valve");
+  if (!open.is_none()) {
+    // The open state fits a valve with the same values. Values that clash are refused by surfaces only.
+    set_all(valve, values_of(object<Valve>(open, "open")));
+    set_open_state(valve, open);
+  }
+  set_all(valve, nb::cast<nb::dict>(state[1]));
+  new (self) Valve();
+  self->kind = valve.kind;
+  self->patches = valve.patches;
+  self->open = valve.open;
+  self->take(valve);
 }
 
 std::string description(Valve &valve) {
@@ -151,15 +228,16 @@ std::string description(Valve &valve) {
 nb::object record(const char *name) { return nb::module_::import_("riis._records").attr(name); }
 
 void add_valve(nb::module_ &module) {
-  nb::class_<Valve> valve(module, "Valve", R"(A parametric valve: its kind and the values of its parameters.
+  nb::class_<Valve> valve(module, "Valve", nb::sig("class Valve(collections.abc.Mapping[str, typing.Any])"),
+                          R"(A parametric valve: its kind and the values of its parameters.
 
 kind is 'aortic', the paper's three cusps, 'mitral', 'trileaflet', three equal cusps that close, or 'bileaflet',
 a mechanical prosthesis. Keywords set parameters: Valve('mitral', opening=0.3).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
-dict(valve) has all. Lengths are in centimetres by default, angles in degrees. A name such as 'leaflet_angle' of an
-aortic valve stands for all three cusps and can only be set; 'right.leaflet_angle' is one cusp's. Rotation,
-translation, t0_* and t3_* have three values.)");
+dict(valve) has all. Its names are fixed, and pickle takes it with all that it has. Lengths are in centimetres by
+default, angles in degrees. A name such as 'leaflet_angle' of an aortic valve stands for all three cusps and can only
+be set; 'right.leaflet_angle' is one cusp's. Rotation, translation, t0_* and t3_* have three values.)");
   valve
       .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
            nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "
@@ -188,14 +266,30 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
            "Returns a parameter: a float, or an array (3,) for a parameter with three values.")
       .def("__contains__", &contains, nb::arg("name").none(), nb::sig("def __contains__(self, name: object) -> bool"))
       .def(
-          "__iter__", [](Valve &self) { return nb::iter(keys(self)); },
+          "__iter__", [](Valve &self) { return nb::iter(names_of(self)); },
           nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"))
-      .def("__len__", [](Valve &self) { return nb::len(keys(self)); })
-      .def("keys", &keys, nb::sig("def keys(self) -> list[str]"), "Returns the names of the parameters.")
-      .def("update", &set_all, nb::arg("parameters"),
-           nb::sig("def update(self, **parameters: float | collections.abc.Sequence[float] | "
-                   "numpy.typing.NDArray[numpy.float64]) -> None"),
-           "Sets several parameters: valve.update(opening=0.3, root_radius=1.2).")
+      .def("__len__", [](Valve &self) { return nb::len(names_of(self)); })
+      .def(
+          "keys", [](nb::handle self) { return mapping_view("KeysView", self); },
+          nb::sig("def keys(self) -> collections.abc.KeysView[str]"), "Returns a view of the parameters' names.")
+      .def(
+          "values", [](nb::handle self) { return mapping_view("ValuesView", self); },
+          nb::sig("def values(self) -> collections.abc.ValuesView[typing.Any]"), "Returns a view of the parameters' values.")
+      .def(
+          "items", [](nb::handle self) { return mapping_view("ItemsView", self); },
+          nb::sig("def items(self) -> collections.abc.ItemsView[str, typing.Any]"),
+          "Returns a view of the pairs of name and value.")
+      .def("get", &get_or, nb::arg("name").none(), nb::arg("default").none() = nb::none(),
+           nb::sig("def get(self, name: str, default: typing.Any = None, /) -> typing.Any"),
+           "Returns a parameter as valve[name] does, or default if there is none of the name.")
+      .def("update", &update, nb::arg("other").none() = nb::none(), nb::arg("parameters"),
+           nb::sig("def update(self, other: collections.abc.Mapping[str, typing.Any] | "
+                   "collections.abc.Iterable[tuple[str, typing.Any]] | None = None, /, **parameters: float | "
+                   "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64]) -> None"),
+           "Sets several parameters, as dict.update: valve.update(opening=0.3), valve.update({'right.leaflet_angle': 20}).")
+      .def("__getstate__", &state_of, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def("__setstate__", &make_from_state, nb::arg("state"),
+           nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
       .def("copy", &copy, nb::sig("def copy(self) -> Valve"), "Returns a second valve with the same parameters and states.")
       .def("__copy__", &copy, nb::sig("def __copy__(self) -> Valve"))
       .def(
@@ -211,6 +305,7 @@ open is copied. It is of the same kind; from patches, it has the same curves, de
           "kind", [](const Valve &self) { return self.kind; }, "The kind, such as 'mitral'; 'patches' for from_patches.")
       .def("__repr__", &description);
   add_closing(valve);
+  nb::module_::import_("collections.abc").attr("Mapping").attr("register")(valve);
 }
 
 }  // namespace riis_python

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """bound.py ROOT: every function of riis.h is bound by the Python package, or left out for a reason that stands here.
 
-The check reads sources only, so it needs neither the package nor numpy.
+Every message of the library that names something of riis.h has a name of Python for it. The check reads sources only, so it
+needs neither the package nor numpy.
 """
 
 import pathlib
 import re
+import runpy
 import sys
 
 # Functions of riis.h, and the names in the package through which they are called.
@@ -101,6 +103,15 @@ LEFT_OUT = {
 }
 
 
+def texts_of_the_library(root: pathlib.Path) -> list[str]:
+    """Returns the texts of the library's sources that name something of riis.h. Statuses have their C names in Python too."""
+    folders = [folder for folder in (root / "src").iterdir() if folder.is_dir() and folder.name not in ("cli", "vtk")]
+    paths = sorted(path for folder in folders for path in folder.rglob("*.[ch]pp") if path.name != "library_api.cpp")
+    lines = [line for path in paths for line in path.read_text(encoding="utf-8").splitlines()]
+    code = "\n".join(line for line in lines if not line.lstrip().startswith(("#", "//")))
+    return [text for text in re.findall(r'"((?:[^"\\\n]|\\.)*)"', code) if "riis_" in text or "RIIS_" in text]
+
+
 def check(root: pathlib.Path) -> list[str]:
     """Returns what is wrong, a line each."""
     header = (root / "include/riis/riis.h").read_text(encoding="utf-8")
@@ -112,6 +123,11 @@ def check(root: pathlib.Path) -> list[str]:
     wrong += [f"{name} is bound and left out" for name in sorted(set(BOUND) & set(LEFT_OUT))]
     wrong += [f"{name} is not called in python/src" for name in sorted(BOUND) if not re.search(rf"\b{name}\b", sources)]
     wrong += [f"{name} has no reason" for name, reason in LEFT_OUT.items() if not reason]
+    in_python = runpy.run_path(str(root / "python/riis/_errors.py"))["in_python"]
+    texts = texts_of_the_library(root)
+    wrong += [] if texts else ["no text of src was read"]
+    wrong += [f"python/riis/_errors.py lacks a name for the text '{text}'" for text in texts
+              if re.search("riis_|RIIS_", in_python(text))]
     return wrong
 
 

@@ -7,9 +7,12 @@ import pathlib
 import re
 
 import bound
+import numpy
 import riis
+from riis import _errors
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+KINDS = "aortic", "mitral", "trileaflet", "bileaflet"
 
 
 def test_every_function_is_bound_or_left_out():
@@ -39,6 +42,45 @@ def test_options_of_surfaces_are_the_fields_of_their_struct():
     except TypeError as refusal:
         options = set(str(refusal).split("the options are ")[1].split(", "))
     assert options == fields
+
+
+def test_words_of_numbers_are_those_of_the_header():
+    header = (ROOT / "include/riis/riis.h").read_text(encoding="utf-8")
+    for name, words in _errors.WORDS.items():
+        values = re.findall(rf"^ +RIIS_{name.upper()}_(\w+) = (\d+)", header, re.MULTILINE)
+        assert [(word.lower(), int(value)) for word, value in values] == [(word, i) for i, word in enumerate(words)]
+    values = re.findall(r"^ +RIIS_FIELD_(\w+) = (\d+)", header, re.MULTILINE)
+    names = [name.removesuffix("_id").upper() for name in _errors.FIELDS]
+    assert values == [(name, str(1 << bit)) for bit, name in enumerate(names)]
+
+
+def test_names_in_messages_are_those_of_the_package(monkeypatch):
+    for text in bound.texts_of_the_library(ROOT):
+        for name in re.findall(r"\b(?:riis|Surface|Mesh|MarkResult|Valve)(?:\.\w+)+", _errors.in_python(text)):
+            found = riis
+            for part in name.removeprefix("riis.").split("."):
+                found = getattr(found, part)
+    for name, own in _errors._NAMES.items():
+        if name in bound.BOUND:
+            assert own.removeprefix("riis.") == bound.BOUND[name]
+    monkeypatch.setattr(bound, "texts_of_the_library", lambda root: ["see riis_mesh_set_adjacency", "see riis_new_call"])
+    assert [text for text in bound.check(ROOT) if "riis/_errors.py" in text] == [
+        "python/riis/_errors.py lacks a name for the text 'see riis_new_call'"]
+
+
+def test_descriptions_and_warnings_have_names_of_python():
+    descriptions = [p.description for kind in KINDS for p in riis.Valve(kind).parameters.values()]
+    assert any("Valve.set_open_state" in text for text in descriptions)
+    assert not any(re.search("riis_|RIIS_", text) for text in descriptions)
+    warnings = []
+    riis.set_log(lambda level, message: warnings.append(message))
+    try:
+        far = riis.Mesh(1000.0 * numpy.random.default_rng(3).uniform(-1.0, 1.0, (2000, 3)))
+        riis.mark(riis.Surface(riis.Valve("mitral")), far)
+    finally:
+        riis.set_log(None)
+    assert any("See scale and half_thickness of riis.Surface" in text for text in warnings)
+    assert not any(re.search("riis_|RIIS_", text) for text in warnings)
 
 
 def public_objects():
@@ -76,4 +118,7 @@ def test_the_stub_has_every_name():
                 if not member.startswith("_"):
                     assert member in members, f"{name}.{member}"
                     assert members[member].returns is not None, f"{name}.{member} has no annotation"
+                    decorators = [ast.unparse(decorator) for decorator in members[member].decorator_list]
+                    assert decorators in ([], ["property"], ["staticmethod"]), f"{name}.{member}"
+                    assert isinstance(vars(found)[member], property) == (decorators == ["property"])
     assert pathlib.Path(riis.__file__).with_name("py.typed").exists()

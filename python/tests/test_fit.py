@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import pickle
 import shlex
 import subprocess
 
@@ -103,8 +104,11 @@ def test_weights_count():
 
 def test_the_same_seed_gives_the_same_fit():
     points = fit_table.cloud("bileaflet", 300, 0.02)
-    first, second = (riis.fit(points, "bileaflet", free=["opening"], n_starts=2, seed=7) for _ in range(2))
+    first, second = (riis.fit(points, "bileaflet", free=["opening"], n_starts=n, seed=seed)
+                     for n, seed in ((2, 7), (numpy.array(2), numpy.int64(7))))
     assert first.parameters == second.parameters and first.placement == second.placement
+    kept = pickle.loads(pickle.dumps(first))
+    assert kept.report() == first.report() and kept.valve["opening"] == first.valve["opening"]
 
 
 def test_bounds_hold_and_are_told():

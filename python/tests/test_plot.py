@@ -37,6 +37,29 @@ def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_pa
         riis.plot(surface, mesh)
 
 
+def test_nodes_of_another_mesh_are_not_drawn(surface, mesh, marks, xyz, tmp_path):
+    text = "^marks: are not of mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates$"
+    refused = pytest.raises(riis.InvalidArgumentError, match=text)
+    others = riis.Mesh(xyz[::-1].copy()), riis.Mesh(xyz[: len(xyz) // 2].copy())
+    for other in others:
+        with refused:
+            riis.plot(surface, other, marks, screenshot=tmp_path / "valve.png")
+        with refused:
+            riis.animate(tmp_path / "valve.gif", [(surface, marks)], other)
+    with refused:
+        riis.plot(surface, mesh, riis.MarkResult(), screenshot=tmp_path / "valve.png")
+    moved = riis.Mesh(xyz.copy())
+    riis.mark(surface, moved, into=marks)
+    moved.xyz[:] += 1.0
+    moved.update()
+    with refused:
+        riis.plot(surface, moved, marks, screenshot=tmp_path / "valve.png")
+    assert not list(tmp_path.iterdir())
+    riis.mark(surface, moved, into=marks)
+    riis.plot(surface, moved, marks, screenshot=tmp_path / "valve.png").close()
+    assert (tmp_path / "valve.png").is_file()
+
+
 def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
     riis.plot(surface, screenshot=tmp_path / "valve.png").close()
     data = pyvista.read(tmp_path / "valve.png")
@@ -64,7 +87,7 @@ def test_a_movie_has_every_frame(kind, tmp_path):
     imageio = pytest.importorskip("imageio.v3", reason="imageio is missing; ./run python installs it")
     pytest.importorskip("imageio_ffmpeg", reason="imageio-ffmpeg is missing; ./run python installs it")
     frames = beat(3)
-    assert riis.animate(tmp_path / f"beat.{kind}", frames, next(frames), frame_rate=4) == 3
+    assert riis.animate(tmp_path / f"beat.{kind}", frames, next(frames), frame_rate=numpy.array(4)) == 3
     pictures = [picture[..., :3].astype(int) for picture in imageio.imiter(tmp_path / f"beat.{kind}")]
     assert len(pictures) == 3 and pictures[0].shape[:2] == (576, 768)
     for one, other in zip(pictures, pictures[1:]):
@@ -84,6 +107,7 @@ def test_an_animation_takes_bare_surfaces_and_a_plotter_of_the_callers(surface, 
     [
         (riis.InvalidArgumentError, "path: 'beat.avi' must end in .gif or .mp4", {"path": "beat.avi"}),
         (TypeError, "frame_rate: must be a number, not '4'", {"frame_rate": "4"}),
+        (TypeError, "frame_rate: must be a number, not \\[4\\]", {"frame_rate": [4]}),
         (riis.InvalidArgumentError, "frame_rate: is 0; it must be above 0", {"frame_rate": 0}),
         (riis.InvalidArgumentError, "frames: has no frame", {"frames": []}),
         (TypeError, "frames: frame 0 must be a Surface, .*, not 3", {"frames": [3]}),

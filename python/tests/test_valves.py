@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Valves are mappings of their parameters, and open."""
 
+import collections.abc
 import copy
+import pickle
 
 import numpy
 import pytest
@@ -17,11 +19,111 @@ def test_a_valve_is_a_mapping():
     assert valve["translation"].tolist() == [1.0, 2.0, 3.0]
     valve["translation"] = numpy.array([4.0, 5.0, 6.0])
     assert dict(valve)["translation"].tolist() == [4.0, 5.0, 6.0]
-    assert list(valve) == valve.keys() and len(valve) == len(valve.keys())
+    assert list(valve) == list(valve.keys()) and len(valve) == len(valve.keys()) and "opening" in valve.keys()
     assert "opening" in valve and "height" not in valve and 3 not in valve
     valve.update(opening=0.5, AP_diameter=3)
     assert (valve["opening"], valve["AP_diameter"]) == (0.5, 3.0)
     assert repr(valve) == "<riis.Valve 'mitral', opening 0.5>"
+
+
+def test_a_valve_does_what_a_mapping_does():
+    valve = riis.Valve("bileaflet", opening=0.3)
+    same = dict(valve)
+    assert isinstance(valve, collections.abc.Mapping) and not isinstance(valve, collections.abc.MutableMapping)
+    public = {name for name in dir(collections.abc.Mapping) if not name.startswith("_")}
+    assert public == {"get", "items", "keys", "values"} <= set(dir(valve))
+    assert list(valve.items()) == [(name, valve[name]) for name in valve] == list(same.items())
+    assert list(valve.values()) == list(same.values()) and len(valve.items()) == len(valve)
+    assert ("opening", 0.3) in valve.items() and {**valve} == same
+    assert valve.get("opening") == 0.3 and valve.get("height") is None and valve.get("height", 5) == valve.get(3, 5) == 5
+    # A name of all cusps can only be set.
+    assert "leaflet_angle" not in riis.Valve("aortic") and riis.Valve("aortic").get("leaflet_angle", 7.0) == 7.0
+    with pytest.raises(KeyError) as missing:
+        valve["height"]
+    assert type(missing.value) is riis.UnknownParameterError and str(missing.value).startswith("'height' is not a parameter")
+    assert isinstance(missing.value, riis.InvalidParameterError)
+    assert collections.ChainMap(valve, {"height": 1.0})["height"] == 1.0
+    with pytest.raises((TypeError, AttributeError)):
+        del valve["opening"]
+
+
+def test_a_valve_is_updated_as_a_dict():
+    valve, other = riis.Valve("aortic"), riis.Valve("aortic", opening=0.2, root_radius=1.3)
+    valve.update(other)
+    assert all(numpy.array_equal(valve[name], other[name]) for name in other) and valve["root_radius"] == 1.3
+    valve.update({"right.leaflet_angle": 20.0, "opening": 0.4}, opening=0.5)
+    assert (valve["right.leaflet_angle"], valve["opening"]) == (20.0, 0.5)
+    valve.update([("opening", 0.6)])
+    valve.update()
+    assert valve["opening"] == 0.6
+    with pytest.raises(TypeError, match="other: must be a mapping, or pairs of name and value, not int"):
+        valve.update(3)
+    with pytest.raises(TypeError, match="name: must be a str, not int"):
+        valve.update({3: 4.0})
+
+
+def same_surfaces(one, other):
+    """Tells whether two valves have the same surfaces, to the bit, at several openings."""
+    one, other = one.copy(), other.copy()
+    for opening in (0.0, 0.3, 1.0):
+        one["opening"] = other["opening"] = opening
+        a, b = riis.Surface(one), riis.Surface(other)
+        if a.vertices.tobytes() != b.vertices.tobytes() or not numpy.array_equal(a.triangles.vertex_id, b.triangles.vertex_id):
+            return False
+    return True
+
+
+def valves_to_pickle():
+    mitral = riis.Valve("mitral", opening=1 / 3, AP_diameter=3.1, translation=(0.1, 0.2, 1 / 7))
+    opens = riis.Valve("trileaflet")
+    opens.set_open_state(riis.Valve("trileaflet", open_radius_ratio=0.6))
+    ring = riis.Valve("bileaflet", ring_height=0.2)
+    ring.set_open_state(riis.Valve("bileaflet", ring_height=0.2, open_angle=80.0))
+    ring.update(closed_angle=30.0, opening=0.5)
+    ring.set_open_state(ring)
+    degree, curves = numpy.ones(4, "i4"), numpy.array([[1, 2, 3, 4]], "i4")
+    patches = riis.Valve.from_patches(degree, square(0.0), curves, leaflet_id=numpy.array([7], "i4"), index_base=1)
+    patches.set_open_state(riis.Valve.from_patches(degree, square(0.5), curves, index_base=1))
+    return {"mitral": mitral, "open state": opens, "ring": ring, "patches": patches}
+
+
+@pytest.mark.parametrize("name", ["mitral", "open state", "ring", "patches"])
+def test_valves_are_pickled_with_all_that_they_have(name):
+    valve = valves_to_pickle()[name]
+    made = [pickle.loads(pickle.dumps(valve, protocol)) for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1)]
+    for other in (*made, pickle.loads(pickle.dumps(made[0])), pickle.loads(pickle.dumps(valve.copy())), copy.deepcopy(valve)):
+        assert other.kind == valve.kind and list(other) == list(valve)
+        for key in valve:
+            assert numpy.array_equal(other[key], valve[key]), key
+        assert same_surfaces(other, valve)
+    made[0]["opening"] = 0.125
+    assert valve["opening"] != 0.125
+    if name == "patches":
+        assert set(riis.Surface(made[0]).triangles.leaflet_id) == {7}
+
+
+def test_states_that_later_values_clash_with_are_pickled():
+    ring = riis.Valve("bileaflet", ring_height=0.2)
+    ring.set_open_state(riis.Valve("bileaflet", ring_height=0.2))
+    ring["ring_height"] = 0.0
+    other = pickle.loads(pickle.dumps(ring))
+    texts = []
+    for valve in ring, other:
+        valve["opening"] = 0.5
+        with pytest.raises(riis.InvalidParameterError) as refusal:
+            riis.Surface(valve)
+        texts.append(str(refusal.value))
+    assert texts[0] == texts[1]
+
+
+def test_all_else_is_neither_pickled_nor_copied(surface, mesh, marks):
+    keyframes = riis.Keyframes(numpy.zeros(1), numpy.eye(3)[None], numpy.array([[0, 1, 2]]))
+    for thing in surface, mesh, marks, marks.within_limit, keyframes, riis.Adjacency.from_grid(2, 2, 2):
+        for call in pickle.dumps, copy.copy, copy.deepcopy:
+            with pytest.raises(TypeError, match=f"^{type(thing).__name__}: is neither pickled nor copied; keep "):
+                call(thing)
+    error = pickle.loads(pickle.dumps(riis.UnknownParameterError("lost")))
+    assert type(error) is riis.UnknownParameterError and str(error) == "lost"
 
 
 def test_cusps_have_parameters_of_their_own():
@@ -66,7 +168,7 @@ def square(z):
 def test_a_valve_comes_from_patches():
     degree, curves = numpy.ones(4, "i4"), numpy.array([[0, 1, 2, 3]], "i4")
     valve = riis.Valve.from_patches(degree, square(0.0), curves, leaflet_id=numpy.array([7], "i4"))
-    assert valve.kind == "patches" and valve.keys() == ["opening"]
+    assert valve.kind == "patches" and list(valve.keys()) == ["opening"]
     surface = riis.Surface(valve)
     assert numpy.isclose(surface.info.area, 4.0) and set(surface.triangles.leaflet_id) == {7}
     assert surface.closest_point((0, 0, 1)).distance == 1.0

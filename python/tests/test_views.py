@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays show the library's memory: read-only, kept alive, and in the way of calls that would change it."""
+"""Arrays are read-only, keep their memory alive, and stay as they are whatever is called later."""
 
 import gc
+import os
+import subprocess
 import sys
 import weakref
 
@@ -66,78 +68,120 @@ def test_a_mesh_keeps_its_coordinates(xyz):
     assert sys.getrefcount(nodes) == count - 1
 
 
-def test_marking_into_a_result_with_views_is_refused(surface, mesh, marks):
-    ids = marks.ids
-    expected = ids.copy()
-    part = ids[3:5]
-    del ids
-    for _ in range(2):
-        with pytest.raises(BufferError, match="into: 1 array shows its memory"):
-            riis.mark(surface, mesh, into=marks)
-    assert numpy.array_equal(part, expected[3:5])
-    del part
-    riis.mark(surface, mesh, into=marks)
-
-
-def test_a_view_of_a_list_is_in_the_way_too(surface, mesh, marks):
-    lists = marks.within_limit  # holds no array
-    riis.mark(surface, mesh, into=marks)
-    distance = lists.distance
-    with pytest.raises(BufferError, match="into"):
-        riis.mark(surface, mesh, into=marks)
-    del distance
-    riis.mark(surface, mesh, into=marks)
-
-
-def test_updating_a_surface_with_views_is_refused(surface, valve):
-    triangles = surface.triangles
-    with pytest.raises(BufferError, match="surface: 4 arrays show its memory"):
+def test_views_outlive_the_markings_that_follow(surface, mesh, valve):
+    """What an array showed it goes on showing, and the marks that follow are right."""
+    marks, kept = riis.MarkResult(), []
+    for opening in 0.0, 0.3, 0.6, 0.9:
+        valve["opening"] = opening
         surface.update(valve)
-    with pytest.raises(BufferError, match="surface"):
-        surface.update_moving(valve, valve, 1.0)
-    with pytest.raises(BufferError, match="Surface: 4 arrays"):
-        surface.close()
-    del triangles
-    surface.update(valve)
-    surface.close()
+        assert riis.mark(surface, mesh, into=marks, fields="normal", distance_limit=0.2) is marks
+        arrays = marks.ids, marks.distance[10:20], marks.normal, marks.within_limit.distance
+        expected = riis.mark(surface, mesh, fields="normal", distance_limit=0.2)
+        assert numpy.array_equal(marks.ids, expected.ids) and numpy.array_equal(marks.normal, expected.normal)
+        kept += [(array, array.copy()) for array in arrays]
+    marks.close()
+    del marks, expected
+    gc.collect()
+    riis.mark(riis.Surface(riis.Valve("aortic")), mesh, distance_limit=1.0)  # takes memory that was freed
+    assert all(numpy.array_equal(array, copy) for array, copy in kept)
+    assert len({len(array) for array, _ in kept[::4]}) == 4
 
 
-def test_pairs_and_edges_are_views_of_their_own(surface, grid):
-    marks = riis.mark(surface, grid)
-    riis.find_crossings(surface)
-    pairs = surface.crossing_pairs
-    with pytest.raises(BufferError, match="surface: 4 arrays"):
-        riis.find_crossings(surface)
-    with pytest.raises(BufferError, match="surface: 4 arrays"):
-        surface.update(riis.Valve("mitral"))
-    with pytest.raises(BufferError, match="Surface: 4 arrays"):
-        surface.close()
-    del pairs
-    vertices = surface.vertices
-    riis.find_crossings(surface)  # replaces the pairs alone
-    assert vertices.shape[1] == 3
-    riis.find_leaks(surface, grid, marks)
-    edges = marks.leaking_edges
-    with pytest.raises(BufferError, match="marks: 3 arrays"):
-        riis.find_leaks(surface, grid, marks)
-    with pytest.raises(BufferError, match="into: 3 arrays"):
-        riis.mark(surface, grid, into=marks)
-    with pytest.raises(BufferError, match="MarkResult: 3 arrays"):
-        marks.close()
-    del edges
+def test_a_result_without_views_reuses_its_memory(surface, mesh, marks):
+    place = marks.ids.__array_interface__["data"]
+    riis.mark(surface, mesh, into=marks)
+    assert marks.ids.__array_interface__["data"] == place
     ids = marks.ids
-    riis.find_leaks(surface, grid, marks)  # leaves the marks
-    assert len(ids) == len(marks)
+    riis.mark(surface, mesh, into=marks)
+    assert marks.ids.__array_interface__["data"] != ids.__array_interface__["data"]
 
 
-def test_an_adjacency_that_is_borrowed_stays(mesh, xyz):
-    mesh = riis.Mesh(xyz[:60])
-    adjacency = riis.Adjacency.from_grid(3, 4, 5)
-    mesh.set_adjacency(adjacency)
-    with pytest.raises(BufferError, match="Adjacency: 1 array"):
-        adjacency.close()
-    mesh.set_adjacency()
+def test_a_refused_marking_leaves_a_result_with_views(surface, mesh, marks):
+    ids = marks.ids
+    with pytest.raises(riis.InvalidArgumentError):
+        riis.mark(surface, mesh, into=marks, distance_limit=0.01)
+    assert not marks.closed and numpy.array_equal(marks.ids, ids)
+    assert marks.ids.__array_interface__["data"] == ids.__array_interface__["data"]
+
+
+def test_arrays_of_a_surface_outlive_its_updates(surface, valve):
+    kept = []
+    for opening in 0.1, 0.5, 0.9:
+        before = valve.copy()
+        valve["opening"] = opening
+        surface.update_moving(valve, before, 0.1)
+        fresh = riis.Surface(valve, half_thickness=0.15)
+        fresh.update_moving(valve, before, 0.1)
+        for name in "vertices", "uv", "velocities":
+            assert numpy.array_equal(getattr(surface, name), getattr(fresh, name))
+            kept.append((getattr(surface, name), getattr(fresh, name).copy()))
+        kept += [(array, array.copy()) for array in surface.triangles]
+    surface.close()
+    gc.collect()
+    riis.Surface(riis.Valve("aortic"))
+    assert all(numpy.array_equal(array, copy) for array, copy in kept)
+
+
+def test_a_refused_update_leaves_the_arrays(surface, valve):
+    vertices = surface.vertices
+    with pytest.raises(riis.InvalidArgumentError):
+        surface.update(valve, half_thickness=-2.0)
+    assert numpy.array_equal(surface.vertices, vertices)
+
+
+def test_pairs_and_edges_outlive_the_next_search(surface, grid):
+    marks = riis.mark(surface, grid)
+    kept = []
+    for half_thickness in 0.02, 0.01:
+        surface.update(riis.Valve("trileaflet", leaflet_height=1.3, opening=0.0), half_thickness=half_thickness)
+        riis.mark(surface, grid, into=marks)
+        assert riis.find_leaks(surface, grid, marks).n_edges == len(marks.leaking_edges.length) > 100
+        assert riis.find_crossings(surface).n_pairs == len(surface.crossing_pairs.depth) > 0
+        kept += [(array, array.copy()) for array in (*marks.leaking_edges, *surface.crossing_pairs)]
+    marks.close()
+    surface.close()
+    assert all(numpy.array_equal(array, copy) for array, copy in kept) and len(kept[0][0]) != len(kept[7][0])
+
+
+def test_an_adjacency_that_is_borrowed_stays(surface, grid):
+    expected = riis.mark(surface, grid, search="neighbor").ids
+    adjacency = riis.Adjacency.from_grid(41, 41, 41)
+    columns, copy = adjacency.columns, adjacency.columns.copy()
+    grid.set_adjacency(adjacency)
     adjacency.close()
+    gc.collect()
+    riis.Adjacency.from_grid(40, 41, 42)  # takes memory that was freed
+    assert numpy.array_equal(columns, copy)
+    assert numpy.array_equal(riis.mark(surface, grid, search="neighbor").ids, expected)
+    with pytest.raises(riis.InvalidArgumentError, match="adjacency: is closed"):
+        grid.set_adjacency(adjacency)
+
+
+NOTEBOOK = """
+from IPython.core.interactiveshell import InteractiveShell
+shell = InteractiveShell()
+for cell in (
+    "import numpy, riis",
+    "valve = riis.Valve('mitral'); surface = riis.Surface(valve); mesh = riis.Mesh(numpy.zeros((9, 3)))",
+    "surface.vertices",
+    "surface.triangles",
+    "surface.update(valve)",
+    "marks = riis.mark(surface, mesh)",
+    "marks.ids",
+    "riis.mark(surface, mesh, into=marks)",
+    "surface.close()",
+):
+    shell.run_cell(cell, store_history=True).raise_error()
+assert sorted(shell.user_ns["Out"]) == [3, 4, 7, 8]
+"""
+
+
+def test_what_a_notebook_shows_is_not_in_the_way(tmp_path):
+    """IPython keeps what a cell shows, in Out and _, for good."""
+    pytest.importorskip("IPython", reason="IPython is missing; ./run python installs it")
+    environment = {**os.environ, "IPYTHONDIR": str(tmp_path)}
+    answer = subprocess.run([sys.executable, "-B", "-c", NOTEBOOK], env=environment, capture_output=True, text=True, check=False)
+    assert answer.returncode == 0, answer.stderr
 
 
 def test_closed_objects_are_refused(surface, mesh, marks, valve):

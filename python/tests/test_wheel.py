@@ -6,6 +6,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tomllib
 
 import pytest
 
@@ -29,19 +30,42 @@ def test_every_library_of_the_wheel_has_its_licence():
     }
     assert sorted(importlib.metadata.metadata("riis").get_all("License-File")) == sorted(licences)
     assert "Apache License" in licences["LICENSE"]
-    # What a licence has to say of each library: a library of another name needs a line here.
-    words = {"embree": "Apache", "tbb": "Apache", "gomp": "RUNTIME LIBRARY EXCEPTION", "gcc_s": "RUNTIME LIBRARY EXCEPTION",
-             "stdc++": "RUNTIME LIBRARY EXCEPTION"}
+    # What a licence has to say of each library, and SPDX's name of it: a library of another name needs a line here.
+    gcc = "RUNTIME LIBRARY EXCEPTION", "GPL-3.0-or-later WITH GCC-exception-3.1"
+    words = {"embree": ("Apache", "Apache-2.0"), "tbb": ("Apache", "Apache-2.0"), "gomp": gcc, "gcc_s": gcc, "stdc++": gcc}
     assert "Wenzel Jakob" in licences["nanobind.copyright"] and "tessil" in licences["robin_map.copyright"]
     libraries = {re.match(r"lib([a-z_+]+)", file.name).group(1) for file in files if file.parts[0] == "riis.libs"}
     assert {"embree", "tbb", "gomp"} <= libraries
     for library in libraries:
         own = [name for name in licences if name.endswith(".copyright") and library.replace("_", "-") in name]
         assert own, f"no licence of {library} among {sorted(licences)}"
-        assert words[library].lower() in " ".join(licences[own[0]].split()).lower()
+        assert words[library][0].lower() in " ".join(licences[own[0]].split()).lower()
+    # The module contains nanobind (BSD) and robin_map (MIT).
+    expression = importlib.metadata.metadata("riis")["License-Expression"]
+    expected = {"Apache-2.0", "BSD-3-Clause", "MIT"} | {words[library][1] for library in libraries}
+    assert set(expression.split(" AND ")) == expected and len(expected) == 4
+    licenses = pytest.importorskip("packaging.licenses", reason="packaging is missing; ./run python installs it")
+    assert licenses.canonicalize_license_expression(expression) == expression
     for text in licences.values():
         for name in re.findall(r"/usr/share/common-licenses/(Apache-2.0|GPL-3|LGPL-3)\b", text):
             assert f"common-licenses/{name}" in licences
+
+
+def test_the_module_alone_has_the_licences_of_its_parts():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert project["license"] == "Apache-2.0 AND BSD-3-Clause AND MIT"
+
+
+@pytest.mark.parametrize("libraries, text", [
+    (["libembree4.so.4", "libtbb.so.12"], "Apache-2.0 AND MIT"),
+    (["libgomp.so.1.0.0", "libgcc_s.so.1"], "Apache-2.0 AND MIT AND GPL-3.0-or-later WITH GCC-exception-3.1"),
+    (["libomp.so.5"], "licences.py: the SPDX expression of libomp.so.5 is unknown; EXPRESSIONS lacks libomp"),
+])
+def test_an_expression_names_the_licence_of_each_library(libraries, text):
+    program = "import sys, licences; print(licences.expression_of('Apache-2.0 AND MIT', sys.argv[1:]))"
+    answer = subprocess.run([sys.executable, "-B", "-c", program, *libraries], cwd=ROOT / "python",
+                            capture_output=True, text=True, check=False)
+    assert (answer.stdout + answer.stderr).strip() == text
 
 
 def test_a_library_of_no_package_is_refused(tmp_path):

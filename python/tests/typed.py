@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """A program whose types ./run python checks with mypy --strict, so that the stubs say what the calls take and return."""
 
+from collections.abc import Mapping
+
 import numpy
 from numpy.typing import NDArray
 
 import riis
+
+
+def largest(parameters: Mapping[str, float]) -> float:
+    return max(parameters.values())
 
 
 def resistance_of(xyz: NDArray[numpy.float64], opening: float) -> NDArray[numpy.float64]:
@@ -16,6 +22,9 @@ def resistance_of(xyz: NDArray[numpy.float64], opening: float) -> NDArray[numpy.
     ids: NDArray[numpy.int64] = marks.ids
     normals: NDArray[numpy.float64] = marks.normal
     assert len(ids) == len(normals)
+    lengths: NDArray[numpy.float64] = marks.leaking_edges.length
+    depths: NDArray[numpy.float64] = surface.crossing_pairs.depth
+    assert len(lengths) == len(depths) == 0 and largest(valve) == max(valve.values())
     coefficient = numpy.zeros(mesh.n_nodes)
     marks.add_resistance(coefficient, resistance=1e4)
     lowest: float = surface.info.lower[2]
