@@ -187,16 +187,20 @@ module riis_c
 
   !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices     !< length of the array of riis_surface_vertices
-    integer(c_int64_t) :: n_triangles    !< triangles that answer queries
-    integer(c_int64_t) :: n_zero_area    !< triangles skipped for want of area
-    real(c_double) :: half_thickness     !< placed units
-    real(c_double) :: area               !< of all triangles, placed units squared
-    real(c_double) :: lower(3), upper(3) !< bounds of the triangles, placed units
-    real(c_double) :: seconds_triangles  !< wall time of the last create or update: checks and triangles
-    real(c_double) :: seconds_scene      !< Embree scene, and the samples or patches of another distance
-    real(c_double) :: error_bound        !< at most tolerance * half_thickness: no point's distances to the triangles
-                                         !! and to the smooth valve differ by more. 0 for a surface from arrays
+    integer(c_int64_t) :: n_vertices       !< length of the array of riis_surface_vertices
+    integer(c_int64_t) :: n_triangles      !< triangles that answer queries
+    integer(c_int64_t) :: n_zero_area      !< triangles skipped for want of area
+    real(c_double) :: half_thickness       !< placed units
+    real(c_double) :: area                 !< of all triangles, placed units squared
+    real(c_double) :: lower(3), upper(3)   !< bounds of the triangles, placed units
+    real(c_double) :: seconds_triangles    !< wall time of the last create or update: checks and triangles
+    real(c_double) :: seconds_scene        !< Embree scene, and the samples or patches of another distance
+    real(c_double) :: error_bound          !< at most tolerance * half_thickness: no point's distances to the triangles
+                                           !! and to the smooth valve differ by more. 0 for a surface from arrays
+    real(c_double) :: velocity_error_bound !< no velocity on a triangle differs by more from that of the smooth valve at
+                                           !! the same patch, u and v. The first call after a moving update computes it,
+                                           !! which takes about as long as the update. 0 without a motion, and for
+                                           !! arrays
   end type riis_surface_info
 
   type, bind(c) :: riis_crossing_options

@@ -121,17 +121,34 @@ static void open_free_edges_are_parabolas(void **state) {
   assert_true(n > 50);
 }
 
+/* Every vertex of each surface is on the other, as far as both know the smooth valve. Their triangles differ, because further vertices
+ * follow the motion to the open state. */
+static int have_same_shape(const riis_valve *a, const riis_valve *b) {
+  riis_surface_options options = surface_options();
+  options.tolerance = 0.005;
+  const riis_surface *on[2] = {new_surface(a, &options), new_surface(b, &options)};
+  for (int i = 0; i < 2; ++i) {
+    const surface_content c = surface_content_of(on[i]);
+    const double bound = info_of(on[0]).error_bound + info_of(on[1]).error_bound;
+    for (int64_t k = 0; k < 3 * c.n_triangles; ++k) {
+      const double *p = c.xyz + 3 * c.vertex_id[k];
+      if (!(closest_to(on[1 - i], p[0], p[1], p[2]).distance <= bound)) return 0;
+    }
+  }
+  return 1;
+}
+
 static void opening_0_is_the_papers_state(void **state) {
   (void)state;
   riis_valve *valve = new_valve("aortic"), *other = new_valve("aortic"), *given = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.9));
   CHECK_OK(riis_valve_set_scalar(other, "commissure_expansion", 0.3));
   CHECK_OK(riis_valve_set_open_state(given, valve)); /* both ends the paper's */
-  assert_true(is_same_content(new_surface(valve, NULL), new_surface(other, NULL)));
-  assert_true(is_same_content(new_surface(valve, NULL), new_surface(given, NULL)));
+  assert_true(have_same_shape(valve, other));
+  assert_true(have_same_shape(valve, given));
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
   CHECK_OK(riis_valve_set_scalar(other, "opening", 0.5));
-  assert_false(is_same_content(new_surface(valve, NULL), new_surface(other, NULL)));
+  assert_false(have_same_shape(valve, other));
 }
 
 /* Root radius and heights shape both states. */
@@ -152,9 +169,10 @@ static void a_given_open_state_wins(void **state) {
   riis_valve *valve = valve_at("aortic", 1), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_radius_in", 1.1));
   CHECK_OK(riis_valve_set_open_state(valve, open));
-  assert_true(is_same_content(new_surface(valve, NULL), new_surface(open, NULL)));
+  assert_true(have_same_shape(valve, open));
+  riis_surface *surface = new_surface(valve, NULL);
   CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* no longer has an effect */
-  assert_true(is_same_content(new_surface(valve, NULL), new_surface(open, NULL)));
+  assert_true(is_same_content(surface, new_surface(valve, NULL)));
 }
 
 static void copies_and_moving_updates(void **state) {

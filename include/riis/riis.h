@@ -406,6 +406,9 @@ typedef struct riis_surface_info {
   double seconds_scene;      /* Embree scene, and the samples or patches of another distance */
   double error_bound;        /* at most tolerance * half_thickness: no point's distances to the triangles and
                                 to the smooth valve differ by more. 0 for a surface from arrays */
+  double velocity_error_bound; /* no velocity on a triangle differs by more from that of the smooth valve at the
+                                same patch, u and v. The first call after a moving update computes it, which
+                                takes about as long as the update. 0 without a motion, and for arrays */
 } riis_surface_info;
 /* Tells the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,

@@ -38,6 +38,8 @@ class SurfaceInfo(NamedTuple):
     seconds_triangles: float
     seconds_scene: float
     error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this
+    #: No triangle's velocity differs by more from that of the smooth valve, at the same patch, u and v.
+    velocity_error_bound: float
 
 
 class Triangles(NamedTuple):

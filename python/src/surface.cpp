@@ -139,7 +139,7 @@ nb::object info(Surface &surface) {
   const riis_surface_info found = info_of(surface);
   return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
                                array_of(found.lower, "float64"), array_of(found.upper, "float64"), found.seconds_triangles,
-                               found.seconds_scene, found.error_bound);
+                               found.seconds_scene, found.error_bound, found.velocity_error_bound);
 }
 
 using GetPoints = riis_status (*)(const riis_surface *, std::int64_t *, const double **);

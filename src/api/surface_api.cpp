@@ -339,6 +339,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const riis::Surface &content = riis::content_of(surface);
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
+    // The bound takes a while, so it is made only for callers that know the field.
+    const bool wants_bound = struct_size >= static_cast<int64_t>(sizeof(riis_surface_info));
     riis::write_struct<info_size>(info, struct_size, "info",
                                   riis_surface_info{set.n_vertices(),
                                                     set.n_triangles(),
@@ -349,7 +351,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                                     {upper.x, upper.y, upper.z},
                                                     surface->seconds_triangles,
                                                     surface->seconds_scene,
-                                                    set.error_bound});
+                                                    set.error_bound,
+                                                    wants_bound ? content.velocity_error_bound() : 0});
   });
 }
 

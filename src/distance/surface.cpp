@@ -35,6 +35,8 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
   other_distance_.reset();
+  states_.reset();
+  velocity_error_bound_.store(not_known, std::memory_order_relaxed);
   scene_.make(triangles_, n_threads);
 }
 
@@ -47,6 +49,15 @@ double Surface::area() const {
   double area = area_.load(std::memory_order_relaxed);
   if (area == not_known) area_.store(area = area_of(triangles_), std::memory_order_relaxed);
   return area;
+}
+
+double Surface::velocity_error_bound() const {
+  double bound = velocity_error_bound_.load(std::memory_order_relaxed);
+  if (bound == not_known) {
+    bound = states_ ? riis::velocity_error_bound(*states_, triangles_.moved_grids) : 0;
+    velocity_error_bound_.store(bound, std::memory_order_relaxed);
+  }
+  return bound;
 }
 
 const Pseudonormals &Surface::make_pseudonormals() const {

@@ -13,6 +13,7 @@
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
+#include "surface/velocity_bound.hpp"
 
 namespace riis {
 
@@ -25,11 +26,18 @@ class Surface {
   // Sets another method for distances. Without it, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
+  // Takes the states that the velocities come from.
+  void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
+
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
   double half_thickness() const { return half_thickness_; }
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
+
+  // Bounds how far a velocity is from that of the smooth valve at the same patch, u and v; 0 without a motion of patches. The first
+  // call computes it. Several threads may call this function at once.
+  double velocity_error_bound() const;
 
   // Returns the method that measures distances. Null means the triangles' scene.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
@@ -52,6 +60,8 @@ class Surface {
   double half_thickness_ = 0;
   // Marking never needs the area. It does not depend on who computes it.
   mutable std::atomic<double> area_{not_known};
+  std::optional<TwoStates> states_;
+  mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
   // They are made at the first query of a side: marking never needs them.

@@ -162,6 +162,18 @@ Vec3 evaluate(const Bezier &curve, double t) {
   return q[0];
 }
 
+std::array<Vec3, 3> derivatives(const Bezier &curve, double t) {
+  const auto &q = curve.control;
+  const double s = 1 - t;
+  if (curve.degree == 2) {
+    const Vec3 a = 2 * (q[1] - q[0]), b = 2 * (q[2] - q[1]);
+    return {s * a + t * b, b - a, Vec3{0, 0, 0}};
+  }
+  const Vec3 a = 3 * (q[1] - q[0]), b = 3 * (q[2] - q[1]), c = 3 * (q[3] - q[2]);
+  const Vec3 d = 2 * (b - a), e = 2 * (c - b);
+  return {s * s * a + 2 * s * t * b + t * t * c, s * d + t * e, e - d};
+}
+
 Vec3 derivative(const Bezier &curve, double t) {
   std::array<Vec3, 4> q = curve.control;
   for (std::size_t n = degree_of(curve); n > 1; --n)

@@ -34,6 +34,9 @@ struct Bezier {
 // Returns B(t) for t in [0,1]; exactly the end points at 0 and 1.
 Vec3 evaluate(const Bezier &curve, double t);
 
+// Returns the first three derivatives by t.
+std::array<Vec3, 3> derivatives(const Bezier &curve, double t);
+
 // Returns dB/dt.
 Vec3 derivative(const Bezier &curve, double t);
 

@@ -106,23 +106,23 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
   const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
   // The tolerance is never so wide that two vertices of one side compete for a partner.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
-  Vector<GridLine> lines{{0.0, 0.0, 0.0}};
+  Vector<GridLine> lines{{0.0, 0.0, 0.0, true, true}};
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
     // Past the last inner vertex of a side, its parameter is infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {
-      lines.push_back({a, b, 0.5 * (a + b)});
+      lines.push_back({a, b, 0.5 * (a + b), true, true});
       ++i, ++j;
     } else if (a < b) {
-      lines.push_back({a, a, a});
+      lines.push_back({a, a, a, true, false});
       ++i;
     } else {
-      lines.push_back({b, b, b});
+      lines.push_back({b, b, b, false, true});
       ++j;
     }
   }
-  lines.push_back({1.0, 1.0, 1.0});
+  lines.push_back({1.0, 1.0, 1.0, true, true});
   return lines;
 }
 

@@ -23,6 +23,7 @@ struct PatchSides {
 struct GridLine {
   double t0, t1;  // parameter on the first and the second side that the line ends on
   double middle;  // their mean: the line's u (or v)
+  bool is_vertex0 = false, is_vertex1 = false;  // whether it ends on a vertex there
 };
 
 // Returns the union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without
@@ -40,7 +41,7 @@ struct QuadGrid {
   Vector<double> errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: a bound
                           // of its distance, at equal (u,v), from the patch between the exact curves
 
-  Vector<Vec3> displacements{};  // of the points since an earlier state (surface/displacement.hpp); empty without one
+  GridLines lines{};  // that the grid was made from; empty unless asked for
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }

@@ -13,17 +13,22 @@ namespace {
 
 // A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
 constexpr int max_depth = 20;
+// Narrower parts are not halved for the velocity. A curve that nearly turns on the spot has no end of bends there.
+constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts that are within max_error of them.
 class Flattening {
  public:
-  Flattening(Vec3 first, double max_error) : max_error_(max_error), flattened_{{first}, {0.0}, {}} {}
+  // `bend` is null if the velocity does not matter.
+  Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
+      : max_error_(max_error), bend_(bend), max_bend_(max_bend), flattened_{{first}, {0.0}, {}} {}
 
   // Adds a part of one piece, from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
-    if (accept(
-            part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
+    const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
+    if (!is_bent && accept(
+                        part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
       return;
     check(depth);
     const auto [left, right] = split(part, parameter_at_length(part, part_length, 0.5 * part_length));
@@ -85,6 +90,8 @@ class Flattening {
   }
 
   double max_error_;
+  const VelocityBend *bend_;
+  double max_bend_;
   Flattened flattened_;
 };
 
@@ -170,8 +177,73 @@ bool are_equal(const Curve &a, const Curve &b) {
       });
 }
 
+VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity) {
+  struct Place {
+    Vec3 first, second, third, tangent, rate_first, rate_second;
+    double speed;
+    double behind, rate_behind;  // the length behind, and how fast it grows
+  };
+  std::array<Place, n_cells + 1> places;
+  for (std::size_t k = 0; k <= n_cells; ++k) {
+    const double t = static_cast<double>(k) / n_cells;
+    const auto [d1, d2, d3] = derivatives(curve, t);
+    const auto [r1, r2, r3] = derivatives(velocity, t);
+    const double speed = riis::length(d1);
+    view(places)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, 0, 0};
+  }
+  constexpr double half_step = 0.5 / n_cells;
+  for (std::size_t k = 1; k <= n_cells; ++k) {
+    const Place &from = view(places)[k - 1];
+    Place &to = view(places)[k];
+    to.behind = from.behind + half_step * (from.speed + to.speed);
+    to.rate_behind =
+        from.rate_behind + half_step * (dot(from.tangent, from.rate_first) + dot(to.tangent, to.rate_first));
+  }
+  const double total = places.back().behind, rate_total = places.back().rate_behind;
+  for (std::size_t k = 0; k <= n_cells; ++k) {
+    const Place &at = view(places)[k];
+    view(u_)[k] = k == n_cells ? 1 : at.behind / total;
+    view(bend_)[k] = 0;
+    if (!(at.speed > 0)) continue;
+    // The point of share u moves along the parameter so fast.
+    const double t_rate = -(at.rate_behind - view(u_)[k] * rate_total) / at.speed;
+    const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
+    const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
+    const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
+    const double along = dot(at.tangent, at.second);
+    // The curvature vector, and its rate; the second derivative by the share is it times the length squared.
+    const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
+    const Vec3 curvature_rate =
+        inverse * inverse *
+            (second_rate - along * tangent_rate - (dot(tangent_rate, at.second) + dot(at.tangent, second_rate)) * at.tangent) -
+        2 * inverse * speed_rate * curvature;
+    view(bend_)[k] =
+        riis::length(2 * curve_length * rate_total * curvature + curve_length * curve_length * curvature_rate);
+  }
+}
+
+double VelocityBend::off_linear(double u0, double u1) const {
+  double largest = 0;
+  for (std::size_t k = 0; k < n_cells; ++k)
+    if (view(u_)[k] < u1 && view(u_)[k + 1] > u0)
+      largest = std::max({largest, at(std::max(u0, view(u_)[k]), k), at(std::min(u1, view(u_)[k + 1]), k)});
+  return 0.125 * (u1 - u0) * (u1 - u0) * largest;
+}
+
+double VelocityBend::at(double u, std::size_t cell) const {
+  const double from = view(u_)[cell], to = view(u_)[cell + 1];
+  const double share = (u - from) / (to - from);
+  return (1 - share) * view(bend_)[cell] + share * view(bend_)[cell + 1];
+}
+
 Flattened flatten(const Curve &curve, double max_error) {
-  Flattening flattening(curve.first(), max_error);
+  Flattening flattening(curve.first(), max_error, nullptr, 0);
+  if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
+  return flattening.take();
+}
+
+Flattened flatten(const Curve &curve, double max_error, const VelocityBend &bend, double max_bend) {
+  Flattening flattening(curve.first(), max_error, &bend, max_bend);
   if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
   return flattening.take();
 }

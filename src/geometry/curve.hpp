@@ -3,6 +3,7 @@
 // In: Bézier pieces. Out: points and parts by share of the length, and points close enough together to replace the curve.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "base/recycled.hpp"
@@ -62,6 +63,24 @@ class Curve {
 // Returns whether both have the same control points, to the last bit.
 bool are_equal(const Curve &a, const Curve &b);
 
+// How far the velocity of a curve's points is from linear along it, estimated. A point keeps its share of the length.
+class VelocityBend {
+ public:
+  // The velocities of the control points are those of a Bézier curve of the same degree.
+  VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity);
+
+  // Estimates the largest distance between the velocity and the linear one from share u0 to u1.
+  double off_linear(double u0, double u1) const;
+
+ private:
+  // The bend at a share in a cell.
+  double at(double u, std::size_t cell) const;
+
+  static constexpr std::size_t n_cells = 8;
+  std::array<double, n_cells + 1> u_;  // shares of the length at the ends of the cells
+  std::array<double, n_cells + 1> bend_;  // the velocity's second derivative by the share
+};
+
 // A curve replaced by chords.
 struct Flattened {
   Vector<Vec3> points;    // on the curve, from its first to its last; only the first if the length is 0
@@ -76,5 +95,8 @@ struct Flattened {
 // least a part, and patches have no slivers between them. A shared middle point appears once. Fails with
 // RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error);
+
+// Also halves parts on which the velocity is estimated to be off linear by more than max_bend.
+Flattened flatten(const Curve &curve, double max_error, const VelocityBend &bend, double max_bend);
 
 }  // namespace riis

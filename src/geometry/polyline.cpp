@@ -28,9 +28,22 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   return polyline;
 }
 
-Polyline make_polyline(const Curve &curve, double max_error) {
-  Flattened flattened = flatten(curve, max_error);
+namespace {
+
+Polyline polyline_of(Flattened flattened, const Curve &curve) {
   return {std::move(flattened.points), std::move(flattened.t), std::move(flattened.errors), curve.length()};
+}
+
+}  // namespace
+
+Polyline make_polyline(const Curve &curve, double max_error) {
+  return polyline_of(flatten(curve, max_error), curve);
+}
+
+Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend) {
+  if (!(curve.length() > 0)) return make_polyline(curve, max_error);
+  const VelocityBend bend(curve.pieces().front(), curve.length(), velocity);
+  return polyline_of(flatten(curve, max_error, bend, max_bend), curve);
 }
 
 Polyline reversed(const Polyline &polyline) {

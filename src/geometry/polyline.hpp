@@ -23,6 +23,8 @@ Polyline make_polyline(const Vector<Vec3> &points);
 // Returns the polyline that stands for a curve, with every segment within max_error (> 0) of it. Its t is the share of the
 // curve's length, not of its own length as in the paper. So a vertex is where the curve is at that t, whatever the tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
+// Also keeps the velocity within max_bend of linear on each segment, as far as it is estimated.
+Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
 
 // Returns the same polyline from its last point to its first.
 Polyline reversed(const Polyline &polyline);

@@ -45,7 +45,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   Stopwatch stopwatch;
   if (accuracy.fixed) accuracy.fixed->check(valve);
   // Parameters become curves and patches.
-  const PatchSet patches = valve.make_patches();
+  PatchSet patches = valve.make_patches();
   // So do those of the state before, whose points have the same u and v.
   std::optional<PatchSet> patches_before;
   std::optional<Motion> motion;
@@ -67,6 +67,8 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
     distance = make_distance(patches, {accuracy.distance, accuracy.distance_error}, placement, request.flip_normals);
   // Triangles become the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
+  if (motion)
+    surface.moved_between({std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);
     surface.measure_by(std::move(distance), difference);

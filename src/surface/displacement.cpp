@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "base/errors.hpp"
+#include "geometry/curve_points.hpp"
 
 namespace riis {
 namespace {
@@ -12,111 +14,164 @@ namespace {
 // A side of a patch at both states.
 class MovedSide {
  public:
-  MovedSide(const MovedPatch &moved, Side Patch::*side, const Polyline *polyline)
+  MovedSide(const MovedPatch &moved, Side Patch::*side)
       : now_(moved.now.patches[moved.patch].*side),
         before_(moved.before.patches[moved.patch].*side),
         curve_now_(moved.now.curves[now_.curve]),
         curve_before_(moved.before.curves[before_.curve]),
-        polyline_(polyline),
         is_at_rest_(now_.reversed == before_.reversed && are_equal(curve_now_, curve_before_)) {}
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  Vec3 displacement(double t) const { return is_at_rest_ ? Vec3{0, 0, 0} : now(t) - before(t); }
-
-  Vec3 before(double t) const { return curve_before_.at(before_.reversed ? 1 - t : t); }
-  Curve::Frame frame_before(double t) const {
-    Curve::Frame frame = curve_before_.frame(before_.reversed ? 1 - t : t);
-    if (before_.reversed) frame.tangent = -frame.tangent;
-    return frame;
+  // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the points of now that are known already;
+  // `unknown` says which are not, ascending, with the first and the last of all if there are any.
+  Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points, const Vector<std::size_t> &unknown) const {
+    if (!unknown.empty()) {
+      Vector<double> shares_unknown;
+      shares_unknown.reserve(unknown.size());
+      for (const std::size_t i : unknown) shares_unknown.push_back(shares[i]);
+      const CurvePoints now = points_now(shares_unknown);
+      for (std::size_t k = 0; k < unknown.size(); ++k) points[unknown[k]] = now.point(k);
+    }
+    const CurvePoints before = points_before(shares);
+    for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] - before.point(i);
+    return points;
   }
+
+  CurvePoints points_now(const Vector<double> &shares) const { return {curve_now_, now_.reversed, shares}; }
+  CurvePoints points_before(const Vector<double> &shares) const { return {curve_before_, before_.reversed, shares}; }
 
  private:
-  // A vertex of the polyline is a point of the curve that is already known.
-  Vec3 now(double t) const {
-    if (polyline_ && polyline_->length > 0) {
-      const auto vertex = std::lower_bound(polyline_->t.begin(), polyline_->t.end(), t);
-      if (vertex != polyline_->t.end() && *vertex == t)
-        return polyline_->points[static_cast<std::size_t>(vertex - polyline_->t.begin())];
-    }
-    return curve_now_.at(now_.reversed ? 1 - t : t);
-  }
-
   Side now_, before_;
   const Curve &curve_now_, &curve_before_;
-  const Polyline *polyline_;
   bool is_at_rest_;
 };
 
-class ArcMotion {
+// The lines of a grid in one direction, and the lines that halve the steps between them as often as the quads there need it.
+class HalvedLines {
  public:
-  explicit ArcMotion(const MovedPatch &moved)
-      : moved_(moved),
-        bulge_before_(moved.before.patches[moved.patch].bulge),
-        base_(moved, &Patch::v0, moved.sides.side_v0),
-        edge_(moved, &Patch::v1, moved.sides.side_v1),
-        is_at_rest_(base_.is_at_rest() && edge_.is_at_rest() && moved.now.patches[moved.patch].bulge == bulge_before_) {
+  HalvedLines(const Vector<GridLine> &lines, const Vector<int> &levels) : lines_(lines) {
+    place_.reserve(lines.size());
+    place_.push_back(0);
+    for (const int level : levels) place_.push_back(place_.back() + (std::size_t{1} << level));
+    middle_ = shares(&GridLine::middle);
   }
 
-  Vector<Vec3> displacements(const GridLines &lines) const {
-    Vector<Vec3> made;
-    made.reserve(lines.u.size() * lines.v.size());
-    Vector<Vec3> base, edge, offset;
-    for (std::size_t i = 0; i < lines.u.size(); ++i) {
-      base.push_back(base_.displacement(lines.u[i].t0));
-      edge.push_back(edge_.displacement(lines.u[i].t1));
-      offset.push_back(is_at_rest_ ? Vec3{0, 0, 0} : offset_now(i) - offset_before(lines.u, i));
-    }
-    for (const GridLine &line : lines.v)
-      for (std::size_t i = 0; i < base.size(); ++i) {
-        const double v = line.middle;
-        made.push_back(mix(base[i], edge[i], v) + (2 * v * (1 - v)) * offset[i]);
+  std::size_t size() const { return place_.back() + 1; }
+  // Where each line of the grid stands among all.
+  const Vector<std::size_t> &places() const { return place_; }
+  const Vector<GridLine> &lines() const { return lines_; }
+  const Vector<double> &middle() const { return middle_; }
+
+  Vector<double> shares(double GridLine::*t) const {
+    Vector<double> made;
+    made.reserve(size());
+    for (std::size_t i = 0; i + 1 < lines_.size(); ++i) {
+      const std::size_t n_parts = place_[i + 1] - place_[i];
+      const double from = lines_[i].*t, to = lines_[i + 1].*t;
+      made.push_back(from);
+      for (std::size_t k = 1; k < n_parts; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(n_parts);
+        made.push_back((1 - share) * from + share * to);
       }
+    }
+    made.push_back(lines_.back().*t);
     return made;
   }
 
  private:
-  Vec3 offset_now(std::size_t i) const { return moved_.offsets ? (*moved_.offsets)[i] : Vec3{0, 0, 0}; }
-
-  Vec3 offset_before(const Vector<GridLine> &lines, std::size_t i) const {
-    if (bulge_before_ == 0) return {0, 0, 0};
-    // The neighbours have the same offsets at the ends.
-    const Patch &before = moved_.before.patches[moved_.patch];
-    if (i == 0) return arc_offset(moved_.before, before.u0);
-    if (i + 1 == lines.size()) return arc_offset(moved_.before, before.u1);
-    const double u = lines[i].middle;
-    const Curve::Frame frame = base_.frame_before(u);
-    return arc_offset(edge_.before(u) - frame.point, frame.tangent, bulge_before_);
-  }
-
-  const MovedPatch &moved_;
-  double bulge_before_;
-  MovedSide base_, edge_;
-  bool is_at_rest_;
+  const Vector<GridLine> &lines_;
+  Vector<std::size_t> place_;
+  Vector<double> middle_;
 };
 
-Vector<Vec3> coons_displacements(const MovedPatch &moved, const GridLines &lines) {
-  const MovedSide v0(moved, &Patch::v0, moved.sides.side_v0), v1(moved, &Patch::v1, moved.sides.side_v1),
-      u0(moved, &Patch::u0, moved.sides.side_u0), u1(moved, &Patch::u1, moved.sides.side_u1);
-  SideVectors sides;
-  for (const GridLine &line : lines.u) {
-    sides.v0.push_back(v0.displacement(line.t0));
-    sides.v1.push_back(v1.displacement(line.t1));
+// A side of a patch on its grid.
+struct SideOnGrid {
+  Side Patch::*side;
+  double GridLine::*t;
+  bool GridLine::*is_vertex;
+  const Vec3 *first;  // point of the grid; the others follow at this distance
+  std::size_t stride;
+};
+
+Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, const HalvedLines &lines) {
+  const MovedSide side(moved, on.side);
+  Vector<Vec3> points(lines.size(), Vec3{0, 0, 0});
+  if (side.is_at_rest()) return points;
+  // Vertices of polylines are points of the curve.
+  Vector<std::size_t> unknown;
+  const Vector<std::size_t> &places = lines.places();
+  bool has_unknown = false;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (k > 0)
+      for (std::size_t i = places[k - 1] + 1; i < places[k]; ++i) has_unknown = true, unknown.push_back(i);
+    points[places[k]] = on.first[k * on.stride];
+    const bool is_end = k == 0 || k + 1 == places.size(), is_known = lines.lines()[k].*on.is_vertex;
+    has_unknown = has_unknown || !is_known;
+    if (is_end || !is_known) unknown.push_back(places[k]);
   }
-  for (const GridLine &line : lines.v) {
-    const bool is_inside = line.middle > 0 && line.middle < 1;
-    sides.u0.push_back(is_inside ? u0.displacement(line.t0) : Vec3{0, 0, 0});
-    sides.u1.push_back(is_inside ? u1.displacement(line.t1) : Vec3{0, 0, 0});
-  }
-  return coons_combination(middles(lines.u), middles(lines.v), sides);
+  if (!has_unknown) unknown.clear();
+  return side.displacements(lines.shares(on.t), std::move(points), unknown);
+}
+
+// O of a patch of arcs at ascending u. The neighbours have the same at the ends.
+Vector<Vec3> offsets_at(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge) {
+  Vector<Vec3> made(base.size(), Vec3{0, 0, 0});
+  if (patch.bulge == 0) return made;
+  for (std::size_t i = 1; i + 1 < made.size(); ++i)
+    made[i] = arc_offset(edge.point(i) - base.point(i), base.tangent(i), patch.bulge);
+  made.front() = arc_offset(set, patch.u0), made.back() = arc_offset(set, patch.u1);
+  return made;
+}
+
+Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> &u) {
+  const Patch &patch_now = moved.now.patches[moved.patch], &patch_before = moved.before.patches[moved.patch];
+  const MovedSide base(moved, &Patch::v0), edge(moved, &Patch::v1);
+  if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
+    return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
+  Vector<Vec3> made = offsets_at(moved.now, patch_now, base.points_now(u), edge.points_now(u));
+  const Vector<Vec3> before =
+      offsets_at(moved.before, patch_before, base.points_before(u), edge.points_before(u));
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i];
+  return made;
 }
 
 }  // namespace
 
-Vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines) {
+PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
+    : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0) {
+  auto level = levelled.levels.begin();
+  for_each_quad(levelled.grid, [&](std::size_t i, std::size_t j) {
+    column_levels_[i] = std::max(column_levels_[i], *level);
+    row_levels_[j] = std::max(row_levels_[j], *level++);
+  });
+  const QuadGrid &grid = levelled.grid;
+  HalvedLines u_lines(grid.lines.u, column_levels_), v_lines(grid.lines.v, row_levels_);
+  const std::size_t n_u = grid.u.size();
+  const Vec3 *const first = grid.points.data(), *const last = first + grid.points.size();
+  sides_.v0 = displacements_of(moved, {&Patch::v0, &GridLine::t0, &GridLine::is_vertex0, first, 1}, u_lines);
+  sides_.v1 = displacements_of(moved, {&Patch::v1, &GridLine::t1, &GridLine::is_vertex1, last - n_u, 1}, u_lines);
   // A patch of arcs without a bulge is the Coons patch of its sides, whose label v is the same.
-  const bool has_arcs = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
-  return has_arcs ? ArcMotion(moved).displacements(lines) : coons_displacements(moved, lines);
+  has_arcs_ = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
+  if (has_arcs_) {
+    offsets_ = offset_displacements(moved, u_lines.middle());
+  } else {
+    sides_.u0 = displacements_of(moved, {&Patch::u0, &GridLine::t0, &GridLine::is_vertex0, first, n_u}, v_lines);
+    sides_.u1 = displacements_of(moved, {&Patch::u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
+  }
+  column_ = u_lines.places(), row_ = v_lines.places();
+  u_ = u_lines.middle(), v_ = v_lines.middle();
+}
+
+Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
+  const double u = u_[i], v = v_[j];
+  if (has_arcs_) return mix(sides_.v0[i], sides_.v1[i], v) + (2 * v * (1 - v)) * offsets_[i];
+  if (j == 0) return sides_.v0[i];
+  if (j + 1 == v_.size()) return sides_.v1[i];
+  if (i == 0) return sides_.u0[j];
+  if (i + 1 == u_.size()) return sides_.u1[j];
+  return mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
+         mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
 }
 
 ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placement &placement) {
@@ -128,7 +183,7 @@ ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placem
 
 ImageMotion::ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                          const Motion &motion)
-    : now_(map_of(now, placement_now)), difference_(now_), seconds_(motion.seconds) {
+    : now_(map_of(now, placement_now)), difference_(now_), seconds_(motion.seconds), scale_before_(motion.placement_before.scale) {
   const AffineMap then = map_of(before, motion.placement_before);
   difference_.linear.row_x = now_.linear.row_x - then.linear.row_x;
   difference_.linear.row_y = now_.linear.row_y - then.linear.row_y;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tells how far the points of a patch moved since an earlier state of the valve (docs/theory.md, "Velocity").
-// In: the patch now and before, the lines of its grid. Out: the displacement of every grid point.
+// In: the patch now and before, its grid. Out: the displacement of every vertex.
 #pragma once
+
+#include <cmath>
 
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/placement.hpp"
+#include "surface/quads.hpp"
 #include "valve/patches.hpp"
 
 namespace riis {
@@ -17,18 +20,45 @@ struct Motion {
   double seconds;  // not 0; negative if the valve runs backwards
 };
 
-// A patch at both states, with what its grid was made from.
+// A patch at both states.
 struct MovedPatch {
   const PatchSet &now, &before;
   std::size_t patch;
-  const PatchSides &sides;      // of the patch now
-  const Vector<Vec3> *offsets;  // O on each u line now; null for a Coons patch
 };
 
-// Returns S_now(u,v) - S_before(u,v) for every point of the grid, in the order of QuadGrid::points. On their sides
-// both are points of the smooth patches, and inside they are the same combination of these. The two states share only the label
-// (u,v), so a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
-Vector<Vec3> displacements(const MovedPatch &moved, const GridLines &lines);
+// S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its quads that are split further. Each is evaluated on
+// the smooth patches: on their sides, and inside as the same combination of the sides. The two states share only the label (u,v), so
+// a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
+class PatchMotion {
+ public:
+  // The grid has its lines.
+  PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled);
+
+  // At the crossing of two lines of the grid.
+  Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
+  // In the quad behind this crossing, whose sides are halved `level` times.
+  Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
+    return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
+              row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
+  }
+
+  // How far O moves on each line of a patch of arcs.
+  Vector<Vec3> offset_moves() const {
+    Vector<Vec3> made;
+    for (const std::size_t i : column_) made.push_back(offsets_[i]);
+    return made;
+  }
+
+ private:
+  Vec3 at(std::size_t i, std::size_t j) const;
+
+  Vector<int> column_levels_, row_levels_;  // the largest of the quads between two lines
+  Vector<std::size_t> column_, row_;        // of each line of the grid: its place among the halved lines
+  Vector<double> u_, v_;                    // of the halved lines
+  bool has_arcs_;
+  SideVectors sides_;
+  Vector<Vec3> offsets_;
+};
 
 // The motion of one image of a patch in space: that of the patch, of the image and of the placement together.
 class ImageMotion {
@@ -42,6 +72,14 @@ class ImageMotion {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
+  // Bounds the error of that velocity if the displacement and p have errors of at most these.
+  double velocity_error(double of_displacement, double of_point) const {
+    const auto norm = [](const Rotation &a) {  // Frobenius's
+      return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
+    };
+    return (scale_before_ * of_displacement + norm(difference_.linear) * of_point) / std::abs(seconds_);
+  }
+
  private:
   struct AffineMap {
     Rotation linear;  // of any scale, and mirrored or not
@@ -50,7 +88,7 @@ class ImageMotion {
   static AffineMap map_of(const PatchImage &image, const Placement &placement);
 
   AffineMap now_, difference_;
-  double seconds_;
+  double seconds_, scale_before_;
 };
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: numbers, images and kinds.

@@ -12,7 +12,6 @@
 #include "base/errors.hpp"
 #include "geometry/curve_points.hpp"
 #include "parallel/parallel_for.hpp"
-#include "surface/displacement.hpp"
 #include "surface/grids.hpp"
 
 namespace riis {
@@ -420,7 +419,10 @@ class Planner {
     Vector<double> both;
     std::set_union(on_a.begin(), on_a.end(), on_b.begin(), on_b.end(), std::back_inserter(both));
     Vector<GridLine> made;
-    for (const double t : both) made.push_back({t, t, t});
+    const auto has = [](const Vector<double> &shares, double t) {
+      return std::binary_search(shares.begin(), shares.end(), t);
+    };
+    for (const double t : both) made.push_back({t, t, t, has(on_a, t), has(on_b, t)});
     return made;
   }
 
@@ -543,8 +545,8 @@ class Planner {
 // Makes the grids of one opening on the plan's lines.
 class PlannedGrids {
  public:
-  PlannedGrids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads, const PatchSet *before)
-      : set_(set), plan_(plan), max_error_(max_error), n_threads_(n_threads), before_(before) {}
+  PlannedGrids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads, bool keeps_lines)
+      : set_(set), plan_(plan), max_error_(max_error), n_threads_(n_threads), keeps_lines_(keeps_lines) {}
 
   Vector<QuadGrid> make() {
     polylines_.resize(set_.curves.size());
@@ -573,7 +575,7 @@ class PlannedGrids {
     const PatchSides sides{polyline(patch.v0), polyline(patch.v1), polyline(patch.u0), polyline(patch.u1)};
     const GridLines &lines = plan_.patches[i].lines;
     QuadGrid made = make_quad_grid(sides, lines);
-    if (before_) made.displacements = displacements({set_, *before_, i, sides, nullptr}, lines);
+    if (keeps_lines_) made.lines = lines;
     return made;
   }
 
@@ -585,8 +587,7 @@ class PlannedGrids {
     const PatchSides sides{&base, &edge, nullptr, nullptr};
     const ArcLines lines = planned.arc_lines(errors, plan.n_parts);
     QuadGrid made = make_arc_grid(sides, lines, plan_.n_rows);
-    if (before_)
-      made.displacements = displacements({set_, *before_, i, sides, &lines.offsets}, lines_of_arc_grid(lines, made));
+    if (keeps_lines_) made.lines = lines_of_arc_grid(lines, made);
     return made;
   }
 
@@ -594,7 +595,7 @@ class PlannedGrids {
   const GridPlan &plan_;
   double max_error_;
   int n_threads_;
-  const PatchSet *before_;
+  bool keeps_lines_;
   Vector<Polyline> polylines_, reversed_;
 };
 
@@ -629,8 +630,8 @@ GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_
 }
 
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
-                            const PatchSet *before) {
-  return PlannedGrids(set, plan, max_error, n_threads, before).make();
+                            bool keeps_lines) {
+  return PlannedGrids(set, plan, max_error, n_threads, keeps_lines).make();
 }
 
 }  // namespace riis

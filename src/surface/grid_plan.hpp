@@ -53,6 +53,6 @@ GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_
 // Makes one grid for each patch on the plan's lines, as the other make_grids does on its own lines. Bounds errors no
 // closer than max_error needs.
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
-                            const PatchSet *before);
+                            bool keeps_lines);
 
 }  // namespace riis

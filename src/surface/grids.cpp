@@ -9,19 +9,27 @@
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
-#include "surface/displacement.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
 namespace {
 
+// The largest speed by the opening, at five points of each curve: a cubic that is 0 at all of them is 0.
+double largest_rate(const PatchSet &set) {
+  double largest = 0;
+  for (const Bezier &rate : set.rates)
+    for (int i = 0; i <= 4; ++i) largest = std::max(largest, length(evaluate(rate, 0.25 * i)));
+  return largest;
+}
+
 class GridMaker {
  public:
   GridMaker(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
-            const PatchSet *before)
+            bool keeps_lines)
       : set_(set),
-        before_(before),
+        keeps_lines_(keeps_lines),
         max_error_(max_error),
+        max_bend_(bend_share * largest_rate(set)),
         n_threads_(n_threads),
         errors_(set.curves.size(), infinity),
         polylines_(set.curves.size()),
@@ -71,10 +79,8 @@ class GridMaker {
     const bool is_arcs = set_.patches[i].bulge != 0;
     GridLines lines;
     QuadGrid made = is_arcs ? make_arc_grid(sides_[i], lines_[i], n_rows)
-                            : make_quad_grid(sides_[i], merge_share * max_error_, before_ ? &lines : nullptr);
-    if (!before_) return made;
-    if (is_arcs) lines = lines_of_arc_grid(lines_[i], made);
-    made.displacements = displacements({set_, *before_, i, sides_[i], is_arcs ? &lines_[i].offsets : nullptr}, lines);
+                            : make_quad_grid(sides_[i], merge_share * max_error_, keeps_lines_ ? &lines : nullptr);
+    if (keeps_lines_) made.lines = is_arcs ? lines_of_arc_grid(lines_[i], made) : std::move(lines);
     return made;
   }
 
@@ -100,7 +106,8 @@ class GridMaker {
     curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
     parallel_for(view(curves).size(), n_threads_, [&](std::int64_t i, int) {
       const std::size_t at = view(curves)[i];
-      polylines_[at] = make_polyline(set_.curves[at], errors_[at]);
+      polylines_[at] = max_bend_ > 0 ? make_polyline(set_.curves[at], errors_[at], set_.rates[at], max_bend_)
+                                     : make_polyline(set_.curves[at], errors_[at]);
       reversed_[at] = reversed(polylines_[at]);
     });
     for (std::size_t i = first; i < end; ++i) sides_.push_back(sides_of(set_.patches[i]));
@@ -141,8 +148,9 @@ class GridMaker {
   }
 
   const PatchSet &set_;
-  const PatchSet *before_;  // an earlier state, or null
+  bool keeps_lines_;
   double max_error_;
+  double max_bend_;  // of the velocity between two vertices of a curve; 0 if the valve does not open
   int n_threads_;
   Vector<double> errors_;  // allowed error of each curve; infinity: needs no polyline
   Vector<Polyline> polylines_, reversed_;
@@ -153,8 +161,8 @@ class GridMaker {
 }  // namespace
 
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
-                            const PatchSet *before) {
-  return GridMaker(set, max_error, tightness, n_threads, before).make();
+                            bool keeps_lines) {
+  return GridMaker(set, max_error, tightness, n_threads, keeps_lines).make();
 }
 
 void check_precision(const PatchSet &set, double max_error) {

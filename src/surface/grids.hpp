@@ -20,15 +20,18 @@ inline constexpr double planned_curve_share = 0.39;
 // the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
+// The velocity between two vertices of a curve is within this share of the largest one.
+inline constexpr double bend_share = 0.01;
+
 // Returns the rows that keep the chords of arcs with offsets up to `offset` within their share of max_error.
 double rows_for(double offset, double max_error);
 
 // Makes one grid for each patch, in their order, before any image of the patch is placed. Keeps each curve within its
 // share of max_error times its tightness; an empty `tightness` means 1 for all. Fails with RIIS_LIMIT_EXCEEDED if the
 // surface would take more than max_triangles triangles.
-// With an earlier state of the same build, the grids also have the displacements of their points since.
+// Grids have their lines if `keeps_lines` says so.
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
-                            int n_threads = 1, const PatchSet *before = nullptr);
+                            int n_threads = 1, bool keeps_lines = false);
 
 // Fails with RIIS_LIMIT_EXCEEDED if lengths or coordinates of curves round by too much for max_error.
 void check_precision(const PatchSet &set, double max_error);

@@ -10,6 +10,7 @@
 #include "base/array_view.hpp"
 #include "base/recycled.hpp"
 #include "geometry/strided.hpp"
+#include "surface/quads.hpp"
 
 namespace riis {
 
@@ -33,6 +34,7 @@ struct TriangleSet {
   Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
   std::uint64_t connectivity = 0;         // whose triangles these are; 0: nobody's (surface/triangulate.cpp)
   Grouping grouping;                      // empty if the maker of the triangles knows no groups
+  Vector<LevelledGrid> moved_grids;       // of triangles with velocities from patches
 
   // Empties the set and keeps its memory.
   void clear() {
@@ -41,6 +43,7 @@ struct TriangleSet {
     for (auto *ids : {&leaflet_id, &patch_id}) ids->clear();
     for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
+    moved_grids.clear();
     n_zero_area = 0;
     error_bound = 0;
     connectivity = 0;

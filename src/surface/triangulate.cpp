@@ -78,17 +78,21 @@ double rounding_of_places(const QuadGrid &grid, const Patch &patch, const Placem
 
 // The vertices of a patch before any image is placed: those of the grid, then those of subdivided quads.
 struct PatchVertices {
-  explicit PatchVertices(const LevelledGrid &levelled) {
+  // `moved` is null without an earlier state.
+  PatchVertices(const LevelledGrid &levelled, const MovedPatch *moved) {
     const QuadGrid &grid = levelled.grid;
     const auto n = static_cast<std::size_t>(levelled.n_vertices);
-    const bool moves = !grid.displacements.empty();
+    std::optional<PatchMotion> motion;
+    if (moved) motion.emplace(*moved, levelled);
     points.reserve(n);
     uv.reserve(2 * n);
-    displacements.reserve(moves ? n : 0);
+    displacements.reserve(motion ? n : 0);
     points = grid.points;
-    displacements = grid.displacements;
-    for (const double v : grid.v)
-      for (const double u : grid.u) add(u, v);
+    for (std::size_t j = 0; j < grid.v.size(); ++j)
+      for (std::size_t i = 0; i < grid.u.size(); ++i) {
+        add(grid.u[i], grid.v[j]);
+        if (motion) displacements.push_back(motion->at_lines(i, j));
+      }
     auto level_of_next = levelled.levels.begin();
     for_each_quad(grid, [&](std::size_t i, std::size_t j) {
       const int level = *level_of_next++;
@@ -103,7 +107,7 @@ struct PatchVertices {
         for (int column = 0; column <= n_parts; ++column) {
           const double s = column * step, t = row * step;
           points.push_back(quad.at(s, t));
-          if (moves) displacements.push_back(displacements_of_quad(grid, i, j).at(s, t));
+          if (motion) displacements.push_back(motion->in_quad(i, j, level, column, row));
           add((1 - s) * u0 + s * u1, (1 - t) * v0 + t * v1);
         }
     });
@@ -117,12 +121,6 @@ struct PatchVertices {
   void add(double u, double v) {
     uv.push_back(u);
     uv.push_back(v);
-  }
-  static Quad displacements_of_quad(const QuadGrid &grid, std::size_t i, std::size_t j) {
-    const auto at = [&](std::size_t di, std::size_t dj) {
-      return grid.displacements[(j + dj) * grid.u.size() + i + di];
-    };
-    return {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
   }
 };
 
@@ -331,10 +329,10 @@ const PatchImage &image_before(const Piece &piece, const Vector<LevelledGrid> &g
 
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
                                          const Vector<double> &tightness) {
-  const PatchSet *before = how.motion ? &how.motion->patches_before : nullptr;
+  const bool keeps_lines = how.motion != nullptr;
   const TriangulationPlan *plan = how.plan;
-  Vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, plan->max_error, how.n_threads, before)
-                                : make_grids(set, how.max_error, tightness, how.n_threads, before);
+  Vector<QuadGrid> grids = plan ? make_grids(set, plan->grids, plan->max_error, how.n_threads, keeps_lines)
+                                : make_grids(set, how.max_error, tightness, how.n_threads, keeps_lines);
   Vector<LevelledGrid> levelled(grids.size());
   parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
     view(levelled)[i] = with_levels(std::move(view(grids)[i]), how.max_error, plan ? &view(plan->levels)[i] : nullptr);
@@ -386,8 +384,11 @@ template <class Work>
 void place_pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, Pieces &pieces,
                   TriangleSet &triangles, const Work &work) {
   Vector<std::optional<PatchVertices>> of_patches(grids.size());
-  parallel_for(view(grids).size(), how.n_threads,
-               [&](std::int64_t i, int) { view(of_patches)[i].emplace(view(grids)[i]); });
+  parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
+    std::optional<MovedPatch> moved;
+    if (how.motion) moved.emplace(MovedPatch{set, how.motion->patches_before, static_cast<std::size_t>(i)});
+    view(of_patches)[i].emplace(view(grids)[i], moved ? &*moved : nullptr);
+  });
   parallel_for(view(pieces.all).size(), how.n_threads, [&](std::int64_t i, int) {
     Piece &piece = view(pieces.all)[i];
     std::optional<ImageMotion> image_motion;
@@ -499,6 +500,14 @@ void make_finer(const PatchSet &set, const Vector<std::size_t> &patches, Vector<
 // Patches thinner than the tolerance lose their area if their sides become the same chords. Their curves have to be finer.
 constexpr int max_attempts = 12;
 
+// Keeps the grids of a motion, for the bound of the velocities' errors.
+void keep(Vector<LevelledGrid> grids, const Triangulation &how, TriangleSet &triangles) {
+  if (how.motion)
+    triangles.moved_grids = std::move(grids);
+  else
+    triangles.moved_grids.clear();
+}
+
 // Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
 TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
   check_precision(set, how.max_error);
@@ -506,7 +515,7 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
   std::optional<PatchSet> recounted;
   if (!how.plan->build.counts_as(set)) recounted = how.plan->build.counted(set);
   const PatchSet &counted = recounted ? *recounted : set;
-  const Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
+  Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (!(grids[i].error_bound <= how.max_error))
       fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
@@ -518,6 +527,7 @@ TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, T
     group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), triangles.grouping);
   }
   triangles.rim_sides = rim_sides(set);  // shared curves are no rims
+  keep(std::move(grids), how, triangles);
   return triangles;
 }
 
@@ -530,10 +540,11 @@ TriangleSet triangulate(const PatchSet &set, const Triangulation &asked, Triangl
   if (how.plan) return triangulate_by_plan(set, how, std::move(memory));
   Vector<double> tightness(set.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
-    const Vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
+    Vector<LevelledGrid> grids = make_levelled_grids(set, how, tightness);
     const Vector<std::size_t> vanished = build(set, how, grids, memory);
     if (vanished.empty()) {
       memory.rim_sides = rim_sides(set);
+      keep(std::move(grids), how, memory);
       return memory;
     }
     if (attempt == max_attempts) fail_for_vanished(set, vanished.front(), "");
@@ -554,7 +565,7 @@ namespace {
 
 // Lifts the levels to the levels that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
-  const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, nullptr);
+  const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, false);
   plan.levels.resize(grids.size());
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }

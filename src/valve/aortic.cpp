@@ -125,6 +125,10 @@ void check_values(const ParameterValues &values) {
 }
 
 // Returns half a cusp of the open state that the valve's own parameters make.
+HalfCusp open_half_of(const ParameterValues &values, std::size_t cusp) {
+  return half_cusp(open_shape(shape_of(values, cusp), opening_of(values)));
+}
+
 HalfCusp own_open_half(const ParameterValues &values, std::size_t cusp) {
   const CuspShape shape = open_shape(shape_of(values, cusp), opening_of(values));
   const HalfCusp half = half_cusp(shape);
@@ -136,18 +140,17 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const bool has_own_open_state = &open == &closed;
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    HalfCusp half = half_cusp(shape_of(closed.values, cusp));
-    // A valve that stays closed needs no open state.
-    if (opening != 0)
-      half =
-          blend(half, has_own_open_state ? own_open_half(closed.values, cusp) : half_cusp(shape_of(open.values, cusp)),
-                opening);
+    const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
+    // A closed valve does not need its own open state, which may be refused.
+    const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
+                               : opening != 0      ? own_open_half(closed.values, cusp)
+                                                   : open_half_of(closed.values, cusp);
     // The frame has no control points: its angles and its shift are blended as numbers.
     const auto vector_of = [&](OfCusp parameter) {
       const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
       return riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
     };
-    add_cusps(set, half,
+    add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half),
               {{rotation_xyz(vector_of(rotation)), vector_of(translation), static_cast<std::int32_t>(cusp)}});
   }
   return set;

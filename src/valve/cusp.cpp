@@ -41,6 +41,12 @@ CuspProfile parabola(double radius_in, double radius_out, double angle) {
   return {radius_in, radius_out, angle, 2, third, third};
 }
 
+template <class Make>
+HalfCusp of_each(const Make &make) {
+  return {make(&HalfCusp::leaflet),     make(&HalfCusp::bending),        make(&HalfCusp::sinus_below),
+          make(&HalfCusp::sinus_above), make(&HalfCusp::symmetry_below), make(&HalfCusp::symmetry_above)};
+}
+
 }  // namespace
 
 std::array<ParameterSpec, 2> cusp_opening_specs(const CuspOpening &defaults) {
@@ -91,9 +97,11 @@ HalfCusp half_cusp(const CuspShape &shape) {
 }
 
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening) {
-  const auto blended = [&](Bezier HalfCusp::*curve) { return blend(closed.*curve, open.*curve, opening); };
-  return {blended(&HalfCusp::leaflet),     blended(&HalfCusp::bending),        blended(&HalfCusp::sinus_below),
-          blended(&HalfCusp::sinus_above), blended(&HalfCusp::symmetry_below), blended(&HalfCusp::symmetry_above)};
+  return of_each([&](Bezier HalfCusp::*curve) { return blend(closed.*curve, open.*curve, opening); });
+}
+
+HalfCusp rate(const HalfCusp &closed, const HalfCusp &open) {
+  return of_each([&](Bezier HalfCusp::*curve) { return rate(closed.*curve, open.*curve); });
 }
 
 void check_reach(const HalfCusp &half, const CuspShape &shape, const std::string &cusp, const char *also) {
@@ -117,15 +125,17 @@ void check_reach(const HalfCusp &half, const CuspShape &shape, const std::string
   check(half.sinus_above, "sinus", of_sinus);
 }
 
-void add_cusps(PatchSet &set, const HalfCusp &half, const Vector<CuspPlace> &places) {
-  const auto add = [&](const Curve &curve) {
+void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places) {
+  const auto add = [&](const Bezier &curve, const Bezier &its_rate) {
     set.curves.push_back(curve);
+    set.rates.push_back(its_rate);
     return Side{set.curves.size() - 1};
   };
-  const Side root = add(Bezier::point(half.symmetry_below.first()));
-  const Side symmetry_below = add(half.symmetry_below), symmetry_above = add(half.symmetry_above);
-  const Side bending = add(half.bending), leaflet = add(half.leaflet);
-  const Side sinus_below = add(half.sinus_below), sinus_above = add(half.sinus_above);
+  const auto add_one = [&](Bezier HalfCusp::*curve) { return add(half.*curve, rate.*curve); };
+  const Side root = add(Bezier::point(half.symmetry_below.first()), Bezier::point(rate.symmetry_below.first()));
+  const Side symmetry_below = add_one(&HalfCusp::symmetry_below), symmetry_above = add_one(&HalfCusp::symmetry_above);
+  const Side bending = add_one(&HalfCusp::bending), leaflet = add_one(&HalfCusp::leaflet);
+  const Side sinus_below = add_one(&HalfCusp::sinus_below), sinus_above = add_one(&HalfCusp::sinus_above);
   const auto images = [&](std::int32_t part) {
     Vector<PatchImage> made;
     for (const auto &[turn, shift, leaflet_id] : places) {

@@ -43,6 +43,8 @@ struct HalfCusp {
 };
 HalfCusp half_cusp(const CuspShape &shape);
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
+// Returns how fast the control points move by the opening.
+HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
 // Refuses curves that reach far away. Values that are sound one by one can make them: a high power with a long tangent, or a
 // bending curve near the root. `cusp` begins the message, as in "the right cusp"; `also` ends its list of parameters.
@@ -56,6 +58,6 @@ struct CuspPlace {
 };
 // Adds the lower and the upper patch of half a cusp, with images for both halves of the cusp at each place: y >= 0 first. The
 // upper patch is the set's last. Its side v1 is the free edge, which ends at the commissure, u = 1.
-void add_cusps(PatchSet &set, const HalfCusp &half, const Vector<CuspPlace> &places);
+void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places);
 
 }  // namespace riis

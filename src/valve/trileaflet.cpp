@@ -98,8 +98,7 @@ void sew(PatchSet &set, bool is_closed) {
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
-  HalfCusp half = half_cusp(closed_shape(closed.values));
-  if (opening != 0) half = blend(half, half_cusp(open_shape(open.values)), opening);
+  const HalfCusp closed_half = half_cusp(closed_shape(closed.values)), open_half = half_cusp(open_shape(open.values));
   const auto &from = closed.values[translation], &to = open.values[translation];
   const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
   Vector<CuspPlace> places;
@@ -107,7 +106,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
     // Adding 0 makes -0 a 0, so that the cusps meet in the same bits on the axis.
     places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
   PatchSet set;
-  add_cusps(set, half, places);
+  add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), places);
   sew(set, opening == 0);
   return set;
 }

@@ -114,9 +114,11 @@ class PatchReader {
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   PatchSet set{{}, closed.patches.patches};
-  for (std::size_t i = 0; i < closed.patches.curves.size(); ++i)
-    set.curves.push_back(
-        blend(closed.patches.curves[i].pieces().front(), open.patches.curves[i].pieces().front(), opening));
+  for (std::size_t i = 0; i < closed.patches.curves.size(); ++i) {
+    const Bezier &from = closed.patches.curves[i].pieces().front(), &to = open.patches.curves[i].pieces().front();
+    set.curves.push_back(blend(from, to, opening));
+    set.rates.push_back(rate(from, to));
+  }
   return set;
 }
 

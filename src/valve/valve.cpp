@@ -179,6 +179,13 @@ Bezier blend(const Bezier &closed, const Bezier &open, double opening) {
   return made;
 }
 
+Bezier rate(const Bezier &closed, const Bezier &open) {
+  Bezier made = closed;
+  for (int i = 0; i <= closed.degree; ++i)
+    view(made.control)[i] = view(open.control)[i] - view(closed.control)[i];
+  return made;
+}
+
 ParameterSpec opening_spec(const char *description, double default_value) {
   return {"opening", "1", description, 1, {default_value}, 0, 1};
 }

@@ -95,6 +95,8 @@ inline Vec3 blend(Vec3 closed, Vec3 open, double opening) {
 }
 // Blends two curves of the same degree.
 Bezier blend(const Bezier &closed, const Bezier &open, double opening);
+// Returns how fast the control points of the blend move by the opening.
+Bezier rate(const Bezier &closed, const Bezier &open);
 
 // Returns the spec of the opening, a parameter that every kind has.
 ParameterSpec opening_spec(const char *description, double default_value);

@@ -79,7 +79,7 @@ static void test_structs(void **state) {
   FIELD(riis_surface_arrays, vz, 104, 8);
   FIELD(riis_surface_arrays, velocity_stride, 112, 8);
 
-  SIZE(riis_surface_info, 112);
+  SIZE(riis_surface_info, 120);
   FIELD(riis_surface_info, n_vertices, 0, 8);
   FIELD(riis_surface_info, n_triangles, 8, 8);
   FIELD(riis_surface_info, n_zero_area, 16, 8);
@@ -90,6 +90,7 @@ static void test_structs(void **state) {
   FIELD(riis_surface_info, seconds_triangles, 88, 8);
   FIELD(riis_surface_info, seconds_scene, 96, 8);
   FIELD(riis_surface_info, error_bound, 104, 8);
+  FIELD(riis_surface_info, velocity_error_bound, 112, 8);
 
   SIZE(riis_closest, 96);
   FIELD(riis_closest, distance, 0, 8);

@@ -58,7 +58,7 @@ program test_layout
   call compare('riis_surface_info', c_sizeof(si), c_loc(si), [at(c_loc(si%n_vertices)), at(c_loc(si%n_triangles)), &
     at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
     at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene)), &
-    at(c_loc(si%error_bound))])
+    at(c_loc(si%error_bound)), at(c_loc(si%velocity_error_bound))])
   call compare('riis_crossing_options', c_sizeof(xo), c_loc(xo), [at(c_loc(xo%struct_size)), at(c_loc(xo%depth)), &
     at(c_loc(xo%n_threads)), at(c_loc(xo%reserved))])
   call compare('riis_crossings', c_sizeof(xs), c_loc(xs), [at(c_loc(xs%n_pairs)), at(c_loc(xs%length)), &

@@ -244,6 +244,8 @@ void read_surface(Input &in, State &state) {
     EXPECT(info->n_triangles == 0x5a5a5a5a5a5a5a5a, "a refused info was written");
   } else {
     EXPECT(info->error_bound >= 0, "%g", info->error_bound);
+    if (size >= static_cast<std::int64_t>(sizeof *info))
+      EXPECT(info->velocity_error_bound >= 0, "%g", info->velocity_error_bound);
     const Triangles t = triangles_of(surface.handle);
     EXPECT(info->n_triangles == t.n && info->n_vertices == t.n_vertices && t.n > 0, "%lld",
            static_cast<long long>(t.n));

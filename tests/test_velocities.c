@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Velocities of valves that open, at vertices and inside triangles, against the smooth motion; and the bound on their errors for any
+ * motion. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "sanitized.h"
+#include "smooth_motion.h"
+
+static random_source rng;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
+
+static const char *kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+enum { n_kinds = 4 };
+
+static double largest_speed(const riis_surface *surface) {
+  static const double zero[3] = {0, 0, 0};
+  const double *velocity = velocity_of(surface);
+  const int64_t n = surface_content_of(surface).n_vertices;
+  double largest = 0;
+  for (int64_t i = 0; i < n; ++i) largest = fmax(largest, distance(velocity + 3 * i, zero));
+  return largest;
+}
+
+/* The corners, the middles of the edges and the centre of a triangle. */
+enum { n_weights = 7, n_corners = 3 };
+static const double weights[n_weights][3] = {{1, 0, 0},     {0, 1, 0},     {0, 0, 1},           {0.5, 0.5, 0},
+                                             {0, 0.5, 0.5}, {0.5, 0, 0.5}, {1. / 3, 1. / 3, 1. / 3}};
+
+static void interpolate(const double *values, int n_values, const int64_t *corner, const double *weight, double *made) {
+  for (int x = 0; x < n_values; ++x) {
+    made[x] = 0;
+    for (int k = 0; k < 3; ++k) made[x] += weight[k] * values[n_values * corner[k] + x];
+  }
+}
+
+/* Differences from the velocity of the nearest place of the smooth valve, as shares of the largest speed. */
+typedef struct compared {
+  double vertices, inside;
+} compared;
+
+/* Compares one triangle of so many. */
+static compared compare(const riis_surface *surface, const smooth_motion *motion, int64_t one_of) {
+  const surface_content c = surface_content_of(surface);
+  const double *velocity = velocity_of(surface), speed = largest_speed(surface);
+  compared made = {0, 0};
+  for (int64_t t = (int64_t)(random_bits(&rng) % (uint64_t)one_of); t < c.n_triangles; t += one_of)
+    for (int w = 0; w < n_weights; ++w) {
+      double p[3], uv[2], found[3], expected[3];
+      const int64_t *corner = c.vertex_id + 3 * t;
+      interpolate(c.xyz, 3, corner, weights[w], p);
+      interpolate(c.uv, 2, corner, weights[w], uv);
+      interpolate(velocity, 3, corner, weights[w], found);
+      smooth_motion_nearest(motion, c.patch_id[t], uv, p, expected);
+      double *worst = w < n_corners ? &made.vertices : &made.inside;
+      *worst = fmax(*worst, distance(found, expected) / speed);
+    }
+  return made;
+}
+
+/* In steps of a thousandth. The first openings are those at which velocities were once off by most. RIIS_TEST_LONG takes all. */
+static void velocities_follow_the_smooth_valve(void **state) {
+  (void)state;
+  static const int known[] = {957, 930, 950, 755, 1000};
+  enum { n_known = sizeof known / sizeof *known };
+  const int is_long = is_long_test(), n_random = is_sanitized() ? 1 : 4;
+  for (int kind = 0; kind < n_kinds; ++kind)
+    for (int fixed = 0; fixed < 2; ++fixed)
+      for (int fine = 0; fine < 2; ++fine) {
+        const int owned_before = n_owned();
+        riis_valve *valve = new_valve(kinds[kind]), *before = new_valve(kinds[kind]);
+        riis_surface_options options = surface_options();
+        options.tolerance = fine ? 0.01 : 0.05;
+        options.triangulation = fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+        CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+        riis_surface *surface = new_surface(valve, &options);
+        compared worst = {0, 0};
+        for (int i = 0; i < (is_long ? 1000 : n_known + n_random); ++i) {
+          const int at = is_long ? i + 1 : i < n_known ? known[i] : 1 + (int)(random_bits(&rng) % 1000);
+          CHECK_OK(riis_valve_set_scalar(valve, "opening", at / 1000.));
+          CHECK_OK(riis_valve_set_scalar(before, "opening", (at - 1) / 1000.));
+          CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));
+          smooth_motion *motion = smooth_motion_create(valve, before, 0.001);
+          const compared here = compare(surface, motion, fine ? 97 : i < 2 ? 1 : 8);
+          smooth_motion_destroy(motion);
+          if (here.vertices > 0.01 || here.inside > 0.02)
+            fail_msg("%s at %d, triangulation %d, tolerance %g: off by %.3g at a vertex, by %.3g inside", kinds[kind], at, fixed,
+                     options.tolerance, here.vertices, here.inside);
+          worst.vertices = fmax(worst.vertices, here.vertices), worst.inside = fmax(worst.inside, here.inside);
+        }
+        printf("%s, triangulation %d, tolerance %g: at most %.2f %% off at vertices, %.2f %% inside triangles\n", kinds[kind],
+               fixed, options.tolerance, 100 * worst.vertices, 100 * worst.inside);
+        free_owned_after(owned_before);
+      }
+}
+
+/* --- The bound for any motion ---------------------------------------------------------------------------------------- */
+
+typedef struct value {
+  const char *name;
+  double low, high;
+} value;
+static const value aortic_values[] = {{"opening", 0, 1},          {"root_radius", 1.2, 1.4}, {"leaflet_height", 0.95, 1.1},
+                                      {"bending_height", 0.6, 0.75}, {"xq", -0.3, 0},           {"open_radius_ratio", 0.6, 0.9}};
+static const value trileaflet_values[] = {{"opening", 0, 1},          {"root_radius", 1.15, 1.35}, {"leaflet_height", 1.1, 1.3},
+                                          {"bending_height", 0.5, 0.7}, {"zq", -0.4, -0.2},          {"open_radius_ratio", 0.7, 0.9}};
+static const value mitral_values[] = {{"opening", 0, 1}, {"surface_angle", -30, 30}, {"anterior_ratio", 0.36, 0.45}};
+static const value bileaflet_values[] = {{"opening", 0, 1}, {"closed_angle", 20, 35}};
+static const struct {
+  const value *values;
+  int n;
+} values_of[n_kinds] = {{aortic_values, 6}, {trileaflet_values, 6}, {mitral_values, 3}, {bileaflet_values, 2}};
+
+/* Sets one value at random, or some. */
+static void move(riis_valve *valve, int kind, int only) {
+  for (int i = 0; i < values_of[kind].n; ++i)
+    if (only < 0 ? random_bits(&rng) % 2 : i == only)
+      CHECK_OK(riis_valve_set_scalar(valve, values_of[kind].values[i].name,
+                                     between(values_of[kind].values[i].low, values_of[kind].values[i].high)));
+}
+
+/* Scales, turns about z and shifts. */
+static void place(const riis_surface_options *by, const double *p, double *placed) {
+  const double angle = by->rotation_angle * acos(-1) / 180, c = cos(angle), s = sin(angle);
+  placed[0] = by->scale * (c * p[0] - s * p[1]) + by->translation[0];
+  placed[1] = by->scale * (s * p[0] + c * p[1]) + by->translation[1];
+  placed[2] = by->scale * p[2] + by->translation[2];
+}
+
+/* The largest difference from the smooth motion at equal patch, u and v. */
+static double farthest_at_labels(const riis_surface *surface, const smooth_motion *motion, const riis_surface_options *now,
+                                 const riis_surface_options *then, double seconds) {
+  const surface_content c = surface_content_of(surface);
+  const double *velocity = velocity_of(surface);
+  double farthest = 0;
+  for (int64_t t = 0; t < c.n_triangles; t += 3) {
+    for (int i = 0; i < 4; ++i) {
+      double weight[3] = {between(0, 1), between(0, 1), between(0, 1)};
+      const double sum = weight[0] + weight[1] + weight[2];
+      for (int k = 0; k < 3; ++k) weight[k] = i == 0 ? weights[3 + t % 4][k] : weight[k] / sum;
+      double uv[2], found[3], p[3], q[3], p_placed[3], q_placed[3], expected[3];
+      interpolate(c.uv, 2, c.vertex_id + 3 * t, weight, uv);
+      interpolate(velocity, 3, c.vertex_id + 3 * t, weight, found);
+      smooth_motion_places(motion, c.patch_id[t], uv, p, q);
+      place(now, p, p_placed), place(then, q, q_placed);
+      for (int x = 0; x < 3; ++x) expected[x] = (p_placed[x] - q_placed[x]) / seconds;
+      farthest = fmax(farthest, distance(found, expected));
+    }
+  }
+  return farthest;
+}
+
+static void the_bound_holds_for_any_motion(void **state) {
+  (void)state;
+  double least_ratio = INFINITY;
+  for (int trial = 0; trial < (is_sanitized() ? 16 : 80); ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_kinds;
+    riis_valve *valve = new_valve(kinds[kind]), *before = NULL;
+    riis_surface_options options = surface_options(), then;
+    move(valve, kind, -1);
+    CHECK_OK(riis_valve_copy(valve, &before));
+    own(before);
+    /* A step of the opening, or a jump, of one value or of some. */
+    double opening;
+    CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
+    if (trial / n_kinds % 2)
+      CHECK_OK(riis_valve_set_scalar(before, "opening", fmax(0, opening - pow(10, between(-4, -1)))));
+    else
+      move(before, kind, trial / n_kinds % 4 ? -1 : (int)(random_bits(&rng) % (uint64_t)values_of[kind].n));
+    options.tolerance = pow(10, between(-2.3, -1));
+    options.scale = pow(10, between(-1, 1));
+    options.half_thickness = 0.1 * options.scale;
+    options.triangulation = (int32_t)(random_bits(&rng) % 2);
+    then = options;
+    if (trial % 3 == 0) {
+      then.scale *= between(0.8, 1.2), then.rotation_angle = between(-30, 30);
+      for (int x = 0; x < 3; ++x) then.translation[x] = between(-1, 1);
+    }
+    const double seconds = pow(10, between(-3, 1));
+    riis_surface *surface = new_surface(valve, &options);
+    assert_true(info_of(surface).velocity_error_bound == 0);
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, seconds, NULL, &then));
+    smooth_motion *motion = smooth_motion_create(valve, before, seconds);
+    const double bound = info_of(surface).velocity_error_bound, speed = largest_speed(surface);
+    const double off = farthest_at_labels(surface, motion, &options, &then, seconds);
+    smooth_motion_destroy(motion);
+    assert_true(bound >= 0 && bound < 1e300);
+    if (off > bound + 1e-9 * options.scale / seconds)
+      fail_msg("trial %d, %s: off by %.9g, more than the bound %.9g; the largest speed is %.3g", trial, kinds[kind], off, bound,
+               speed);
+    if (off > 1e-6 * speed) least_ratio = fmin(least_ratio, bound / off);
+    CHECK_OK(riis_surface_update(surface, valve, NULL));
+    assert_true(info_of(surface).velocity_error_bound == 0); /* a plain update drops the motion */
+    free_owned_after(owned_before);
+  }
+  printf("the bound is at least %.2f times what was found\n", least_ratio);
+}
+
+/* The bound is of use: a small share of the speed in a motion that opens, and near the truth where few triangles bend much. */
+static void the_bound_is_near(void **state) {
+  (void)state;
+  for (int kind = 0; kind < n_kinds; ++kind) {
+    riis_valve *valve = new_valve(kinds[kind]), *before = new_valve(kinds[kind]);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.999));
+    CHECK_OK(riis_valve_set_scalar(before, "opening", 0.998));
+    riis_surface *surface = new_surface(valve, NULL);
+    CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));
+    const double bound = info_of(surface).velocity_error_bound, speed = largest_speed(surface);
+    printf("%s: the bound is %.3g of the largest speed\n", kinds[kind], bound / speed);
+    CHECK_AT_MOST(bound, 0.06 * speed);
+  }
+  /* Leaflets that are flat at the moment and bend. */
+  riis_valve *valve = new_valve("mitral"), *before = new_valve("mitral"), *open = new_valve("mitral");
+  CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 25));
+  CHECK_OK(riis_valve_set_scalar(open, "surface_angle", -25));
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
+  free_one_owned(before);
+  CHECK_OK(riis_valve_copy(valve, &before));
+  own(before);
+  CHECK_OK(riis_valve_set_scalar(before, "opening", 0.499));
+  riis_surface_options options = surface_options();
+  riis_surface *surface = new_surface(valve, &options);
+  CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));
+  smooth_motion *motion = smooth_motion_create(valve, before, 0.001);
+  const double off = farthest_at_labels(surface, motion, &options, &options, 0.001);
+  smooth_motion_destroy(motion);
+  const double bound = info_of(surface).velocity_error_bound;
+  printf("flat leaflets that bend: off by %.3g, the bound is %.3g, the largest speed %.3g\n", off, bound, largest_speed(surface));
+  assert_true(off > 0.3);
+  CHECK_AT_MOST(off, bound);
+  CHECK_AT_MOST(bound, 3 * off);
+}
+
+/* A motion that keeps everything in place has no error; neither have arrays. */
+static void no_motion_has_no_error(void **state) {
+  (void)state;
+  for (int kind = 0; kind < n_kinds; ++kind) {
+    riis_valve *valve = new_valve(kinds[kind]);
+    riis_surface *surface = new_surface(valve, NULL);
+    CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
+    assert_true(info_of(surface).velocity_error_bound == 0);
+    const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, v[3] = {1, 2, 3};
+    const int32_t face[3] = {0, 1, 2};
+    riis_surface_arrays arrays;
+    CHECK_OK(riis_surface_arrays_init(&arrays, sizeof arrays));
+    arrays.n_vertices = 3, arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2, arrays.stride = 3;
+    arrays.n_faces = 1, arrays.vertex_ids = face, arrays.vx = arrays.vy = arrays.vz = v;
+    CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
+    assert_true(info_of(surface).velocity_error_bound == 0);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(velocities_follow_the_smooth_valve),
+      cmocka_unit_test(the_bound_holds_for_any_motion),
+      cmocka_unit_test(the_bound_is_near),
+      cmocka_unit_test(no_motion_has_no_error),
+  };
+  rng = random_start("test_velocities");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
