@@ -13,11 +13,11 @@
 namespace riis::vtk {
 namespace {
 
-double distance_between(vtkUnstructuredGrid *grid, const CellEdges::Edge &edge) {
-  double a[3], b[3];
-  grid->GetPoint(edge[0], a);
-  grid->GetPoint(edge[1], b);
-  return std::sqrt(vtkMath::Distance2BetweenPoints(a, b));
+double distance_between(vtkUnstructuredGrid *grid, vtkIdType a, vtkIdType b) {
+  double p[3], q[3];
+  grid->GetPoint(a, p);
+  grid->GetPoint(b, q);
+  return std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
 }
 
 }  // namespace
@@ -29,10 +29,10 @@ double median_edge_of(vtkUnstructuredGrid *grid) {
   std::vector<double> lengths;
   for (vtkIdType i = 0; i < n_asked; ++i) {
     const vtkIdType cell_id = n_cells / n_asked * i + n_cells % n_asked * i / n_asked;
-    for (const CellEdges::Edge &edge : edges.of(cell_id)) {
-      const double length = distance_between(grid, edge);
+    edges.for_each(cell_id, [&](vtkIdType a, vtkIdType b) {
+      const double length = distance_between(grid, a, b);
       if (length > 0 && std::isfinite(length)) lengths.push_back(length);
-    }
+    });
   }
   if (lengths.empty()) return 0;
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);

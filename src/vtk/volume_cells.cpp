@@ -214,23 +214,20 @@ CellEdges::CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->Ge
 
 bool CellEdges::is_volume(vtkIdType cell) const { return known_shape(grid_->GetCellType(cell)).dimension == 3; }
 
-const std::vector<Edge> &CellEdges::of(vtkIdType cell) {
+const std::vector<Edge> &CellEdges::pairs_of(vtkIdType cell, const vtkIdType *&ids) {
   const int type = grid_->GetCellType(cell);
-  edges_.clear();
   if (type == VTK_POLYHEDRON) {
     list_polyhedron(cell);
     return edges_;
   }
   vtkIdType n = 0;
-  const vtkIdType *ids = nullptr;
   grid_->GetCells()->GetCellAtId(cell, n, ids);
-  for (const Edge &edge : is_lattice(type) ? lattice_of(type, cell, n) : known_shape(type).edges)
-    edges_.push_back({ids[edge[0]], ids[edge[1]]});
-  return edges_;
+  return is_lattice(type) ? lattice_of(type, cell, n) : known_shape(type).edges;
 }
 
 // A polyhedron's stream of faces has the number of faces, then each face's size and nodes.
 void CellEdges::list_polyhedron(vtkIdType cell) {
+  edges_.clear();
   grid_->GetFaceStream(cell, faces_);
   vtkIdType at = 0;
   for (vtkIdType n_left = faces_->GetId(at++); n_left > 0; --n_left) {
@@ -262,7 +259,7 @@ VolumeCounts count_volumes(vtkUnstructuredGrid *grid) {
     if (is_linear_volume(grid->GetCellType(cell)))
       ++counts.n_linear;
     else
-      counts.n_unknown += edges.of(cell).empty();
+      counts.n_unknown += !edges.for_each(cell, [](vtkIdType, vtkIdType) {});
   }
   return counts;
 }
@@ -304,10 +301,9 @@ VolumeEdges edges_where(vtkUnstructuredGrid *grid, const IsWanted &is_wanted) {
   CellEdges edges(grid);
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
     if (!edges.is_volume(cell)) continue;
-    const std::vector<Edge> &of_cell = edges.of(cell);
-    made.n_cells_left_out += of_cell.empty();
-    for (const auto &[a, b] : of_cell)
+    made.n_cells_left_out += !edges.for_each(cell, [&](vtkIdType a, vtkIdType b) {
       if (is_wanted(a, b)) made.node_ids.insert(made.node_ids.end(), {a, b});
+    });
   }
   return made;
 }

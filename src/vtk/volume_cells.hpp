@@ -27,18 +27,25 @@ class CellEdges {
 
   // Tells whether the cell is one of volume. Others bound volumes, or stand alone.
   bool is_volume(vtkIdType cell) const;
-  // Returns the edges of a face or a volume as pairs of nodes, each once. The list holds until the next call. It is empty if the
-  // edges are not known.
-  const std::vector<Edge> &of(vtkIdType cell);
+  // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.
+  template <class Visit>
+  bool for_each(vtkIdType cell, const Visit &visit) {
+    const vtkIdType *ids = nullptr;
+    const std::vector<Edge> &edges = pairs_of(cell, ids);
+    for (const auto &[a, b] : edges) visit(ids ? ids[a] : a, ids ? ids[b] : b);
+    return !edges.empty();
+  }
 
  private:
+  // Returns each edge once, as a pair of positions in the list of nodes ids. If ids stays NULL the pairs are nodes.
+  const std::vector<Edge> &pairs_of(vtkIdType cell, const vtkIdType *&ids);
   void list_polyhedron(vtkIdType cell);
   const std::vector<Edge> &lattice_of(int type, vtkIdType cell, vtkIdType n_nodes);
 
   vtkUnstructuredGrid *grid_;
   vtkDataArray *degrees_;  // of cells of higher order; may be NULL
   vtkNew<vtkIdList> faces_;
-  std::vector<Edge> edges_;
+  std::vector<Edge> edges_;                                   // of a polyhedron
   std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // by the type and the three orders
 };
 

@@ -24,8 +24,8 @@ plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra);
 plain_mesh plain_cut(const plain_mesh *quadratic, int n_parts);
 void plain_free(plain_mesh *mesh);
 
-/* How hexahedra are written: as they are, or two of three as polyhedra. These have their faces in a stream for each cell, or, as VTK
- * writes since 9.4, in a list that all cells share. */
+/* How hexahedra are written: as they are, or two of three as polyhedra. These have their faces in a stream for each cell, or in a
+ * list that all cells share, as VTK writes since 9.4. */
 enum plain_layout { PLAIN_CELLS, PLAIN_STREAMS, PLAIN_LISTS };
 /* Writes NAME into the scratch folder. Each piece has all nodes, and its share of the cells. */
 void plain_write(const char *name, const plain_mesh *mesh, enum plain_layout layout, int n_pieces);

@@ -16,8 +16,8 @@
 #include "vtk_shim.h"
 
 enum { n_side = 9, n_box = n_side * n_side * n_side };
-/* VTK's numbers of the types of cells of volume with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, prisms of five
- * and six sides, polyhedron. */
+/* VTK's numbers of the types of cells of volume with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, prisms of
+ * five and six sides, polyhedron. */
 static const int volume_types[] = {10, 11, 12, 13, 14, 15, 16, 42};
 
 static riis_vtk_mesh *read_mesh(const char *name) {

@@ -50,8 +50,8 @@ int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
 /* Writes a .vtu of cells of all types of higher order among n_nodes nodes, 64 or more, drawn at random. Returns 1 on success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
-/* Reads the edges of these cells from a .vtu, as pairs of nodes, found by the places of nodes in unit cells. Returns their number.
- * edges may be NULL. */
+/* Reads the edges of these cells from a .vtu, as pairs of nodes, found by the places of nodes in unit cells. Returns their
+ * number. edges may be NULL. */
 int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
 /* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). All points are kept in their order, as
