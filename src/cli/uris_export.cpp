@@ -154,11 +154,12 @@ std::string mesh_block(const Options &options, const UrisMotion &motion, const U
   };
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
-  std::string text = "<!-- riis-mark, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
-                     "\n     closing: " + frames(motion.closing) +
-                     "\n     a frame is a time step: Time_step_size must be " + shortest(*options.uris.time_step) +
-                     "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
-                     shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses";
+  std::string text =
+      "<!-- riis-mark, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
+      "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
+      shortest(*options.uris.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") +
+      ", the longest edge " + shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+      "\n     face box: svMultiPhysics looks only into the box of its nodes; Mesh_scale_factor must stay 1";
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
             shown(fine_edges * leaflets.half_thickness());
