@@ -73,6 +73,11 @@ class Valve {
   // Fails unless the other valve equals this one in all but the opening. Names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
+  // Returns whether the shape is that of the kind's defaults: the user chose at most the opening.
+  bool has_default_shape() const;
+  // Returns a number for the shape, whatever the opening. Another shape has another number, as good as surely. Never 0.
+  std::uint64_t shape_digest() const;
+
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
   // Makes the patches of another valve, of the same kind and built like this one: an earlier state of it.
