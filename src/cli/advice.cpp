@@ -43,9 +43,11 @@ bool sizes_fit_at(double factor, const Situation &s) {
 
 bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// The default half thickness belongs to a parametric valve, so much longer edges speak for another unit of the mesh.
+// The default half thickness belongs to a parametric valve, so much longer edges speak for another unit of the mesh. If the user
+// named the unit, they only speak for a coarse mesh.
 bool edges_fit_at(double factor, const Situation &s) {
-  return s.options.has_half_thickness || !is_parametric(s.options) || !is_too_small(s.half_thickness / factor, s);
+  return s.options.has_half_thickness || s.options.unit || s.options.has_scale || !is_parametric(s.options) ||
+         !is_too_small(s.half_thickness / factor, s);
 }
 
 // Returns the factor by which the mesh's lengths must grow to fit the surface's, or none if they fit or no power of ten helps.
@@ -150,7 +152,7 @@ bool is_too_small(double half_thickness, const Situation &s) {
   return half_thickness < smallest_half_thickness * s.median_edge;
 }
 
-std::optional<std::string> advice_on_units(const Situation &s) {
+std::optional<Warning> warning_of_units(const Situation &s) {
   const auto factor = missing_factor(s);
   if (!factor) return std::nullopt;
   const Cure cure = cure_for_scale(s.options, s.options.surface_options.scale / *factor);
@@ -162,31 +164,32 @@ std::optional<std::string> advice_on_units(const Situation &s) {
       if (better > 0) write += " --half-thickness " + shown(better);
     }
   }
-  // The sizes of a coarse mesh may be those of a finer one in another unit.
-  const bool may_be_coarse =
-      sizes_fit_at(1, s) && overlap_at(1, s) && s.median_edge > 0 && !is_too_large(s.median_edge, s);
-  const std::string otherwise = may_be_coarse ? ", or, if that is wrong, --half-thickness " + shown(s.median_edge) : "";
-  return cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " + shown(s.surface.largest_side()) +
-         "): write " + write + in_place_of(s.options) + otherwise;
+  return Warning{Cause::units,
+                 cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " +
+                     shown(s.surface.largest_side()) + ")",
+                 ": write " + write + in_place_of(s.options)};
 }
 
-std::optional<std::string> advice_on_half_thickness(const Situation &s) {
+std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const bool is_large = is_too_large(s.half_thickness, s);
   if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
-  std::string text = "the half thickness is " + shown(s.half_thickness);
-  text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
-                   : ", the median edge of the mesh " + shown(s.median_edge);
+  Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
+  warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
+                           : ", the median edge of the mesh " + shown(s.median_edge);
   // Nobody has named the file's unit, and the half thickness is the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
   if (unit && !is_too_large(paper_half_thickness(*unit), s) && !is_too_small(paper_half_thickness(*unit), s)) {
-    return text + ", and both look as if they were in " + words_of(*unit) + ": write " + option("--unit", *unit) + " " +
-           option("--surface-unit", *unit);
+    warning.text += ", and both look as if they were in " + std::string(words_of(*unit));
+    warning.advice = ": write " + option("--unit", *unit) + " " + option("--surface-unit", *unit);
+    return warning;
   }
   const double better = better_half_thickness(s);
-  if (better > 0) return text + ": write --half-thickness " + shown(better);
-  return text + (is_large ? ": see --half-thickness, --scale" : ": the mesh is too coarse for this surface");
+  warning.advice = better > 0 ? ": write --half-thickness " + shown(better)
+                   : is_large ? ": see --half-thickness, --scale"
+                              : ": the mesh is too coarse for this surface";
+  return warning;
 }
 
 }  // namespace riis::cli

@@ -16,10 +16,10 @@ bool is_too_small(double half_thickness, const Situation &situation);
 
 // Says which units the sizes of a mesh and a surface look like, if these differ, and what to write, such as "the mesh looks as if
 // it were in metres, ...: write --unit m".
-std::optional<std::string> advice_on_units(const Situation &situation);
+std::optional<Warning> warning_of_units(const Situation &situation);
 
 // Says whether the half thickness is too large or too small, and what to write.
-std::optional<std::string> advice_on_half_thickness(const Situation &situation);
+std::optional<Warning> warning_of_half_thickness(const Situation &situation);
 
 // Returns a number as a user would write it.
 std::string shown(double number);

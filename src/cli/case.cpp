@@ -84,6 +84,7 @@ int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const rii
   int64_t n_nodes = 0, most = 0;
   check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, nullptr));
   ResistanceSum resistance(n_nodes, ResistanceSum::Momentum::no);
+  std::vector<Warning> warnings;
   for (MovingValve &valve : valves) {
     valve.mark(mesh, 0);
     set_marks(valve.options(), valve.result(), 0, file);
@@ -91,9 +92,12 @@ int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const rii
     most = std::max(most, valve.stats().n_marked);
     riis_surface_info info;
     check(riis_surface_get_info(valve.surface(), &info, sizeof info));
-    const std::string warning = warning_of(situation_of(valve.options(), info, valve.stats(), file));
-    if (!warning.empty()) warn(valve.options().prefix + ": " + warning);
+    if (auto warning = warning_of(situation_of(valve.options(), info, valve.stats(), file))) {
+      warning->text.insert(0, valve.options().prefix + ": ");
+      warnings.push_back(*warning);
+    }
   }
+  warn(warnings);
   resistance.set_arrays(all.options.prefix, file);
   return most;
 }

@@ -241,6 +241,7 @@ void declare_output(CLI::App &app, Options &options, Texts &texts) {
       ->group(group);
   app.add_flag("--quiet", options.quiet, "Print no table on stdout and no progress on stderr; warnings stay")
       ->group(group);
+  app.add_flag("--strict", options.strict, "Exit with status 4 if there was a warning")->group(group);
 }
 
 // RIIS_AUTO is a negative number, and a user's number must not pass for it.
@@ -361,7 +362,7 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
   if (!exports) check_series_purpose(options, given);
   check_states_purpose(options, given);
   static const std::set<std::string> of_parameters = {"--print-params", "--describe-params", "--valve", "--params",
-                                                      "--set",          "--opening",         "--quiet"};
+                                                      "--set",          "--opening",         "--quiet", "--strict"};
   static const std::set<std::string> of_mesh = {"--output",       "--stats",          "--search",
                                                 "--threads",      "--distance-limit", "--resistance",
                                                 "--far-distance", "--distance",       "--distance-tolerance",

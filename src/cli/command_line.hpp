@@ -88,6 +88,7 @@ struct Options {
   std::int32_t n_states = 101;  // openings in it
   bool print_params = false, describe_params = false;
   bool quiet = false;
+  bool strict = false;  // a warning is an exit status
 };
 
 // Derives the scale from the units, and the half thickness unless the user gave one.

@@ -4,12 +4,14 @@
 #include <cstdio>
 #include <string>
 
+#include "cli/advice.hpp"
 #include "cli/drawing.hpp"
 #include "cli/handles.hpp"
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/valve_file.hpp"
 #include "cli/valve_source.hpp"
+#include "cli/warnings.hpp"
 
 namespace riis::cli {
 namespace {
@@ -79,12 +81,10 @@ void warn_of_crossings(const Options &options, const CrossingReport &report) {
   const std::string who = is_one_leaflet
                               ? "leaflet " + first + " crosses itself"
                               : "leaflets " + first + " and " + leaflet_text(options, found.leaflet_id[1]) + " cross";
-  std::fprintf(
-      stderr,
-      "riis-mark: %s%s: %s of triangles go through each other, along a length of %g; the deepest is %g deep, at "
-      "%g %g %g\n",
-      who.c_str(), at.c_str(), counted(found.n_pairs, "pair").c_str(), found.length, found.depth, found.point[0],
-      found.point[1], found.point[2]);
+  // A pair's intersection is about as long as an edge of the triangles there.
+  warn(who + at + ": " + counted(found.n_pairs, "pair") + " of triangles go through each other, along a length of " +
+       shown(found.length) + "; the deepest is " + shown(found.depth) + " deep, at " +
+       place_text(options, found.point, found.length / static_cast<double>(found.n_pairs)));
 }
 
 }  // namespace

@@ -37,6 +37,10 @@ Warnings
   A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
   are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
   wrong marks look like right ones. --allow-none is for valves that are near no node at times.
+  One thing may be the cause of all others, in this order: units, half thickness, places, leaks. Only the first cause comes with
+  advice; run again once it is mended. A unit that you name by --unit or --scale counts as known, if the sizes allow it.
+  With --strict the status is 4 if there was any warning, whatever its kind. Places have as many digits as an edge of the mesh
+  there needs, and the unit of --unit.
 
 Parameters
   A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
@@ -156,7 +160,8 @@ Exit status; one line on stderr says what was wrong:
      value (in a file or by --set), no display for a picture, no ffmpeg for a movie, no memory
   2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
      that would replace an input, another output, or arrays of the mesh
-  3  no node is marked at any time, without --allow-none; the outputs are written all the same)";
+  3  no node is marked at any time, without --allow-none; the outputs are written all the same
+  4  with --strict, a warning that none of the above covers; the outputs are written all the same)";
 
 std::string short_help() {
   return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.

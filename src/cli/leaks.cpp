@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
+#include "cli/advice.hpp"
 #include "cli/handles.hpp"
+#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
+#include "cli/warnings.hpp"
 
 namespace riis::cli {
 namespace {
@@ -68,20 +70,21 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
 }
 
 // Not even --quiet silences this: the valve does not hold.
-void warn_of_leaks(const LeakReport &report, const std::string &surface, double half_thickness) {
+void warn_of_leaks(const Options &options, const LeakReport &report, const std::string &surface,
+                   double half_thickness) {
   const riis_leaks &leaks = report.found;
-  const double *at = leaks.longest_middle;
   const bool is_one = leaks.n_edges == 1;
-  if (is_one)
-    std::fprintf(stderr, "riis-mark: %s leaks: 1 edge of length %g crosses it between two unmarked nodes",
-                 surface.c_str(), leaks.longest_length);
-  else
-    std::fprintf(stderr, "riis-mark: %s leaks: %lld edges cross it between two unmarked nodes, the longest (%g)",
-                 surface.c_str(), static_cast<long long>(leaks.n_edges), leaks.longest_length);
-  std::fprintf(stderr, " at %g %g %g; ", at[0], at[1], at[2]);
+  const std::string length = shown(leaks.longest_length);
+  const std::string text =
+      surface + " leaks: " +
+      (is_one ? "1 edge of length " + length + " crosses it between two unmarked nodes"
+              : grouped(leaks.n_edges) + " edges cross it between two unmarked nodes, the longest (" + length + ")") +
+      " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
+  std::string advice = "; ";
   if (report.closing_half_thickness > 0)
-    std::fprintf(stderr, "--half-thickness %g closes %s; ", report.closing_half_thickness, is_one ? "it" : "them");
-  std::fprintf(stderr, "edges of at most two half thicknesses (%g) do not leak\n", 2 * half_thickness);
+    advice += "--half-thickness " + shown(report.closing_half_thickness) + " closes " + (is_one ? "it; " : "them; ");
+  warn({{Cause::leaks, text,
+         advice + "edges of at most two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"}});
 }
 
 }  // namespace
@@ -107,7 +110,7 @@ void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &re
   leaks.found = leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
   if (leaks.found.n_edges > 0 && !options.check_leaks) {
     if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
-    warn_of_leaks(leaks, marked.surface_name, half_thickness);
+    warn_of_leaks(options, leaks, marked.surface_name, half_thickness);
   }
   report.seconds.leaks = stage.seconds();
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/mesh_marking.hpp"
 
-#include <cstdio>
-
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
 #include "cli/valve_source.hpp"
+#include "cli/warnings.hpp"
 
 namespace riis::cli {
 
@@ -48,10 +47,9 @@ void rehearse_marking(const Options &options, const riis_surface *surface) {
 }
 
 void warn_of_incomplete_marks() {
-  std::fputs(
-      "riis-mark: the marks may be incomplete: --search paper misses nodes that are not connected to its one start; "
-      "--search neighbor finds them\n",
-      stderr);
+  warn(
+      "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
+      "neighbor finds them");
 }
 
 void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {

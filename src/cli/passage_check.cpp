@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "cli/advice.hpp"
@@ -12,11 +11,15 @@
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/refusal.hpp"
+#include "cli/warnings.hpp"
 
 namespace riis::cli {
 namespace {
 
-std::string text_of(const double *point) { return shown(point[0]) + " " + shown(point[1]) + " " + shown(point[2]); }
+// The user's own numbers.
+std::string text_of(const double *point) {
+  return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
+}
 
 double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
@@ -36,7 +39,8 @@ class JoinedNodes {
   JoinedNodes &operator=(const JoinedNodes &) = delete;
 
   // Returns the nearest node that has a neighbour. name is FROM or TO.
-  int64_t nearest(const LeakCheck &asked, const char *name, const double *point) const {
+  int64_t nearest(const Options &options, const char *name, const double *point) const {
+    const LeakCheck &asked = *options.check_leaks;
     const auto refuse = [&](const std::string &why) {
       throw Refusal{asked.exit_code, asked.subject + ": " + name + ", " + text_of(point) + ", " + why};
     };
@@ -55,16 +59,13 @@ class JoinedNodes {
     if (found < 0) refuse("has no node near it: no edge joins two nodes of the mesh");
     for (int k = 0; k < 3; ++k)
       if (point[k] < lower[k] || point[k] > upper[k])
-        refuse("is outside the mesh, which goes from " + text_of(lower) + " to " + text_of(upper));
+        refuse("is outside the mesh, which goes from " + place_text(options, lower, longest_edge(found)) + " to " +
+               place_text(options, upper, longest_edge(found)));
     if (least > edges_away * longest_edge(found))
       refuse("is outside the mesh: the nearest node, " + std::to_string(found) + ", is " + shown(least) +
              " away, its longest edge " + shown(longest_edge(found)));
     return found;
   }
-
- private:
-  // A point inside a cell is at most an edge away from one of its nodes.
-  static constexpr double edges_away = 2;
 
   double longest_edge(int64_t node) const {
     const auto *offsets = static_cast<const int64_t *>(rows_.offsets);
@@ -76,6 +77,10 @@ class JoinedNodes {
     }
     return longest;
   }
+
+ private:
+  // A point inside a cell is at most an edge away from one of its nodes.
+  static constexpr double edges_away = 2;
 
   riis_mesh *mesh_;
   Adjacency adjacency_;
@@ -133,19 +138,16 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
 void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface) {
   const std::string ends = text_of(asked.from) + " and " + text_of(asked.to);
   const riis_passage &found = report.found;
-  if (found.state == RIIS_PASSAGE_NONE)
-    std::fprintf(stderr, "riis-mark: nothing to seal: the mesh itself does not join %s\n", ends.c_str());
+  if (found.state == RIIS_PASSAGE_NONE) warn("nothing to seal: the mesh itself does not join " + ends);
   if (found.state != RIIS_PASSAGE_OPEN) return;
-  std::fprintf(stderr, "riis-mark: %s leaks: unmarked nodes join %s; ", surface.c_str(), ends.c_str());
+  const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is at ";
   if (report.is_end)
-    std::fprintf(stderr, "the passage is at least as wide as the end at %s is far from the surface, %s\n",
-                 text_of(found.point).c_str(), shown(found.distance).c_str());
+    warn(text + "least as wide as the end at " + report.place + " is far from the surface, " + shown(found.distance));
   else if (report.closing_half_thickness > 0)
-    std::fprintf(stderr, "the passage is at %s, and --half-thickness %s closes it\n", text_of(found.point).c_str(),
-                 shortest(report.closing_half_thickness).c_str());
+    warn({{Cause::leaks, text + report.place,
+           ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it"}});
   else
-    std::fprintf(stderr, "the passage is at %s, %s from the surface\n", text_of(found.point).c_str(),
-                 shown(found.distance).c_str());
+    warn(text + report.place + ", " + shown(found.distance) + " from the surface");
 }
 
 }  // namespace
@@ -166,12 +168,14 @@ void check_passage(const Options &options, const MarkedMesh &marked, Report &rep
   const Stage stage("looking for a passage", options.quiet);
   const LeakCheck &asked = *options.check_leaks;
   const JoinedNodes nodes(marked, options.mark_options.n_threads);
-  const Ends ends{nodes.nearest(asked, "FROM", asked.from), nodes.nearest(asked, "TO", asked.to)};
+  const Ends ends{nodes.nearest(options, "FROM", asked.from), nodes.nearest(options, "TO", asked.to)};
   PassageReport passage;
   passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
   if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end)
     passage.closing_half_thickness = closing_half_thickness(options, marked, passage.found, ends);
+  if (passage.found.node_id >= 0)
+    passage.place = place_text(options, passage.found.point, nodes.longest_edge(passage.found.node_id));
   warn_of_passage(asked, passage, marked.surface_name);
   report.leaks.passage = passage;
   report.seconds.leaks += stage.seconds();

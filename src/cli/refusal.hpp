@@ -9,7 +9,7 @@
 
 namespace riis::cli {
 
-enum ExitCode { exit_fine = 0, exit_bad_data = 1, exit_wrong_usage = 2, exit_none_marked = 3 };
+enum ExitCode { exit_fine = 0, exit_bad_data = 1, exit_wrong_usage = 2, exit_none_marked = 3, exit_warned = 4 };
 
 struct Refusal {
   ExitCode exit_code;

@@ -138,8 +138,7 @@ std::string line_of_passage(const LeakReport &leaks) {
   if (found.state == RIIS_PASSAGE_NONE)
     out << "none: the mesh itself does not join the two points";
   else
-    out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << found.point[0] << " " << found.point[1]
-        << " " << found.point[2] << ", " << found.distance << " from the surface"
+    out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << leaks.passage->place << ", " << found.distance << " from the surface"
         << (leaks.passage->is_end ? ", an end" : "");
   out << "\n";
   return out.str();

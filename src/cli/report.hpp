@@ -28,6 +28,7 @@ struct PassageReport {
   riis_passage found{};
   bool is_end = false;                // the place is the node of a point: the passage may be wider
   double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
+  std::string place{};                // the point, in text
 };
 
 struct LeakReport {

@@ -74,8 +74,7 @@ MarkResult mark(const Options &options, const riis_surface *surface, const riis_
   resistance.add(options, result.get());
   resistance.set_arrays(options.prefix, file);
   if (!report.marks.complete) warn_of_incomplete_marks();
-  const std::string warning = warning_of(situation_of(options, report.surface, report.marks, file));
-  if (!warning.empty()) warn(warning);
+  if (const auto warning = warning_of(situation_of(options, report.surface, report.marks, file))) warn({*warning});
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.distance = options.surface_options.distance;
@@ -154,9 +153,7 @@ ExitCode run_single(const Options &options) {
   return result && report.marks.n_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
 
-}  // namespace
-
-ExitCode run(const Options &options) {
+ExitCode run_leniently(const Options &options) {
   if (!options.states.empty()) {
     run_states(options);
     return exit_fine;
@@ -171,6 +168,13 @@ ExitCode run(const Options &options) {
   check_movie(options.series.movie);
   Case all = has_case ? read_case(options) : case_of_command_line(options);
   return run_case(all);
+}
+
+}  // namespace
+
+ExitCode run(const Options &options) {
+  const ExitCode code = run_leniently(options);
+  return code == exit_fine && options.strict && n_warnings() > 0 ? exit_warned : code;
 }
 
 }  // namespace riis::cli

@@ -196,12 +196,16 @@ void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, ri
 // Warns of marks that look wrong, by the times at which each valve marks most nodes.
 void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *file) {
   riis_mark_stats marks{};
+  std::vector<Warning> warnings;
   for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
     marks.n_marked = sweep.most_marked[valve];
-    const std::string text = warning_of(situation_of(all.valves[valve].options, sweep.surface[valve], marks, file));
+    auto warning = warning_of(situation_of(all.valves[valve].options, sweep.surface[valve], marks, file));
+    if (!warning) continue;
     const std::string part = all.part_of(valve);
-    if (!text.empty()) warn((part.empty() ? "" : part + ": ") + text);
+    warning->text.insert(0, part.empty() ? "" : part + ": ");
+    warnings.push_back(*warning);
   }
+  warn(warnings);
 }
 
 // Prints the summary that a user reads at the end.
@@ -237,9 +241,9 @@ ExitCode run_series(Case &all) {
   {
     const Mesh mesh = borrow_nodes(file.get(), options.mesh);
     sweep = sweep_of(valves, options.series.times, mesh.get(), n_nodes, options.quiet);
+    warn_of_sweep(all, sweep, file.get());
     look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
-  warn_of_sweep(all, sweep, file.get());
   // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.
   const UnbrokenWrite unbroken;
   const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);

@@ -12,7 +12,7 @@ namespace {
 
 const std::set<std::string> of_states = {"--states",      "--state-count",  "--valve",          "--params",
                                          "--params-open", "--set",          "--tolerance",      "--scale",
-                                         "--unit",        "--surface-unit", "--half-thickness", "--quiet"};
+                                         "--unit",        "--surface-unit", "--half-thickness", "--quiet", "--strict"};
 
 [[noreturn]] void refuse_states(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 

@@ -20,7 +20,7 @@ const std::set<std::string> with_uris = {
     "--export-uris",     "--valve",        "--params",        "--params-open",  "--set",       "--tolerance",
     "--scale",           "--unit",         "--surface-unit",  "--rotate",       "--translate", "--half-thickness",
     "--resistance",      "--cycle",        "--interpolation", "--period",       "--time-step", "--opening-seconds",
-    "--closing-seconds", "--opening-span", "--closing-span",  "--largest-edge", "--quiet"};
+    "--closing-seconds", "--opening-span", "--closing-span",  "--largest-edge", "--quiet", "--strict"};
 
 [[noreturn]] void refuse_uris(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 

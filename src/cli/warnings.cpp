@@ -2,7 +2,10 @@
 #include "cli/warnings.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "cli/advice.hpp"
 #include "cli/refusal.hpp"
@@ -10,6 +13,9 @@
 
 namespace riis::cli {
 namespace {
+
+std::int64_t n_printed = 0;
+Cause first_cause = Cause::leaks;  // of the advice that was printed
 
 // With fewer nodes, all of them may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
@@ -24,10 +30,27 @@ Box box_of(int64_t n_nodes, const double *xyz) {
   return box;
 }
 
-std::string text_of(const Box &box) {
+// Returns a coordinate down to a tenth of the edge. It has no sign and no digits that only rounding gives.
+std::string coordinate_text(double x, double edge) {
+  constexpr int most_digits = 17;  // of any double
+  int n_digits = 6;
+  if (edge > 0) n_digits = static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(edge)) + 2);
+  if (x == 0 || n_digits < 1) return "0";
+  char text[32];
+  const int precision = std::min(n_digits, most_digits);
+  double rounded = 0;
+  const char *end = std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, precision - 1).ptr;
+  std::from_chars(text, end, rounded);
+  const bool is_usual = std::abs(rounded) >= 1e-9 && std::abs(rounded) < 1e15;
+  const auto form = is_usual ? std::chars_format::fixed : std::chars_format::scientific;
+  return {text, std::to_chars(text, text + sizeof text, rounded, form).ptr};
+}
+
+std::string text_of(const Box &box, double edge) {
   std::string text;
   for (int k = 0; k < 3; ++k) {
-    text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + shown(box.lower[k]) + " to " + shown(box.upper[k]);
+    text += std::string(k == 0 ? "" : ", ") + "xyz"[k] + " " + coordinate_text(box.lower[k], edge) + " to " +
+            coordinate_text(box.upper[k], edge);
   }
   return text;
 }
@@ -53,9 +76,11 @@ std::string marked_text(const Situation &s) {
 }
 
 // Tells the places, for the case that sizes explain nothing.
-std::string places_text(const Situation &s) {
-  return "the mesh is in " + text_of(s.mesh) + ", the surface in " + text_of(s.surface) + ", the half thickness is " +
-         shown(s.half_thickness) + ": see --translate, --rotate, --scale, --half-thickness";
+Warning warning_of_places(const Situation &s) {
+  return {Cause::place,
+          "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
+              ", the half thickness is " + shown(s.half_thickness),
+          ": see --translate, --rotate, --scale, --half-thickness"};
 }
 
 }  // namespace
@@ -75,15 +100,36 @@ Situation situation_of(const Options &options, const riis_surface_info &surface,
   return situation;
 }
 
-std::string warning_of(const Situation &s) {
+std::optional<Warning> warning_of(const Situation &s) {
   const bool has_none = s.n_marked == 0 && !s.options.allow_none;
-  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return "";
-  std::string why = advice_on_units(s).value_or("");
-  if (why.empty()) why = advice_on_half_thickness(s).value_or("");
-  if (why.empty()) why = places_text(s);
-  return marked_text(s) + ": " + why;
+  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return std::nullopt;
+  std::optional<Warning> why = warning_of_units(s);
+  if (!why) why = warning_of_half_thickness(s);
+  if (!why) why = warning_of_places(s);
+  why->text = marked_text(s) + ": " + why->text;
+  return why;
 }
 
-void warn(const std::string &text) { std::fprintf(stderr, "riis-mark: %s\n", text.c_str()); }
+void warn(const std::string &text) {
+  ++n_printed;
+  std::fprintf(stderr, "riis-mark: %s\n", text.c_str());
+}
+
+void warn(std::vector<Warning> warnings) {
+  std::stable_sort(warnings.begin(), warnings.end(), [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
+  for (const Warning &warning : warnings) {
+    const bool is_first = warning.cause <= first_cause;
+    if (is_first) first_cause = warning.cause;
+    warn(is_first ? warning.text + warning.advice : warning.text);
+  }
+}
+
+std::int64_t n_warnings() { return n_printed; }
+
+std::string place_text(const Options &options, const double *point, double edge) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
+  return options.unit ? text + " " + name_of(*options.unit) : text;
+}
 
 }  // namespace riis::cli

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the number of marks and all sizes. Out: the line that tells what looks wrong and what to write instead.
+// All warnings of the program. In: the number of marks and all sizes. Out: the lines that tell what looks wrong and what to write
+// instead.
 #pragma once
 
 #include <riis/riis_vtk.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/command_line.hpp"
 
@@ -28,10 +32,27 @@ struct Situation {
 Situation situation_of(const Options &options, const riis_surface_info &surface, const riis_mark_stats &marks,
                        const riis_vtk_mesh *mesh);
 
-// "" if nothing looks wrong. Without line breaks.
-std::string warning_of(const Situation &situation);
+// What may be wrong, in the order in which to mend it: a wrong unit also makes the half thickness wrong, and either makes leaks.
+enum class Cause { units, half_thickness, place, leaks };
 
-// Prints the line on stderr. --quiet does not silence it, because wrong marks look like right ones.
+// Texts without line breaks. The advice begins with the signs that part it from the text, such as ": write --unit m".
+struct Warning {
+  Cause cause;
+  std::string text, advice;
+};
+
+// Nothing if nothing looks wrong.
+std::optional<Warning> warning_of(const Situation &situation);
+
+// Prints the line on stderr and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
+// Prints the texts of all warnings, but the advice of the first cause only. Later calls leave out the advice on later causes:
+// two pieces of advice could contradict each other, and the first may mend all.
+void warn(std::vector<Warning> warnings);
+std::int64_t n_warnings();
+
+// Returns the coordinates of a place for a warning, with the unit if the user named it. They have as many digits as tell the ends
+// of an edge of this length apart, down to a tenth of it. If the length is 0, they have six.
+std::string place_text(const Options &options, const double *point, double edge);
 
 }  // namespace riis::cli

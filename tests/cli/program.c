@@ -2,6 +2,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -134,6 +135,19 @@ double json_number(const char *json, const char *key) {
 
 int json_has_text(const char *json, const char *key, const char *value) {
   return strncmp(value_of(json, key), value, strlen(value)) == 0;
+}
+
+void expect_place(const char *text, const double point[3], double edge, const char *follows) {
+  const int most_decimals = edge < 10 ? 1 + (int)ceil(-log10(edge)) : 0;
+  for (int i = 0; i < 3; ++i) {
+    char *end = NULL;
+    const double x = strtod(text, &end);
+    const char *const decimals = memchr(text, '.', (size_t)(end - text));
+    if (!(fabs(x - point[i]) <= 0.1 * edge) || (decimals && end - decimals - 1 > most_decimals))
+      fail_msg("\"%.80s\" for %.17g %.17g %.17g", text, point[0], point[1], point[2]);
+    text = end;
+  }
+  if (strncmp(text, follows, strlen(follows)) != 0) fail_msg("\"%.40s\" and not \"%s\"", text, follows);
 }
 
 int make_box_of(void **state, const double lower[3], const double upper[3]) {

@@ -42,6 +42,10 @@ void expect_run_refused(int exit_code, const char *part_of_text, const char *fil
 double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
+/* Fails unless the text begins with this place, off by at most a tenth of an edge and without digits below a hundredth, and
+ * then with what follows. */
+void expect_place(const char *text, const double point[3], double edge, const char *follows);
+
 /* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */
 enum { n_box_side = 13, n_box = n_box_side * n_box_side * n_box_side };
 int make_box(void **state);

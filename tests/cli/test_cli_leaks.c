@@ -75,12 +75,14 @@ static void expect_advice(const char *name, const char *kind) {
   assert_int_equal(program_exit_code, 0);
   char expected[256];
   snprintf(expected, sizeof expected,
-           "riis-mark: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%g) at %g %g %g; "
-           "--half-thickness ",
-           (int)leaks.n_edges, leaks.longest_length, leaks.longest_middle[0], leaks.longest_middle[1],
-           leaks.longest_middle[2]);
+           "riis-mark: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
+           (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  assert_non_null(strstr(program_leaks, "edges of at most two half thicknesses (0.2) do not leak\n"));
+  /* In the coarsest meshes the half thickness does not fit the edges at all. That warning comes first, and gives the advice. */
+  const char *const earlier = strstr(program_err, "the median edge of the mesh ");
+  expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
+               earlier ? "\n" : "; --half-thickness ");
+  assert_true(!strstr(program_leaks, "edges of at most two half thicknesses (0.2) do not leak\n") == (earlier != NULL));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_number(json, "n_leaking_edges") == (double)leaks.n_edges);
   assert_true(json_number(json, "longest_leaking_edge") == leaks.longest_length);
@@ -90,7 +92,8 @@ static void expect_advice(const char *name, const char *kind) {
   assert_true(closing > 0.1 && closing <= 0.505 * leaks.longest_length + 0.02);
 
   char typed[32] = {0};
-  assert_int_equal(sscanf(strstr(program_leaks, "--half-thickness ") + 17, "%31s", typed), 1);
+  snprintf(typed, sizeof typed, "%g", closing);
+  if (!earlier) assert_int_equal(sscanf(strstr(program_leaks, "--half-thickness ") + 17, "%31s", typed), 1);
   assert_true(strtod(typed, NULL) == closing && strlen(typed) <= 5);
   RUN_FINE(scratch_path(name), "--valve", kind, "--opening", "0", "--half-thickness", typed, "--stats", "-");
   assert_string_equal(program_leaks, "");
@@ -153,6 +156,7 @@ static void test_searches_and_distances(void **state) {
   (void)state;
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("coarse.vtu", surface, 0.5);
+  write_mesh("finer.vtu", surface, 0.4);
   riis_surface_destroy(&surface);
   const char *const names[3] = {"exhaustive", "neighbor", "clusters"};
   static char first[longest_output];
@@ -163,14 +167,14 @@ static void test_searches_and_distances(void **state) {
     if (i == 0) memcpy(first, program_leaks, sizeof first);
     assert_true(first[0] && strcmp(program_leaks, first) == 0);
   }
-  run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--distance", "sampling", NULL);
+  run_program(scratch_path("finer.vtu"), "--valve", "mitral", "--opening", "0", "--distance", "sampling", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_leaks, "--half-thickness"));
   run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3); /* the search's single start is not marked, so it finds no node */
   assert_non_null(strstr(program_err, "may be incomplete"));
-  assert_non_null(strstr(program_leaks, "edges of at most two")); /* no half thickness helps if nodes are missed */
-  assert_null(strstr(program_leaks, "--half-thickness"));
+  assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
+  assert_null(strstr(program_leaks, "--half-thickness")); /* none helps if nodes are missed */
 }
 
 static void test_one_edge(void **state) {
@@ -186,9 +190,41 @@ static void test_one_edge(void **state) {
   assert_string_equal(
       program_leaks,
       "riis-mark: the surface leaks: 1 edge of length 0.75 crosses it between two unmarked nodes at 0.2 0.2 "
-      "-0.125; --half-thickness 0.25 closes it; edges of at most two half thicknesses (0.2) do not leak\n");
+      "-0.12; --half-thickness 0.25 closes it; edges of at most two half thicknesses (0.2) do not leak\n");
   assert_non_null(
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
+}
+
+/* A small mesh far from the origin, and the same in another unit: digits follow the edge, and the unit stands behind a place. */
+static void test_places(void **state) {
+  (void)state;
+  const struct {
+    double origin, edge;
+    const char *unit, *half_thickness, *follows;
+  } meshes[] = {{1000, 1e-3, NULL, "3e-4", "; --half-thickness "},
+                {20, 0.3, "mm", "0.1", " mm; --half-thickness "},
+                {-3e5, 4000, "m", "1300", " m; --half-thickness "},
+                {0, 2e-6, NULL, "7e-7", "; --half-thickness "}};
+  for (int i = 0; i < 4; ++i) {
+    char mesh[1024], surface[1024];
+    const double o = meshes[i].origin, e = meshes[i].edge, middle[3] = {o + 0.2 * e, o + 0.2 * e, o - 0.1 * e};
+    int n = sprintf(mesh, "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n");
+    const double nodes[12] = {.2, .2, -.6, .2, .2, .4, 3, .2, -.6, .2, 3, -.6}, corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    for (int k = 0; k < 12; ++k) n += sprintf(mesh + n, "%.17g\n", o + e * nodes[k]);
+    sprintf(mesh + n, "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+    n = sprintf(surface, "solid x\nfacet normal 0 0 1\nouter loop\n");
+    for (int k = 0; k < 9; k += 3)
+      n += sprintf(surface + n, "vertex %.17g %.17g %.17g\n", o + e * corners[k], o + e * corners[k + 1], o);
+    sprintf(surface + n, "endloop\nendfacet\nendsolid\n");
+    scratch_write_text("small.vtk", mesh);
+    scratch_write_text("small.stl", surface);
+    const char *const unit = meshes[i].unit;
+    RUN_FINE(scratch_path("small.vtk"), "--surface", scratch_path("small.stl"), "--half-thickness",
+             meshes[i].half_thickness, "--allow-none", unit ? "--unit" : NULL, unit, "--surface-unit", unit);
+    const char *const at = strstr(program_leaks, " between two unmarked nodes at ");
+    assert_non_null(at);
+    expect_place(at + strlen(" between two unmarked nodes at "), middle, e, meshes[i].follows);
+  }
 }
 
 /* There is no warning for cells whose edges are not known. */
@@ -204,11 +240,67 @@ static void test_other_cells(void **state) {
   assert_non_null(strstr(program_out, "between unmarked nodes; unknown for 9 cells of kinds whose edges"));
 }
 
+static void expect_warned(int exit_code) {
+  if (program_exit_code != exit_code || !(program_err[0] || program_leaks[0]))
+    fail_msg("exit code %d, not %d; stderr: %s%s", program_exit_code, exit_code, program_err, program_leaks);
+}
+
+/* Runs the program with a warning: 0 is the status without --strict, 4 with it. */
+#define EXPECT_STRICT(...)                   \
+  do {                                       \
+    run_program(__VA_ARGS__, NULL);          \
+    expect_warned(0);                        \
+    run_program("--strict", __VA_ARGS__, NULL); \
+    expect_warned(4);                        \
+  } while (0)
+
+/* Warnings of every kind, with --quiet and without. The outputs are there all the same. */
+static void test_strict(void **state) {
+  (void)state;
+  char fine[256], coarse[256];
+  riis_surface *surface = make_surface("mitral", 0.1);
+  write_mesh("fine.vtu", surface, 0.2);
+  write_mesh("coarse.vtu", surface, 0.5);
+  riis_surface_destroy(&surface);
+  snprintf(fine, sizeof fine, "%s", scratch_path("fine.vtu"));
+  snprintf(coarse, sizeof coarse, "%s", scratch_path("coarse.vtu"));
+  scratch_write_text("beat.csv", "0,0\n0.1,1\n0.2,0.5\n");
+  scratch_write_text("one.json",
+                     "{\"mesh\": \"coarse.vtu\", \"valves\": [{\"valve\": \"mitral\", \"opening\": 0}]}");
+#define MITRAL "--valve", "mitral"
+#define CLOSED MITRAL, "--opening", "0"
+  EXPECT_STRICT(fine, CLOSED, "--half-thickness", "1.9", "--stats", scratch_path("s.json"));
+  EXPECT_STRICT(coarse, CLOSED, "--output", scratch_path("marked.vtu"), "--quiet");
+  assert_true(scratch_exists("s.json") && scratch_exists("marked.vtu"));
+  EXPECT_STRICT(fine, MITRAL, "--check-leaks", "0,0,0.7", "0,0,1.9");
+  EXPECT_STRICT(fine, "--search", "paper", MITRAL);
+  EXPECT_STRICT("--set", "right.rotation=0,0,60", "--opening", "0", "--check-crossing");
+  EXPECT_STRICT(coarse, MITRAL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.1", "--output",
+                scratch_path("s.pvd"), "--quiet");
+  assert_true(scratch_exists("s/s_0001.vtu"));
+  EXPECT_STRICT("--case", scratch_path("one.json"), "--output", scratch_path("case.vtu"));
+  for (int strict = 0; strict < 2; ++strict) {
+    run_program("--export-uris", scratch_path(strict ? "strict" : "lenient"), MITRAL, "--resistance", "1e4",
+                "--time-step", "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1",
+                "--closing-span", "0.1:0.2", strict ? "--strict" : NULL, NULL);
+    expect_warned(strict ? 4 : 0);
+    assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
+  }
+  /* Without a warning the status is 0, and a mesh without marks keeps its own status. */
+  RUN_FINE(fine, CLOSED, "--strict");
+  assert_string_equal(program_leaks, "");
+  RUN_FINE("--print-params", "--strict");
+  RUN_FINE("--states", "-", MITRAL, "--state-count", "2", "--strict");
+  run_program(fine, "--translate", "50,0,0", "--strict", NULL);
+  expect_warned(3);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_coarse_meshes_leak), cmocka_unit_test(test_fine_meshes_do_not),
       cmocka_unit_test(test_surface_from_file),  cmocka_unit_test(test_searches_and_distances),
       cmocka_unit_test(test_one_edge),           cmocka_unit_test(test_other_cells),
+      cmocka_unit_test(test_places),             cmocka_unit_test(test_strict),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

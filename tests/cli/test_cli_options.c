@@ -67,6 +67,7 @@ static void test_help(void **state) {
                          "--leaflets",
                          "--prefix",
                          "--replace",
+                         "--strict",
                          "--allow-none",
                          "--describe-params"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {

@@ -155,18 +155,49 @@ static void test_wrong_valve_units(void **state) {
   expect_cured(meshes[0], NULL);
 }
 
-/* A mesh in millimetres would be large and coarse in centimetres, but possible. Both explanations are reported. */
+/* The warning about leaks that follows gives no advice of its own. */
+static void expect_one_advice(void) {
+  assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
+  assert_null(strstr(program_leaks, "--half-thickness"));
+  assert_null(strstr(program_leaks, "half thicknesses"));
+}
+
+/* A mesh in millimetres would be large and coarse in centimetres, but possible. Only a user who names the unit knows. */
 static void test_coarse_or_other_unit(void **state) {
   (void)state;
   assert_int_equal(
       shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
   run_program(scratch_path("large.vtu"), NULL);
   expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
-  expect_warning(program_exit_code, ": write --unit mm, or, if that is wrong, --half-thickness 0.");
+  expect_warning(program_exit_code, ": write --unit mm\n");
+  expect_one_advice();
   RUN_FINE(scratch_path("large.vtu"), "--unit", "mm");
+  run_program(scratch_path("large.vtu"), "--unit", "cm", NULL);
+  expect_warning(program_exit_code, "the half thickness is 0.1, the median edge of the mesh 0.6");
+  expect_warning(program_exit_code, ": write --half-thickness 0.6");
+  expect_one_advice();
+  run_program(scratch_path("large.vtu"), "--scale", "1", NULL);
+  expect_warning(program_exit_code, ": write --half-thickness 0.6");
   /* The unit of a file is not known, so its default half thickness tells nothing. */
   run_program(scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
+}
+
+/* In a case the likelier cause comes first, whatever the order of the valves, and it alone gives advice. */
+static void test_order_of_causes(void **state) {
+  (void)state;
+  scratch_write_text("two.json",
+                     "{\"mesh\": \"mm.vtu\", \"valves\": [\n"
+                     "{\"name\": \"thick\", \"valve\": \"aortic\", \"scale\": 10, \"half_thickness\": 12},\n"
+                     "{\"name\": \"small\", \"valve\": \"aortic\", \"half_thickness\": 0.1, \"scale\": 0.1}]}\n");
+  run_program("--case", scratch_path("two.json"), "--output", scratch_path("two.vtu"), "--quiet", NULL);
+  const char *const second = strchr(program_err, '\n') + 1;
+  assert_int_equal(strncmp(program_err, "riis-mark: small: ", strlen("riis-mark: small: ")), 0);
+  assert_non_null(strstr(program_err, ": write --unit mm"));
+  assert_int_equal(strncmp(second, "riis-mark: thick: ", strlen("riis-mark: thick: ")), 0);
+  assert_non_null(strstr(second, ": the half thickness is 12, the largest side of the surface 27.8\n"));
+  assert_null(strstr(second, "--half-thickness"));
+  assert_null(strstr(program_leaks, "--half-thickness"));
 }
 
 static void test_wrong_file_units(void **state) {
@@ -254,6 +285,7 @@ int main(void) {
       cmocka_unit_test(test_patches),          cmocka_unit_test(test_wrong_valve_units),
       cmocka_unit_test(test_wrong_file_units), cmocka_unit_test(test_coarse_or_other_unit),
       cmocka_unit_test(test_half_thickness),   cmocka_unit_test(test_places),
+      cmocka_unit_test(test_order_of_causes),
   };
   return cmocka_run_group_tests(tests, make_files, scratch_teardown);
 }
