@@ -10,6 +10,7 @@
 
 #include "base/array_view.hpp"
 #include "cli/advice.hpp"
+#include "cli/crossings.hpp"
 #include "cli/interruption.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
@@ -199,6 +200,7 @@ void export_uris(const Options &options) {
     warn(counted(leaflets.n_left_out(), "triangle") +
          " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
   }
+  check_shape(options, leaflets.valve(), !options.params_open.empty());
   write_export(options, motion, leaflets);
   if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets));
 }

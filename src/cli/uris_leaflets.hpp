@@ -28,6 +28,7 @@ class UrisLeaflets {
   // Looks at all frames, and cuts the triangles as the options say.
   UrisLeaflets(const Options &options, const UrisMotion &motion);
 
+  const riis_valve *valve() const { return valve_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
   // Returns all vertices at an opening, xyz(3, n): multiples of a power of two, so that the solver's sums of them are exact.
   std::vector<double> vertices_at(double opening);

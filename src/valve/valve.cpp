@@ -124,8 +124,7 @@ void check_same_state(const ValveKind &kind, const ValveState &fixed, const Valv
   }
   for (std::size_t i = 0; i < fixed.patches.curves.size(); ++i)
     if (!are_equal(fixed.patches.curves[i], now.patches.curves[i]))
-      fail(RIIS_INVALID_PARAMETER, "curve ", i, where,
-           " is another than that which the surface's triangulation is fixed for",
+      fail(RIIS_INVALID_PARAMETER, "curve ", i, where, " is another than that which the surface's triangulation is fixed for",
            ": only opening and placement may move");
 }
 
