@@ -134,10 +134,17 @@ static void sound_shapes_are_not_named(void **state) {
   set(valve, "opening", 0);
   set(valve, "anterior_length", 2.2);
   riis_surface *surface = new_surface(valve, &fixed);
-  assert_int_equal(warnings.n, 0);
   riis_crossings found;
   CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
   assert_true(found.n_pairs > 0);
+  /* Hinges reach into the housing. */
+  valve = new_valve("bileaflet");
+  set(valve, "ring_height", 0.5);
+  set(valve, "opening", 0.5);
+  surface = new_surface(valve, NULL);
+  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
+  assert_true(found.n_pairs > 0 && found.leaflet_id[1] == RIIS_LEAFLET_HOUSING);
+  assert_int_equal(warnings.n, 0);
 }
 
 /* A unit square lies at z = 0, another stands through it: one leaflet or two. */

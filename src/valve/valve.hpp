@@ -46,6 +46,11 @@ struct ValveKind {
   // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
   // states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
+  // Leaflets meet only where their triangles have common vertices, such as at commissures. Other leaflets may touch anywhere, and
+  // then their triangles go through each other by the error of the triangles.
+  bool has_exact_contacts = false;
+  // The leaflet_id of a wall into which hinges reach, or -1.
+  std::int32_t housing = -1;
 };
 
 // Returns the kind of that name. Fails with RIIS_INVALID_PARAMETER and names the existing kinds.
