@@ -477,7 +477,7 @@ static void test_box(void **state) {
       {"--valve", "bileaflet", "--largest-edge", "0.3"},
       {"--valve", "bileaflet", "--params", "flat.json", "--half-thickness", "0.25", "--largest-edge", "0.2"},
       {"--valve", "patch.json", "--largest-edge", "0.2"}};
-  static const char *const turns[] = {"0,0,1,0", "1,2,-1,70", "1,1,1,45"};
+  static const char *const turns[] = {"0,0,1,0", "1,2,-1,70"};
   scratch_write_text("flat.json", "{\"radius\": 1.28, \"closed_angle\": 8, \"ring_height\": 0.6}");
   scratch_write_text(
       "patch.json",
