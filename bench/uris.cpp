@@ -43,8 +43,13 @@ constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 // Triangles in one state: their corners, (3, 3, n).
 using Corners = std::vector<double>;
 
+// What the solver sees in one state: the triangles of the leaflets, and all nodes, also those of the face that widens its box.
+struct State {
+  Corners leaflets, nodes;
+};
+
 struct Export {
-  Corners closed, open;
+  State closed, open;
   double thickness = 0;
 };
 
@@ -84,7 +89,14 @@ Frames frames_of(const std::string &path) {
   return frames;
 }
 
-void add_triangles(const std::string &vtu, const Frames &frames, Export &all) {
+bool ends_with(const std::string &text, const std::string &end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+void add_face(const std::string &vtu, const Frames &frames, Export &all) {
+  all.closed.nodes.insert(all.closed.nodes.end(), frames.first.begin(), frames.first.end());
+  all.open.nodes.insert(all.open.nodes.end(), frames.last.begin(), frames.last.end());
+  if (ends_with(vtu, "/box.vtu")) return;
   const vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(vtu.c_str());
   reader->Update();
@@ -95,8 +107,8 @@ void add_triangles(const std::string &vtu, const Frames &frames, Export &all) {
     if (cell->GetNumberOfPoints() != 3) give_up(vtu + ": a cell is no triangle");
     for (vtkIdType k = 0; k < 9; ++k) {
       const auto at = static_cast<std::size_t>(3 * cell->GetPointId(static_cast<int>(k / 3)) + k % 3);
-      all.closed.push_back(frames.first[at]);
-      all.open.push_back(frames.last[at]);
+      all.closed.leaflets.push_back(frames.first[at]);
+      all.open.leaflets.push_back(frames.last[at]);
     }
   }
 }
@@ -110,14 +122,15 @@ Export read_export(const std::string &path) {
   if (faces.empty() || faces.size() != motions.size() || thickness.size() != 1) give_up(path + ": no Add_URIS_mesh");
   Export read;
   read.thickness = std::strtod(thickness[0].c_str(), nullptr);
-  for (std::size_t i = 0; i < faces.size(); ++i) add_triangles(faces[i], frames_of(motions[i]), read);
+  for (std::size_t i = 0; i < faces.size(); ++i) add_face(faces[i], frames_of(motions[i]), read);
   return read;
 }
 
-Corners corners_at(const char *kind, double opening) {
+State state_at(const char *kind, double opening) {
   const Valve valve = make_valve(kind);
   check(riis_valve_set_scalar(valve.get(), "opening", opening));
-  return Triangles(make_surface(valve.get()).get()).corners;
+  const Corners corners = Triangles(make_surface(valve.get()).get()).corners;
+  return {corners, corners};
 }
 
 // The distances of nodes to these triangles by the library, infinity beyond the half thickness.
@@ -153,15 +166,15 @@ double longest_edge(const Corners &corners) {
   return longest;
 }
 
-// Tells whether a node is in the solver's box, which is a tenth larger on each side than the leaflets.
+// Tells whether a node is in the solver's box, which is a tenth larger on each side than that of the faces' nodes.
 class SolverBox {
  public:
-  explicit SolverBox(const Corners &corners) {
+  explicit SolverBox(const std::vector<double> &xyz) {
     for (std::size_t k = 0; k < 3; ++k) {
-      lower_[k] = upper_[k] = corners[k];
-      for (std::size_t i = k; i < corners.size(); i += 3) {
-        lower_[k] = std::min(lower_[k], corners[i]);
-        upper_[k] = std::max(upper_[k], corners[i]);
+      lower_[k] = upper_[k] = xyz[k];
+      for (std::size_t i = k; i < xyz.size(); i += 3) {
+        lower_[k] = std::min(lower_[k], xyz[i]);
+        upper_[k] = std::max(upper_[k], xyz[i]);
       }
       const double more = 0.1 * (upper_[k] - lower_[k]);
       lower_[k] -= more;
@@ -194,8 +207,9 @@ void check_locator(const std::vector<double> &middles, const std::vector<double>
   }
 }
 
-void print_row(const std::string &valve, const std::string &cut, const Corners &corners, double thickness,
+void print_row(const std::string &valve, const std::string &cut, const State &state, double thickness,
                const CylinderNodes &nodes) {
+  const Corners &corners = state.leaflets;
   const std::vector<double> distance = distances_by_library(corners, thickness, nodes);
   std::vector<double> marked, truth, middles;
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -210,7 +224,7 @@ void print_row(const std::string &valve, const std::string &cut, const Corners &
   std::vector<double> by_rule(truth.size());
   VtkPoints(middles).distances(static_cast<std::int64_t>(truth.size()), marked.data(), 1e3, by_rule.data());
   check_locator(middles, marked, by_rule);
-  const SolverBox box(corners);
+  const SolverBox box(state.nodes);
   double sum = 0, sum_by_rule = 0, excess = 0;
   std::int64_t n_lost = 0, n_outside = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -239,11 +253,11 @@ int main(int argc, char **argv) {
   const Cylinder cylinder = name == "mitral" ? cylinders[1] : name == "bileaflet" ? prosthesis_cylinder : cylinders[0];
   const CylinderNodes nodes(cylinder, n_nodes_given(argc, argv, 2, 1));
   const double half_thickness = 0.1;
-  const auto print = [&](const std::string &cut, const Corners &closed, const Corners &open) {
+  const auto print = [&](const std::string &cut, const State &closed, const State &open) {
     print_row(name + ", closed", cut, closed, half_thickness, nodes);
     print_row(name + ", open", cut, open, half_thickness, nodes);
   };
-  print("not exported", corners_at(kind, 0), corners_at(kind, 1));
+  print("not exported", state_at(kind, 0), state_at(kind, 1));
   for (int i = 3; i < argc; ++i) {
     const Export read = read_export(argv[i]);
     if (read.thickness != half_thickness) give_up(std::string(argv[i]) + ": another Thickness than 0.1");

@@ -116,10 +116,13 @@ typedef void (*riis_log_function)(void *user_data, int32_t level, const char *me
 /* The levels of a message. */
 enum {
   RIIS_LOG_INFO = 0,   /* what was built and how large */
-  RIIS_LOG_WARNING = 1 /* what the caller may not expect: skipped triangles, sizes in different units */
+  RIIS_LOG_WARNING = 1 /* what the caller may not expect: skipped triangles, sizes in different units,
+                          leaflets that go through each other */
 };
 /* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
- * under way in another thread may still reach the former function.
+ * under way in another thread may still reach the former function. With a log function, a surface looks for
+ * crossings (riis_find_crossings) once in each shape of a valve that the caller chose by parameters, patches
+ * or an open state: at the opening that comes first. The search takes longer than an update.
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
@@ -475,7 +478,7 @@ typedef struct riis_crossings {
  *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
  * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, and no pair. The
  * call looks at triangles, also for the other RIIS_DISTANCE_*. So smooth leaflets that touch may cross by
- * twice riis_surface_info.error_bound.
+ * twice riis_surface_info.error_bound. The log (riis_set_log) warns of deeper ones unasked.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings, int64_t struct_size);

@@ -16,6 +16,7 @@
 #include "marking/mark_result.hpp"
 #include "marking/mesh.hpp"
 #include "parallel/keeps_arenas.hpp"
+#include "pipeline/crossing_watch.hpp"
 #include "pipeline/fixed_triangulation.hpp"
 #include "surface/crossings.hpp"
 #include "surface/keyframes.hpp"
@@ -74,6 +75,7 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::UserFaces faces, faces_memory;            // of the last arrays; no faces after a valve or keyframes
   std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
   riis::Crossings crossings;                      // of the content, as last found
+  riis::CrossingWatch crossing_watch;
   // No earlier surface had this number. An address may be used again, so it does not identify a surface.
   const std::uint64_t number = next_number();
 

@@ -190,6 +190,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.faces.leaflet_id.clear();
   if (!is_fixed) surface.fixed.reset();
   if (newly_fixed) surface.fixed = std::move(newly_fixed);
+  surface.crossing_watch.look(valve->valve, *surface.surface, threads_for(surface, options));
 }
 
 // Checks all handles before the options. motion may be NULL.

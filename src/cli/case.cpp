@@ -137,6 +137,7 @@ Case case_of_command_line(const Options &options) {
     // A file of patches that cannot open so far is refused here.
     source.options.opening = largest_opening(source.law, options.series.times);
     source.valve = make_valve(source.options);
+    source.has_open_state = !options.params_open.empty();
   } else {
     Seconds seconds;
     KeyframeFiles read = read_keyframes(options, seconds);

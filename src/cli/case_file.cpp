@@ -176,6 +176,7 @@ class CaseReader {
       const Valve open = make_kind(kind, source.subject);
       set_parameters_of(values, "open_parameters", open.get());
       check(riis_valve_set_open_state(source.valve.get(), open.get()), source.subject);
+      source.has_open_state = true;
     }
     set_law(values, source.valve.get(), source);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/crossings.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -68,7 +69,8 @@ std::string leaflet_text(const Options &options, int32_t leaflet) {
 }
 
 // Not even --quiet silences this: such a valve cannot be built, and its normals contradict each other.
-void warn_of_crossings(const Options &options, const CrossingReport &report) {
+void warn_of_crossings(const Options &options, const CrossingReport &report, const std::string &part,
+                       const std::string &advice) {
   const riis_crossings &found = report.found;
   std::string at;
   if (report.opening) {
@@ -82,9 +84,42 @@ void warn_of_crossings(const Options &options, const CrossingReport &report) {
                               ? "leaflet " + first + " crosses itself"
                               : "leaflets " + first + " and " + leaflet_text(options, found.leaflet_id[1]) + " cross";
   // A pair's intersection is about as long as an edge of the triangles there.
-  warn(who + at + ": " + counted(found.n_pairs, "pair") + " of triangles go through each other, along a length of " +
-       shown(found.length) + "; the deepest is " + shown(found.depth) + " deep, at " +
-       place_text(options, found.point, found.length / static_cast<double>(found.n_pairs)));
+  warn(part + who + at + ": " + counted(found.n_pairs, "pair") +
+       " of triangles go through each other, along a length of " + shown(found.length) + "; the deepest is " +
+       shown(found.depth) + " deep, at " +
+       place_text(options, found.point, found.length / static_cast<double>(found.n_pairs)) + advice);
+}
+
+bool has_default_values(const riis_valve *valve) {
+  int64_t n = 0;
+  check(riis_valve_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter;
+    double values[3];
+    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+    if (std::string(parameter.name) != "opening" &&
+        !std::equal(values, values + parameter.n_values, parameter.default_values))
+      return false;
+  }
+  return true;
+}
+
+// Returns the depth that triangles of leaflets which only touch may have (docs/theory.md, section 16).
+double depth_of_contacts(const Options &options, const riis_surface *surface) {
+  riis_surface_info info;
+  check(riis_surface_get_info(surface, &info, sizeof info));
+  const bool has_cusps = options.valve == "aortic" || options.valve == "trileaflet";
+  return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
+}
+
+// Returns the surface at an opening, or null if the valve cannot be there: nobody has requested that state.
+Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
+  check(riis_valve_set_scalar(valve, "opening", opening));
+  riis_surface *surface = nullptr;
+  const riis_status status = riis_surface_create(valve, &how, &surface);
+  if (status != RIIS_INVALID_PARAMETER) check(status);
+  return Surface(surface);
 }
 
 }  // namespace
@@ -99,7 +134,31 @@ void look_for_crossings(const Options &options, const riis_valve *valve, riis_su
     crossings.opening = report.opening;
     crossings.found = crossings_of(options, surface);
   }
-  if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings);
+  if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings, "", "");
+}
+
+std::optional<CrossingReport> check_shape(const Options &options, const riis_valve *valve, bool has_open_state,
+                                          const std::string &part) {
+  if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve)) return std::nullopt;
+  const Valve copy = copy_of(valve);
+  // Hinges reach into a housing, in recesses that the valve here lacks.
+  if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy.get(), "ring_height", 0));
+  riis_surface_options how = by_triangles(options);
+  how.triangulation = RIIS_TRIANGULATION_ADAPTED;
+  CrossingReport report;
+  for (const double opening : {0.0, 0.5, 1.0}) {
+    const Surface surface = surface_at(copy.get(), opening, how);
+    if (!surface) continue;
+    ++report.n_openings;
+    report.opening = opening;
+    const riis_crossings found = crossings_of(options, surface.get());
+    if (found.depth <= depth_of_contacts(options, surface.get())) continue;
+    report.found = found;
+    warn_of_crossings(options, report, part.empty() ? "" : part + ": ",
+                      "; change the sizes, and look at all openings by --check-crossing");
+    return report;
+  }
+  return report;
 }
 
 }  // namespace riis::cli

@@ -110,7 +110,8 @@ Crossings
   each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
   of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
   as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
-  no MESH.
+  no MESH. Without the option, a valve whose shape is chosen by --set, --params, --params-open or a file is looked at only at
+  openings 0, 0.5 and 1. Contacts of leaflets and of a housing with its hinges do not count then.
 
 Valve from patches
   --valve FILE.json is a valve from patches, by the curves that bound them:
@@ -123,7 +124,8 @@ Valve from patches
 
 Export to svMultiPhysics
   --export-uris FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
-  NAME_close.dat, and normal.dat, the direction of flow. The folder must be new or empty. The block for the solver's input goes
+  NAME_close.dat, the same of a face "box" that widens the box in which the solver looks, and normal.dat, the direction of
+  flow. The folder must be new or empty. The block for the solver's input goes
   to stdout; it needs --resistance. The solver plays a frame in each of its time steps, so --time-step must be its own. The
   valve opens from 0 to 1 in --opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens
   from the last key of its least opening to the first of its largest, and closes on the way back; --opening-span and

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "cli/crossings.hpp"
 #include "cli/leaks.hpp"
 #include "cli/mesh_marking.hpp"
 #include "cli/refusal.hpp"
@@ -98,6 +99,8 @@ std::vector<MovingValve> moving_valves(Case &all) {
   for (ValveSource &source : all.valves) {
     try {
       valves.emplace_back(source, times.empty() ? 0 : times[0]);
+      const std::string part = all.part_of(valves.size() - 1);
+      if (source.valve) check_shape(source.options, source.valve.get(), source.has_open_state, part);
       rehearse_marking(source.options, valves.back().surface());
     } catch (Refusal &refusal) {
       if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)

@@ -131,6 +131,7 @@ ExitCode run_single(const Options &options) {
   report.seconds.surface = report.surface.seconds_triangles;
   report.seconds.scene = report.surface.seconds_scene;
   if (options.check_crossing) look_for_crossings(options, valve, surface.get(), report);
+  if (valve && !options.check_crossing) report.crossings = check_shape(options, valve, !options.params_open.empty());
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, names_of_arrays(options), mesh.get());

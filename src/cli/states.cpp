@@ -6,6 +6,7 @@
 
 #include "base/array_view.hpp"
 #include "cli/advice.hpp"
+#include "cli/crossings.hpp"
 #include "cli/drawing.hpp"
 #include "cli/handles.hpp"
 #include "cli/orifice.hpp"
@@ -201,6 +202,7 @@ States measure_states(const Options &options) {
 void run_states(const Options &options) {
   const OutputLocks locks = check_outputs(options);
   const States states = measure_states(options);
+  check_shape(options, make_valve(options).get(), !options.params_open.empty());
   write_text(options.states, csv_of(states));
   if (options.quiet || options.states == "-") return;
   write_text("-", summary_of(states, options));

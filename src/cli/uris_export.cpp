@@ -10,6 +10,7 @@
 
 #include "base/array_view.hpp"
 #include "cli/advice.hpp"
+#include "cli/crossings.hpp"
 #include "cli/interruption.hpp"
 #include "cli/numbers.hpp"
 #include "cli/outputs.hpp"
@@ -154,11 +155,12 @@ std::string mesh_block(const Options &options, const UrisMotion &motion, const U
   };
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
-  std::string text = "<!-- riis-mark, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
-                     "\n     closing: " + frames(motion.closing) +
-                     "\n     a frame is a time step: Time_step_size must be " + shortest(*options.uris.time_step) +
-                     "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
-                     shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses";
+  std::string text =
+      "<!-- riis-mark, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
+      "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
+      shortest(*options.uris.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") +
+      ", the longest edge " + shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+      "\n     face box: svMultiPhysics looks only into the box of its nodes; Mesh_scale_factor must stay 1";
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
             shown(fine_edges * leaflets.half_thickness());
@@ -198,6 +200,7 @@ void export_uris(const Options &options) {
     warn(counted(leaflets.n_left_out(), "triangle") +
          " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
   }
+  check_shape(options, leaflets.valve(), !options.params_open.empty());
   write_export(options, motion, leaflets);
   if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets));
 }

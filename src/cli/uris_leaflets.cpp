@@ -59,12 +59,16 @@ UrisLeaflets::UrisLeaflets(const Options &options, const UrisMotion &motion)
   riis_surface_info info;
   check(riis_surface_get_info(surface_.get(), &info, sizeof info));
   half_thickness_ = info.half_thickness;
+  double largest = half_thickness_;
+  for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});
+  grid_ = uris_grid(largest);
   if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
   std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
   net_ = FinerTriangles(info.n_vertices, std::move(lasting));
   refine(motion, options.uris.largest_edge);
   find_forward(motion.opening[0]);
   part(options);
+  add_boxes(motion);
 }
 
 std::vector<double> UrisLeaflets::vertices_at(double opening) {
@@ -74,6 +78,8 @@ std::vector<double> UrisLeaflets::vertices_at(double opening) {
   check(riis_surface_vertices(surface_.get(), &n, &xyz));
   std::vector<double> all(xyz, xyz + 3 * n);
   net_.append_middles(all);
+  for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
+  for (const UrisBox &box : boxes_) box.append_nodes(all);
   return all;
 }
 
@@ -153,6 +159,27 @@ void UrisLeaflets::part(const Options &options) {
         vertex = std::lower_bound(leaflet.nodes.begin(), leaflet.nodes.end(), vertex) - leaflet.nodes.begin();
     leaflets_.push_back(std::move(leaflet));
   }
+}
+
+// The solver looks for a housing in the housing's own box.
+void UrisLeaflets::add_boxes(const UrisMotion &motion) {
+  std::vector<Corners> moving, resting;
+  for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
+  const std::vector<double> first = vertices_at(motion.opening.front()), last = vertices_at(motion.opening.back());
+  const auto add = [&](const std::vector<Corners> &triangles, UrisLeaflet &face) {
+    boxes_.emplace_back(triangles, first, last, half_thickness_, grid_);
+    const std::int64_t vertex =
+                           static_cast<std::int64_t>(first.size()) / 3 + UrisBox::n_nodes * (view(boxes_).size() - 1),
+                       node = view(face.nodes).size();
+    for (std::int64_t i = 0; i < UrisBox::n_nodes; ++i) face.nodes.push_back(vertex + i);
+    for (std::int64_t i = 0; i < UrisBox::n_nodes; i += 3)
+      face.triangles.push_back({node + i, node + i + 1, node + i + 2});
+  };
+  for (UrisLeaflet &leaflet : leaflets_)
+    if (leaflet.is_scaffold) add(resting, leaflet);
+  // The last face: the solver keeps the first of triangles that are equally near.
+  leaflets_.push_back({"box", {}, {}, false});
+  add(moving, leaflets_.back());
 }
 
 }  // namespace riis::cli

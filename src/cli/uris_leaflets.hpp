@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a valve and the openings of its frames. Out: leaflets whose nodes and triangles stay the same in all frames.
+// In: a valve and the openings of its frames. Out: leaflets whose nodes and triangles stay the same in all frames, and a face that
+// widens the box in which the solver looks.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include "cli/command_line.hpp"
 #include "cli/finer_triangles.hpp"
 #include "cli/handles.hpp"
+#include "cli/uris_box.hpp"
 #include "cli/uris_motion.hpp"
 
 namespace riis::cli {
@@ -26,8 +28,9 @@ class UrisLeaflets {
   // Looks at all frames, and cuts the triangles as the options say.
   UrisLeaflets(const Options &options, const UrisMotion &motion);
 
+  const riis_valve *valve() const { return valve_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
-  // Returns all vertices at an opening, xyz(3, n).
+  // Returns all vertices at an opening, xyz(3, n): multiples of a power of two, so that the solver's sums of them are exact.
   std::vector<double> vertices_at(double opening);
   // The mean normal of the leaflets, without a housing, in the first frame: forward flow.
   const std::array<double, 3> &forward() const { return forward_; }
@@ -43,14 +46,16 @@ class UrisLeaflets {
   void refine(const UrisMotion &motion, double largest_edge);
   void find_forward(double opening);
   void part(const Options &options);
+  void add_boxes(const UrisMotion &motion);
 
   std::string subject_;
   Valve valve_;
   Surface surface_;
   FinerTriangles net_;
+  std::vector<UrisBox> boxes_;
   std::vector<UrisLeaflet> leaflets_;
   std::array<double, 3> forward_{};
-  double half_thickness_ = 0, longest_edge_ = 0;
+  double half_thickness_ = 0, longest_edge_ = 0, grid_ = 0;
   std::int64_t housing_ = -1, n_left_out_ = 0;
 };
 

@@ -19,6 +19,7 @@ struct ValveSource {
   SurfaceFile file;  // null for a valve, and for a surface that moves
   OpeningLaw law{0.0};
   Keyframes keyframes{};  // of a surface that moves
+  bool has_open_state = false;  // that the user chose
   std::string subject{};  // goes before refusals, such as the place in a case; "" for the command line
 };
 

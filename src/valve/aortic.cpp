@@ -73,6 +73,7 @@ ValveKind make_kind() {
     });
   }
   for (ParameterSpec &spec : cusp_opening_specs(default_opening)) kind.parameters.push_back(std::move(spec));
+  kind.has_exact_contacts = true;
   return kind;
 }
 // clang-format on

@@ -27,7 +27,7 @@ ValveKind make_kind() {
   // The limits suit a valve in any unit from kilometres to micrometres; check_values checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
-  return {"bileaflet", {
+  ValveKind kind{"bileaflet", {
     {"radius", length, "inner radius of the housing, which the closed leaflets reach", 1, {1.1}, shortest, longest},
     {"hinge_offset", length, "distance of each hinge line from the housing's axis", 1, {0.22}, 0, longest},
     {"hinge_height", length, "height of the hinge lines above the orifice plane", 1, {0}, -longest, longest},
@@ -37,6 +37,8 @@ ValveKind make_kind() {
     {"ring_height", length, "height of the housing's wall, half of it upstream of the orifice plane; 0: no wall", 1, {0}, 0, longest},
     opening_spec("0: closed, to 1: open; the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
+  kind.housing = RIIS_LEAFLET_HOUSING;
+  return kind;
 }
 // clang-format on
 

@@ -50,6 +50,7 @@ ValveKind make_kind() {
     opening_spec("0 closed to 1 open", 0),
   }, opening, true, check_values, make_patches, nullptr};
   for (ParameterSpec &spec : cusp_opening_specs({0.8, 0.1})) kind.parameters.push_back(std::move(spec));
+  kind.has_exact_contacts = true;
   return kind;
 }
 // clang-format on

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "base/array_view.hpp"
@@ -139,6 +140,56 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");
   if (open_) check_same_state(*kind_, *open_, *other.open_, " in the open state");
+}
+
+bool Valve::has_default_shape() const {
+  if (open_ || !state_.patches.curves.empty()) return false;
+  for (std::size_t i = 0; i < kind_->parameters.size(); ++i)
+    if (i != kind_->opening && state_.values[i] != kind_->parameters[i].default_values) return false;
+  return true;
+}
+
+namespace {
+
+class Digest {
+ public:
+  void add(std::uint64_t word) {
+    digest_ = (digest_ ^ word) * 0x9e3779b97f4a7c15;
+    digest_ ^= digest_ >> 32;
+  }
+  void add(double number) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof bits);
+    add(bits);
+  }
+  void add(const ValveKind &kind, const ValveState &state) {
+    for (std::size_t i = 0; i < kind.parameters.size(); ++i)
+      for (const double value : state.values[i])
+        if (i != kind.opening) add(value);
+    for (const Curve &curve : state.patches.curves)
+      for (const Bezier &piece : curve.pieces())
+        for (int i = 0; i <= piece.degree; ++i)
+          for (const double x : {view(piece.control)[i].x, view(piece.control)[i].y, view(piece.control)[i].z}) add(x);
+    for (const Patch &patch : state.patches.patches) {
+      for (const PatchImage &image : patch.images) add(static_cast<std::uint64_t>(image.leaflet_id));
+      for (const Side *side : {&patch.v0, &patch.v1, &patch.u0, &patch.u1})
+        add(static_cast<std::uint64_t>(2 * side->curve + (side->reversed ? 1 : 0)));
+    }
+  }
+  std::uint64_t value() const { return digest_ == 0 ? 1 : digest_; }
+
+ private:
+  std::uint64_t digest_ = 0x7269697373686170;
+};
+
+}  // namespace
+
+std::uint64_t Valve::shape_digest() const {
+  Digest digest;
+  for (const char *letter = kind_->name; *letter; ++letter) digest.add(static_cast<std::uint64_t>(*letter));
+  digest.add(*kind_, state_);
+  if (open_) digest.add(*kind_, *open_);
+  return digest.value();
 }
 
 PatchSet Valve::make_patches() const {

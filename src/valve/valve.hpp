@@ -46,6 +46,11 @@ struct ValveKind {
   // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
   // states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
+  // Leaflets meet only where their triangles have common vertices, such as at commissures. Other leaflets may touch anywhere, and
+  // then their triangles go through each other by the error of the triangles.
+  bool has_exact_contacts = false;
+  // The leaflet_id of a wall into which hinges reach, or -1.
+  std::int32_t housing = -1;
 };
 
 // Returns the kind of that name. Fails with RIIS_INVALID_PARAMETER and names the existing kinds.
@@ -72,6 +77,11 @@ class Valve {
 
   // Fails unless the other valve equals this one in all but the opening. Names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
+
+  // Returns whether the shape is that of the kind's defaults: the user chose at most the opening.
+  bool has_default_shape() const;
+  // Returns a number for the shape, whatever the opening. Another shape has another number, as good as surely. Never 0.
+  std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
   PatchSet make_patches() const;

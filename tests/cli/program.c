@@ -13,7 +13,8 @@
 #include "vtk_shim.h"
 
 int program_exit_code;
-char program_out[longest_output], program_err[longest_output], program_leaks[longest_output];
+char program_out[longest_output], program_err[longest_output], program_leaks[longest_output],
+    program_crossings[longest_output];
 const char *program_stdout;
 static int out, err; /* of the run in progress */
 
@@ -38,15 +39,17 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* Moves the warnings about leaks to a buffer of its own: most meshes of the tests are so coarse that the valve leaks in them. */
-static void take_leaks(void) {
-  program_leaks[0] = 0;
+/* Moves warnings of two kinds to buffers of their own: most meshes of the tests are so coarse that the valve leaks in them, and
+ * leaflets of many sizes cross. */
+static void take_common_warnings(void) {
+  program_leaks[0] = program_crossings[0] = 0;
   for (char *line = program_err; *line;) {
     char *const end = strchr(line, '\n'), *const next = end ? end + 1 : line + strlen(line);
     const size_t length = (size_t)(next - line);
-    const char *const leaks = strstr(line, " leaks: ");
-    if (strncmp(line, "riis-mark: the surface", 22) == 0 && leaks && leaks < next) {
-      strncat(program_leaks, line, length);
+    const char *const leaks = strstr(line, " leaks: "), *const cross = strstr(line, " go through each other");
+    const int is_leak = strncmp(line, "riis-mark: the surface", 22) == 0 && leaks && leaks < next;
+    if (is_leak || (cross && cross < next)) {
+      strncat(is_leak ? program_leaks : program_crossings, line, length);
       memmove(line, next, strlen(next) + 1);
     } else {
       line = next;
@@ -88,7 +91,7 @@ void finish_program(pid_t process) {
   program_exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   take_text(out, program_out);
   take_text(err, program_err);
-  take_leaks();
+  take_common_warnings();
 }
 
 void run_program(const char *argument, ...) {

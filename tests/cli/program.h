@@ -17,7 +17,8 @@ enum { longest_output = 65536 };
 /* Results of the last run. */
 extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
-extern char program_leaks[longest_output]; /* the warning about leaks, not in program_err; "" if there was none */
+extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if there was none */
+extern char program_crossings[longest_output]; /* the same of leaflets that cross */
 
 /* The place for the program's stdout instead of program_out: the path of a file, or "" for a closed stdout. NULL at first. */
 extern const char *program_stdout;

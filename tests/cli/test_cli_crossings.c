@@ -30,8 +30,10 @@ static const char *write_squares(void) {
 /* Checks that the program succeeds, with this as the beginning of one line on stderr. */
 static void expect_warning(const char *begins) {
   assert_int_equal(program_exit_code, 0);
-  if (strncmp(program_err, begins, strlen(begins)) != 0) fail_msg("stderr has \"%s\", not \"%s\"", program_err, begins);
-  assert_ptr_equal(strchr(program_err, '\n'), program_err + strlen(program_err) - 1);
+  assert_string_equal(program_err, "");
+  if (strncmp(program_crossings, begins, strlen(begins)) != 0)
+    fail_msg("stderr has \"%s\", not \"%s\"", program_crossings, begins);
+  assert_ptr_equal(strchr(program_crossings, '\n'), program_crossings + strlen(program_crossings) - 1);
 }
 
 static void the_first_opening_is_named(void **state) {
@@ -39,7 +41,7 @@ static void the_first_opening_is_named(void **state) {
   const char *file = write_squares();
   run_program("--valve", file, "--check-crossing", NULL);
   expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.25: ");
-  assert_non_null(strstr(program_err,
+  assert_non_null(strstr(program_crossings,
                          " of triangles go through each other, along a length of 1; the deepest is 0.005 deep, "
                          "at 0.5 "));
   assert_non_null(strstr(program_out, "crossing  "));
@@ -58,13 +60,15 @@ static void a_given_opening_is_the_only_one(void **state) {
   RUN_FINE("--valve", file, "--check-crossing", "--set", "opening=0.2");
   run_program("--valve", file, "--check-crossing", "--opening", "0.5", NULL);
   expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
-  /* Without the option nobody looks. */
-  RUN_FINE("--valve", file, "--opening", "0.5", "--surface-output", scratch_path("crossed.vtp"));
-  assert_null(strstr(program_out, "crossing"));
+  /* Without the option the state that the user gave does not count. */
+  run_program("--valve", file, "--opening", "0.5", "--surface-output", scratch_path("crossed.vtp"), NULL);
+  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
+  run_program("--valve", file, "--opening", "0.1", "--surface-output", scratch_path("sound.vtp"), NULL);
+  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
   /* A file has one state. */
   run_program("--surface", scratch_path("crossed.vtp"), "--check-crossing", NULL);
   expect_warning("riis-mark: leaflets 0 and 1 cross: ");
-  assert_non_null(strstr(program_err, "along a length of 1; "));
+  assert_non_null(strstr(program_crossings, "along a length of 1; "));
 }
 
 static void numbers_are_those_of_the_c_interface(void **state) {
@@ -114,7 +118,8 @@ static void the_library_s_valves_do_not_cross(void **state) {
     RUN_FINE("--valve", files[file], "--check-crossing");
     assert_non_null(strstr(program_out, all));
   }
-  static const char *const parameters[] = {RIIS_EXAMPLES "/valves/pulmonary.json", RIIS_EXAMPLES "/valves/stenotic.json"};
+  static const char *const parameters[] = {RIIS_EXAMPLES "/valves/pulmonary.json",
+                                           RIIS_EXAMPLES "/valves/stenotic.json"};
   for (int file = 0; file < 2; ++file) {
     RUN_FINE("--valve", "trileaflet", "--params", parameters[file], "--check-crossing");
     assert_non_null(strstr(program_out, all));
@@ -123,6 +128,107 @@ static void the_library_s_valves_do_not_cross(void **state) {
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
   RUN_FINE("--params-open", scratch_path("open.json"), "--check-crossing");
   assert_non_null(strstr(program_out, all));
+}
+
+/* ---- Shapes that the user chose ---- */
+
+#define TALL "--valve", "trileaflet", "--set", "leaflet_height=1.3"
+
+static const char tall_crosses[] = "riis-mark: leaflets right and non-coronary cross at opening 0: ";
+static const char advice[] = "; change the sizes, and look at all openings by --check-crossing\n";
+
+static void expect_tall(const char *begins) {
+  expect_warning(begins);
+  assert_non_null(strstr(program_crossings, advice));
+}
+
+/* Numbers are those of the C interface, and the opening at which the valve is marked does not matter. */
+static void a_chosen_shape_is_looked_at(void **state) {
+  (void)state;
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_crossings by_c;
+  char pairs[128];
+  expect_fine(riis_valve_create("trileaflet", &valve));
+  expect_fine(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
+  expect_fine(riis_valve_set_scalar(valve, "opening", 0));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  expect_fine(riis_find_crossings(surface, NULL, &by_c, sizeof by_c));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  assert_true(by_c.n_pairs > 50);
+  snprintf(pairs, sizeof pairs, "%s%lld pairs of triangles", tall_crosses, (long long)by_c.n_pairs);
+  const char *const openings[] = {"0", "0.7", "1"};
+  for (int i = 0; i < 3; ++i) {
+    run_program(scratch_path("in.vtu"), TALL, "--opening", openings[i], "--quiet", "--stats", "-", NULL);
+    expect_tall(pairs);
+    const char *json = strstr(program_out, "\"crossings\"");
+    assert_non_null(json);
+    assert_true(json_number(json, "n_openings") == 1 && json_number(json, "opening") == 0);
+    assert_true(json_number(json, "n_pairs") == (double)by_c.n_pairs);
+    assert_true(json_number(json, "depth") == by_c.depth);
+  }
+  run_program(scratch_path("in.vtu"), TALL, "--strict", NULL);
+  assert_int_equal(program_exit_code, 4);
+  /* --check-crossing looks in its own way, and gives no advice to use it. */
+  run_program(TALL, "--check-crossing", NULL);
+  expect_warning(tall_crosses);
+  assert_null(strstr(program_crossings, advice));
+}
+
+/* Every way to choose a shape, and every kind of run. */
+static void every_run_looks(void **state) {
+  (void)state;
+  const char *in = scratch_path("in.vtu");
+  scratch_write_text("tall.json", "{\"leaflet_height\": 1.3}");
+  run_program(in, "--valve", "trileaflet", "--params", scratch_path("tall.json"), NULL);
+  expect_tall(tall_crosses);
+  run_program("--valve", write_squares(), "--surface-output", scratch_path("half_open.vtp"), NULL);
+  expect_tall("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
+  /* The open state alone makes another shape. Closed it is the paper's. */
+  scratch_write_text("turned.json", "{\"right.rotation\": [0, 0, 60]}");
+  run_program(in, "--valve", "aortic", "--params-open", scratch_path("turned.json"), "--opening", "0", NULL);
+  expect_tall("riis-mark: leaflets right and left cross at opening ");
+  run_program(TALL, "--states", scratch_path("states.csv"), "--state-count", "2", NULL);
+  expect_tall(tall_crosses);
+  run_program(TALL, "--export-uris", scratch_path("uris"), "--resistance", "1", "--time-step", "0.01",
+              "--opening-seconds", "0.02", "--closing-seconds", "0.02", NULL);
+  expect_tall(tall_crosses);
+  scratch_write_text("beat.csv", "0,0\n1,1\n");
+  run_program(in, TALL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.5,1", "--output", scratch_path("s.pvd"),
+              "--quiet", NULL);
+  expect_tall(tall_crosses);
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"valves\": ["
+                     "{\"name\": \"a\", \"valve\": \"trileaflet\", \"parameters\": {\"leaflet_height\": 1.3}},"
+                     "{\"name\": \"b\", \"valve\": \"trileaflet\"}]}");
+  run_program("--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"), NULL);
+  expect_tall("riis-mark: a: leaflets right and non-coronary cross at opening 0: ");
+}
+
+/* Placement and opening choose no shape. Hinges reach into a housing, which is sound. */
+static void sound_shapes_are_not_named(void **state) {
+  (void)state;
+  static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+  const char *in = scratch_path("in.vtu");
+  for (int kind = 0; kind < 4; ++kind) {
+    RUN_FINE(in, "--valve", kinds[kind], "--opening", "0.4", "--rotate", "1,0,0,10", "--translate", "0,0,0.1",
+             "--half-thickness", "0.2", "--stats", "-");
+    assert_string_equal(program_crossings, "");
+    assert_null(strstr(program_out, "\"crossings\""));
+  }
+  RUN_FINE(in, "--valve", "bileaflet", "--set", "ring_height=0.5", "--stats", "-");
+  assert_string_equal(program_crossings, "");
+  assert_true(json_number(strstr(program_out, "\"crossings\""), "n_openings") == 3);
+  run_program("--valve", "bileaflet", "--set", "ring_height=0.5", "--check-crossing", NULL);
+  assert_true(program_crossings[0] != 0);
+  RUN_FINE(in, "--valve", "mitral", "--set", "anterior_length=2.2", "--triangulation", "fixed");
+  assert_string_equal(program_crossings, "");
+  static const char *const files[] = {RIIS_EXAMPLES "/prosthesis.json", RIIS_EXAMPLES "/valves/bicuspid.json"};
+  for (int file = 0; file < 2; ++file) {
+    RUN_FINE(in, "--valve", files[file], "--allow-none");
+    assert_string_equal(program_crossings, "");
+  }
 }
 
 static void what_has_no_effect_is_refused(void **state) {
@@ -139,6 +245,8 @@ int main(void) {
       cmocka_unit_test(the_first_opening_is_named),           cmocka_unit_test(a_given_opening_is_the_only_one),
       cmocka_unit_test(numbers_are_those_of_the_c_interface), cmocka_unit_test(a_leaflet_may_cross_itself),
       cmocka_unit_test(the_library_s_valves_do_not_cross),    cmocka_unit_test(what_has_no_effect_is_refused),
+      cmocka_unit_test(a_chosen_shape_is_looked_at),          cmocka_unit_test(every_run_looks),
+      cmocka_unit_test(sound_shapes_are_not_named),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -63,11 +63,12 @@ static double *corners_of(const riis_surface *surface, int leaflet, int *n_found
   return corners;
 }
 
+/* n_more triangles, which only widen the solver's box, come after those of the library. */
 static void check_frame(const uris_face *face, const double *frame, const riis_surface *surface, int leaflet,
-                        double scale) {
+                        int n_more, double scale) {
   int n = 0;
   double *corners = corners_of(surface, leaflet, &n);
-  assert_int_equal(face->n_triangles, n);
+  assert_int_equal(face->n_triangles, n + n_more);
   for (int i = 0; i < 9 * n; ++i) CHECK_NEAR(frame[3 * face->corner[i / 3] + i % 3], corners[i], 1e-11 * scale);
   free(corners);
 }
@@ -94,16 +95,16 @@ static void check_positions(const char *kind, const place *where, riis_valve *va
     const double s = k < n_open ? k / 5.0 : fmin((k - n_open) / 2.5, 1);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", k < n_open ? ramp(s) : 1 - ramp(s)));
     CHECK_OK(riis_surface_update(surface, valve, NULL));
-    for (int f = 0; f < exported.n_faces; ++f) {
+    for (int f = 0; f < exported.n_leaflets; ++f) {
       const uris_face *face = &exported.face[f];
       assert_int_equal(face->n_open, n_open);
       assert_int_equal(face->n_close, n_close);
       check_frame(face, k < n_open ? uris_frame(face, face->open, k) : uris_frame(face, face->close, k - n_open),
-                  surface, f, where->scale);
+                  surface, f, 0, where->scale);
     }
     if (exported.has_scaffold)
-      check_frame(&exported.face[exported.n_faces], exported.face[exported.n_faces].xyz, surface, exported.n_faces,
-                  where->scale);
+      check_frame(&exported.face[exported.n_faces], exported.face[exported.n_faces].xyz, surface, exported.n_leaflets,
+                  3, where->scale);
   }
   riis_surface_destroy(&surface);
   assert_string_equal(exported.name, kind);
@@ -137,7 +138,7 @@ static void check_normal(const char *kind, const place *where) {
 
 static const struct {
   const char *kind, *face[3], *set;
-  int n_faces;
+  int n_leaflets;
 } kinds[] = {{"aortic", {"right", "left", "non_coronary"}, "root_radius=1.4", 3},
              {"trileaflet", {"right", "left", "non_coronary"}, "leaflet_height=1.15", 3},
              {"mitral", {"anterior", "posterior"}, "anterior_length=2.2", 2},
@@ -159,8 +160,9 @@ static void test_positions(void **state) {
       char folder[64];
       snprintf(folder, sizeof folder, "%s_%d", kinds[i].kind, k);
       EXPORT(folder, RAMPS, "--valve", kinds[i].kind, "--set", kinds[i].set, w[0], w[1], w[2], w[3], w[4], w[5]);
-      assert_int_equal(exported.n_faces, kinds[i].n_faces);
-      for (int f = 0; f < exported.n_faces; ++f) assert_string_equal(exported.face[f].name, kinds[i].face[f]);
+      assert_int_equal(exported.n_leaflets, kinds[i].n_leaflets);
+      assert_int_equal(exported.n_faces, kinds[i].n_leaflets + 1);
+      for (int f = 0; f < exported.n_leaflets; ++f) assert_string_equal(exported.face[f].name, kinds[i].face[f]);
       assert_int_equal(exported.has_scaffold, strcmp(kinds[i].kind, "bileaflet") == 0);
       check_positions(kinds[i].kind, &places[k], valve);
       check_normal(kinds[i].kind, &places[k]);
@@ -284,7 +286,7 @@ static void test_largest_edge(void **state) {
     uris_valve coarse = exported;
     int n_more = 0;
     EXPORT(fine_folder, RAMPS, "--valve", valves[v], "--largest-edge", "0.18");
-    for (int f = 0; f < exported.n_faces; ++f) {
+    for (int f = 0; f < exported.n_leaflets; ++f) {
       const uris_face *fine = &exported.face[f], *was = &coarse.face[f];
       n_more += fine->n_triangles - was->n_triangles;
       for (int k = 0; k < fine->n_open; ++k) {
@@ -323,6 +325,7 @@ static rule_marks marks_of_closed(const char *kind) {
   riis_surface *surface = surface_at(&places[0], valve);
   riis_surface_info info;
   CHECK_OK(riis_surface_get_info(surface, &info, sizeof info));
+  uris_state state = uris_state_of(&exported, exported.n_faces, 1, exported.face[0].n_close - 1);
   double p[3];
   for (p[0] = info.lower[0] - eps; p[0] < info.upper[0] + eps; p[0] += step)
     for (p[1] = info.lower[1] - eps; p[1] < info.upper[1] + eps; p[1] += step)
@@ -330,7 +333,8 @@ static rule_marks marks_of_closed(const char *kind) {
         riis_closest closest;
         CHECK_OK(riis_closest_point(surface, p, &closest, sizeof closest));
         if (closest.distance > 3 * eps) continue;
-        const double by_rule = uris_distance(&exported, 0, 1, p), d = fabs(by_rule);
+        double d = INFINITY;
+        const int nearest = uris_nearest(&state, p, &d);
         found.n_marked += closest.distance <= eps;
         found.n_lost += closest.distance <= eps && d > eps;
         found.n_more += closest.distance > eps && d <= eps;
@@ -340,8 +344,9 @@ static rule_marks marks_of_closed(const char *kind) {
         assert_true(d >= closest.distance - 1e-12); /* the middles of triangles lie on the surface */
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;
-        found.n_right_side += (by_rule > 0) == (closest.side > 0);
+        found.n_right_side += uris_sign(&exported, &state, nearest, 1, p) == (closest.side > 0 ? 1 : -1);
       }
+  uris_state_free(&state);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   return found;
@@ -374,9 +379,135 @@ static void test_marking_rule(void **state) {
   }
 }
 
+/* ---- The solver's box ---- */
+
+/* A frame with the face that widens the box, and without. */
+typedef struct {
+  int is_closing, n_marked, n_marked_outside, n_of_side[2];
+  uris_state all, leaflets; /* n_marked_outside: outside the box of the leaflets alone */
+} frame;
+
+static random_source rng;
+
+/* Whatever the solver takes from a point, a mark or a part of a pressure band, must be that of the leaflets' triangles, and the
+ * point must lie in the box. */
+static void look_at(frame *at, const double point[3]) {
+  double expected = 0, distance = 0;
+  const int leaflet = uris_nearest(&at->leaflets, point, &expected);
+  if (expected > 5 * exported.thickness) return;
+  assert_true(uris_is_in_box(&at->all, point));
+  assert_int_equal(uris_nearest(&at->all, point, &distance), leaflet);
+  CHECK_SAME(distance, expected);
+  if (distance < exported.thickness) {
+    ++at->n_marked;
+    at->n_marked_outside += !uris_is_in_box(&at->leaflets, point);
+  } else {
+    ++at->n_of_side[uris_sign(&exported, &at->all, leaflet, at->is_closing, point) > 0];
+  }
+}
+
+/* Points around a triangle's middle, from nearly on it to beyond the bands, along the axes and between them. */
+static void look_around(frame *at, const double middle[3]) {
+  for (int towards = 0; towards < 27; ++towards)
+    for (double r = 1e-12; r < 6; r *= 7) {
+      const int step[3] = {towards % 3 - 1, towards / 3 % 3 - 1, towards / 9 - 1};
+      double point[3];
+      for (int k = 0; k < 3; ++k) point[k] = middle[k] + step[k] * r * exported.thickness;
+      look_at(at, point);
+    }
+}
+
+/* Returns the share of the marks outside the box of the leaflets alone. */
+static double check_box_of_frame(int is_closing, int k) {
+  const double eps = exported.thickness;
+  frame at = {is_closing,
+              0,
+              0,
+              {0, 0},
+              uris_state_of(&exported, exported.n_faces, is_closing, k),
+              uris_state_of(&exported, exported.n_leaflets, is_closing, k)};
+  for (int i = 0; i < 1500; ++i) {
+    double point[3];
+    const double reach = random_between(&rng, 0, 5) * eps,
+                 *middle = at.leaflets.middle + 3 * (int)(random_bits(&rng) % (uint64_t)at.leaflets.n);
+    for (int j = 0; j < 3; ++j) point[j] = middle[j] + random_between(&rng, -reach, reach);
+    look_at(&at, point);
+  }
+  assert_true(at.n_marked > 10);
+  const double outside = at.n_marked_outside / (double)at.n_marked;
+  /* Without nodes in a band the solver divides 0 by 0: a closed valve never opens, and an open one, which looks for nodes before
+   * the leaflets, never closes. */
+  assert_true(at.n_of_side[0] > 30 && (!is_closing || at.n_of_side[1] > 30));
+  assert_int_equal(at.all.n - at.leaflets.n, 3);
+  for (int i = at.leaflets.n; i < at.all.n; ++i) look_around(&at, at.all.middle + 3 * i);
+  /* A box that is larger than the bands need costs the solver time. */
+  for (int j = 0; j < 3; ++j)
+    CHECK_AT_MOST(at.all.upper[j] - at.all.lower[j], 1.5 * (at.leaflets.upper[j] - at.leaflets.lower[j]) + 10.5 * eps);
+  uris_state_free(&at.all);
+  uris_state_free(&at.leaflets);
+  return outside;
+}
+
+static void check_box_of_scaffold(void) {
+  uris_state state = uris_scaffold_of(&exported);
+  int n = 0;
+  for (int i = 0; i < 9 * state.n; ++i) {
+    double point[3], distance = 0;
+    for (int j = 0; j < 3; ++j)
+      point[j] = state.middle[i / 9 * 3 + j] + random_between(&rng, -1, 1) * exported.thickness;
+    uris_nearest(&state, point, &distance);
+    if (distance >= exported.thickness) continue;
+    assert_true(uris_is_in_box(&state, point));
+    ++n;
+  }
+  assert_true(n > state.n);
+  uris_state_free(&state);
+}
+
+/* All kinds, along the axes and oblique, with thick and thin bands; a flat prosthesis; a flat patch, whose box has no thickness,
+ * and one that opens into a plane of another axis. */
+static void test_box(void **state) {
+  (void)state;
+  rng = random_start("test_cli_uris");
+  static const char *const shapes[][8] = {
+      {"--valve", "aortic"},
+      {"--valve", "trileaflet"},
+      {"--valve", "trileaflet", "--half-thickness", "0.25"},
+      {"--valve", "mitral"},
+      {"--valve", "bileaflet", "--largest-edge", "0.3"},
+      {"--valve", "bileaflet", "--params", "flat.json", "--half-thickness", "0.25", "--largest-edge", "0.2"},
+      {"--valve", "patch.json", "--largest-edge", "0.2"}};
+  static const char *const turns[] = {"0,0,1,0", "1,2,-1,70"};
+  scratch_write_text("flat.json", "{\"radius\": 1.28, \"closed_angle\": 8, \"ring_height\": 0.6}");
+  scratch_write_text(
+      "patch.json",
+      "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
+      "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}],"
+      "\"open\": {\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,0,-1],[1,0,-1]], \"c\": [[0,0,0],[0,0,-1]],"
+      "\"d\": [[1,0,0],[1,0,-1]]}}}");
+  for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; ++i)
+    for (size_t t = 0; t < sizeof turns / sizeof turns[0]; ++t) {
+      char folder[32];
+      snprintf(folder, sizeof folder, "box_%zu_%zu", i, t);
+      const char *word[8];
+      for (int k = 0; k < 8; ++k)
+        word[k] = shapes[i][k] && strstr(shapes[i][k], ".json") ? scratch_path(shapes[i][k]) : shapes[i][k];
+      EXPORT(folder, RAMPS, "--rotate", turns[t], "--translate", "3,-70,0.001", word[0], word[1], word[2], word[3],
+             word[4], word[5], word[6], word[7]);
+      for (int k = 0; k < exported.face[0].n_open; ++k) check_box_of_frame(0, k);
+      double outside = 0;
+      for (int k = 0; k < exported.face[0].n_close; ++k) outside = check_box_of_frame(1, k);
+      print_message("%s, turned by %s: %.0f %% of the closed valve's marks are outside the box of its leaflets\n",
+                    exported.name, turns[t], 100 * outside);
+      if (exported.has_scaffold && t == 0) assert_true(outside > 0.3);
+      if (exported.has_scaffold) check_box_of_scaffold();
+      uris_free(&exported);
+    }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_positions), cmocka_unit_test(test_vtk),
-                                     cmocka_unit_test(test_velocity), cmocka_unit_test(test_largest_edge),
-                                     cmocka_unit_test(test_marking_rule)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_positions),    cmocka_unit_test(test_vtk),
+                                     cmocka_unit_test(test_velocity),     cmocka_unit_test(test_largest_edge),
+                                     cmocka_unit_test(test_marking_rule), cmocka_unit_test(test_box)};
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -122,6 +122,7 @@ uris_valve uris_read(const char *block) {
     assert_true(valve.n_faces < uris_most_faces);
     uris_face *face = &valve.face[valve.n_faces++];
     assert_int_equal(sscanf(at, "<Add_URIS_face name=\"%63[^\"]\"", face->name), 1);
+    valve.n_leaflets += strcmp(face->name, "box") != 0;
     const char *const face_end = strstr(at, "</Add_URIS_face>");
     assert_non_null(face_end);
     read_face(at, face_end, face);
@@ -158,28 +159,104 @@ const double *uris_frame(const uris_face *face, const double *motion, int k) {
   return motion + 3 * (size_t)face->n_nodes * (size_t)k;
 }
 
-double uris_distance(const uris_valve *valve, int k, int is_closed, const double point[3]) {
-  double nearest = INFINITY, across = 0, along = 0;
-  for (int f = 0; f < valve->n_faces; ++f) {
-    const uris_face *face = &valve->face[f];
-    const double *xyz = uris_frame(face, face->open, k);
-    for (int i = 0; i < face->n_triangles; ++i) {
-      const double *p[3];
-      double from[3], u[3], v[3];
-      for (int c = 0; c < 3; ++c) p[c] = xyz + 3 * face->corner[3 * i + c];
-      for (int j = 0; j < 3; ++j) {
-        from[j] = point[j] - (p[0][j] + p[1][j] + p[2][j]) / 3;
-        u[j] = p[1][j] - p[0][j];
-        v[j] = p[2][j] - p[0][j];
-      }
-      const double distance = sqrt(from[0] * from[0] + from[1] * from[1] + from[2] * from[2]);
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      across = from[0] * (u[1] * v[2] - u[2] * v[1]) + from[1] * (u[2] * v[0] - u[0] * v[2]) +
-               from[2] * (u[0] * v[1] - u[1] * v[0]);
-      along = from[0] * valve->normal[0] + from[1] * valve->normal[1] + from[2] * valve->normal[2];
-    }
+static void add_to_box(uris_state *state, const double *xyz, int n_nodes) {
+  for (int i = 0; i < 3 * n_nodes; ++i) {
+    if (xyz[i] < state->lower[i % 3]) state->lower[i % 3] = xyz[i];
+    if (xyz[i] > state->upper[i % 3]) state->upper[i % 3] = xyz[i];
   }
-  const int is_before = across < 0 && (!is_closed || along < 0);
-  return is_before ? -nearest : nearest;
+}
+
+/* Sums of corners begin at 0, in the order of the corners, and are divided: the bits decide which of two middles is nearer. */
+static void add_triangles(uris_state *state, const uris_face *face, const double *xyz) {
+  const size_t n = (size_t)(state->n + face->n_triangles);
+  state->middle = realloc(state->middle, 3 * n * sizeof *state->middle);
+  state->normal = realloc(state->normal, 3 * n * sizeof *state->normal);
+  for (int i = 0; i < face->n_triangles; ++i, ++state->n) {
+    const double *p[3];
+    double u[3], v[3], *const middle = state->middle + 3 * state->n, *const normal = state->normal + 3 * state->n;
+    for (int c = 0; c < 3; ++c) p[c] = xyz + 3 * face->corner[3 * i + c];
+    for (int j = 0; j < 3; ++j) {
+      middle[j] = 0;
+      for (int c = 0; c < 3; ++c) middle[j] += p[c][j];
+      middle[j] /= 3;
+      u[j] = p[1][j] - p[0][j];
+      v[j] = p[2][j] - p[0][j];
+    }
+    for (int j = 0; j < 3; ++j) normal[j] = u[(j + 1) % 3] * v[(j + 2) % 3] - u[(j + 2) % 3] * v[(j + 1) % 3];
+  }
+}
+
+static uris_state empty_state(void) {
+  return (uris_state){.lower = {INFINITY, INFINITY, INFINITY}, .upper = {-INFINITY, -INFINITY, -INFINITY}};
+}
+
+/* A tenth on each side; a box without thickness gets a tenth of its diagonal. */
+static void widen(uris_state *state) {
+  double side[3], square = 0;
+  for (int j = 0; j < 3; ++j) side[j] = state->upper[j] - state->lower[j], square += side[j] * side[j];
+  for (int j = 0; j < 3; ++j) {
+    const double more = 0.1 * (side[j] > 0 ? side[j] : sqrt(square));
+    state->lower[j] -= more;
+    state->upper[j] += more;
+  }
+}
+
+uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, int k) {
+  uris_state state = empty_state();
+  for (int f = 0; f < n_faces; ++f) {
+    const uris_face *face = &valve->face[f];
+    const double *xyz = uris_frame(face, is_closing ? face->close : face->open, k);
+    add_to_box(&state, xyz, face->n_nodes);
+    add_triangles(&state, face, xyz);
+  }
+  widen(&state);
+  return state;
+}
+
+uris_state uris_scaffold_of(const uris_valve *valve) {
+  uris_state state = empty_state();
+  const uris_face *face = &valve->face[valve->n_faces];
+  add_to_box(&state, face->xyz, face->n_nodes);
+  add_triangles(&state, face, face->xyz);
+  widen(&state);
+  return state;
+}
+
+void uris_state_free(uris_state *state) {
+  free(state->middle);
+  free(state->normal);
+  *state = empty_state();
+}
+
+int uris_nearest(const uris_state *state, const double point[3], double *distance) {
+  int nearest = -1;
+  *distance = INFINITY;
+  for (int i = 0; i < state->n; ++i) {
+    double square = 0;
+    for (int j = 0; j < 3; ++j) {
+      const double from = point[j] - state->middle[3 * i + j];
+      square += from * from;
+    }
+    const double d = sqrt(square);
+    if (!(d < *distance)) continue;
+    *distance = d;
+    nearest = i;
+  }
+  return nearest;
+}
+
+int uris_is_in_box(const uris_state *state, const double point[3]) {
+  for (int j = 0; j < 3; ++j)
+    if (point[j] < state->lower[j] || point[j] > state->upper[j]) return 0;
+  return 1;
+}
+
+int uris_sign(const uris_valve *valve, const uris_state *state, int triangle, int is_closing, const double point[3]) {
+  double across = 0, along = 0;
+  for (int j = 0; j < 3; ++j) {
+    const double from = point[j] - state->middle[3 * triangle + j];
+    across += from * state->normal[3 * triangle + j];
+    along += from * valve->normal[j];
+  }
+  return across < 0 && (!is_closing || along < 0) ? -1 : 1;
 }

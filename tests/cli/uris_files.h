@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-enum { uris_most_faces = 4 };
+enum { uris_most_faces = 5 };
 
 /* One face of the solver's input: triangles, and positions (3, n_nodes) frame after frame. */
 typedef struct {
@@ -20,8 +20,8 @@ typedef struct {
 /* What the solver's input says of a valve. */
 typedef struct {
   char name[64];
-  int n_faces, has_scaffold;
-  uris_face face[uris_most_faces]; /* the scaffold comes after the faces; it has no motion */
+  int n_faces, n_leaflets, has_scaffold; /* faces: leaflets, then the one that widens the box */
+  uris_face face[uris_most_faces];       /* the scaffold comes after the faces; it has no motion */
   double thickness, closed_thickness, resistance, normal[3];
 } uris_valve;
 
@@ -35,8 +35,24 @@ double uris_number(const char *block, const char *element);
 /* Frame k of a motion, (3, n_nodes). */
 const double *uris_frame(const uris_face *face, const double *motion, int k);
 
-/* The solver's signed distance of a point, in frame k of the opening: to the nearest middle of a triangle. The sign is that of
- * the nearest triangle's face, and in a closed valve also that of the direction of flow. */
-double uris_distance(const uris_valve *valve, int k, int is_closed, const double point[3]);
+/* One frame as the solver sees it: its box, and all triangles of the faces in turn. */
+typedef struct {
+  int n;
+  double lower[3], upper[3];
+  double *middle, *normal; /* (3, n): the mean of the corners, and a vector of any length across */
+} uris_state;
+
+/* Frame k of the closing, or of the opening, with the first n_faces faces. The caller frees it. */
+uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, int k);
+/* The same of the scaffold, at rest. */
+uris_state uris_scaffold_of(const uris_valve *valve);
+void uris_state_free(uris_state *state);
+
+/* The first triangle whose middle is nearest to a point, and its distance. */
+int uris_nearest(const uris_state *state, const double point[3], double *distance);
+/* Whether the solver looks at a node there at all. */
+int uris_is_in_box(const uris_state *state, const double point[3]);
+/* The sign that the solver gives to a distance: that of a triangle's face, and in a valve that closes also that of the flow. */
+int uris_sign(const uris_valve *valve, const uris_state *state, int triangle, int is_closing, const double point[3]);
 
 #endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Says to the log once that the leaflets of a shape which the user chose go through each other.
+// In: the valve and its new surface. Out: a message or none.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "distance/surface.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+
+class CrossingWatch {
+ public:
+  // Looks at the first surface of each shape, if there is a log function. Otherwise it allocates nothing and costs nothing. It
+  // never fails, because the surface is good: without memory for the search nothing is said.
+  void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
+
+ private:
+  // A caller may go back and forth between some shapes.
+  static constexpr std::size_t n_remembered = 8;
+
+  std::array<std::uint64_t, n_remembered> looked_at_{};
+  std::size_t next_ = 0;
+};
+
+}  // namespace riis

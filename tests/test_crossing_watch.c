@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The log's warning of leaflets that go through each other: once for each shape that the user chose, against the pairs of
+ * riis_find_crossings. Without a log function nobody searches, which the allocations show. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "sanitized.h"
+
+/* Every vector of the process comes by here, because an executable's symbols go before those of the libraries. A sanitizer's
+ * allocator must be the only one. */
+static int64_t n_allocations;
+#ifndef IS_SANITIZED
+void *new_one(size_t size) __asm__("_Znwm");
+void *new_one(size_t size) {
+  void *p = malloc(size ? size : 1);
+  if (!p) abort(); /* C cannot throw */
+  __atomic_fetch_add(&n_allocations, 1, __ATOMIC_RELAXED);
+  return p;
+}
+#endif
+
+typedef struct heard {
+  int n;
+  char last[512];
+} heard;
+static heard warnings;
+
+static void listen(void *user_data, int32_t level, const char *message) {
+  heard *to = user_data;
+  if (level != RIIS_LOG_WARNING) return;
+  ++to->n;
+  snprintf(to->last, sizeof to->last, "%s", message);
+}
+
+static int start_listening(void **state) {
+  (void)state;
+  memset(&warnings, 0, sizeof warnings);
+  riis_set_log(listen, &warnings);
+  return 0;
+}
+
+static int stop_listening(void **state) {
+  riis_set_log(NULL, NULL);
+  return free_owned(state);
+}
+
+static void set(riis_valve *valve, const char *name, double value) {
+  CHECK_OK(riis_valve_set_scalar(valve, name, value));
+}
+
+static void update(riis_surface *surface, const riis_valve *valve) {
+  CHECK_OK(riis_surface_update(surface, valve, NULL));
+}
+
+/* The last warning has the numbers of the search. */
+static void expect_pairs_of(riis_surface *surface) {
+  riis_crossings found;
+  char part[64];
+  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
+  assert_true(found.n_pairs > 0);
+  snprintf(part, sizeof part, ": %lld pair", (long long)found.n_pairs);
+  if (!strstr(warnings.last, part)) fail_msg("'%s' has no '%s'", warnings.last, part);
+  snprintf(part, sizeof part, "up to %.3g deep", found.depth);
+  if (!strstr(warnings.last, part)) fail_msg("'%s' has no '%s'", warnings.last, part);
+}
+
+static void a_shape_is_named_once(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet");
+  set(valve, "leaflet_height", 1.3);
+  riis_surface *surface = new_surface(valve, NULL);
+  assert_int_equal(warnings.n, 1);
+  assert_ptr_equal(strstr(warnings.last, "leaflets 0 and 2 go through each other at opening 0: "), warnings.last);
+  expect_pairs_of(surface);
+  for (int i = 0; i < 100; ++i) {
+    set(valve, "opening", i % 10 / 10.0);
+    set(valve, "leaflet_height", 1.3);
+    if (i % 2 == 0)
+      update(surface, valve);
+    else
+      CHECK_OK(riis_surface_update_moving(surface, valve, valve, 0.1, NULL, NULL));
+  }
+  assert_int_equal(warnings.n, 1);
+  /* Another shape, and the first again. A copy is the same shape. */
+  set(valve, "opening", 0);
+  set(valve, "leaflet_height", 1.29);
+  update(surface, valve);
+  assert_int_equal(warnings.n, 2);
+  expect_pairs_of(surface);
+  set(valve, "leaflet_height", 1.3);
+  riis_valve *copy = NULL;
+  CHECK_OK(riis_valve_copy(valve, &copy));
+  own(copy);
+  update(surface, copy);
+  assert_int_equal(warnings.n, 2);
+  /* Another surface has not looked yet. */
+  new_surface(valve, NULL);
+  assert_int_equal(warnings.n, 3);
+}
+
+/* What the caller found stays the caller's. */
+static void the_search_leaves_no_pairs(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet");
+  set(valve, "leaflet_height", 1.3);
+  riis_surface *surface = new_surface(valve, NULL);
+  int64_t n_pairs = -1;
+  CHECK_OK(riis_surface_crossing_pairs(surface, &n_pairs, NULL, NULL, NULL, NULL));
+  assert_int_equal(n_pairs, 0);
+  assert_int_equal(warnings.n, 1);
+}
+
+static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+
+/* Default shapes at all openings, and shapes that do not cross: the closed mitral leaflets touch, and their fixed triangles go
+ * through each other by less than leaflets that cross. */
+static void sound_shapes_are_not_named(void **state) {
+  (void)state;
+  for (int kind = 0; kind < 4; ++kind)
+    for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {
+      riis_surface_options options = surface_options();
+      options.triangulation = triangulation;
+      riis_valve *valve = new_valve(kinds[kind]);
+      set(valve, "opening", 0);
+      riis_surface *surface = new_surface(valve, &options);
+      for (int i = 1; i <= 10; ++i) set(valve, "opening", i / 10.0), update(surface, valve);
+    }
+  riis_surface_options fixed = surface_options();
+  fixed.triangulation = RIIS_TRIANGULATION_FIXED;
+  riis_valve *valve = new_valve("mitral");
+  set(valve, "opening", 0);
+  set(valve, "anterior_length", 2.2);
+  riis_surface *surface = new_surface(valve, &fixed);
+  riis_crossings found;
+  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
+  assert_true(found.n_pairs > 0);
+  /* Hinges reach into the housing. */
+  valve = new_valve("bileaflet");
+  set(valve, "ring_height", 0.5);
+  set(valve, "opening", 0.5);
+  surface = new_surface(valve, NULL);
+  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
+  assert_true(found.n_pairs > 0 && found.leaflet_id[1] == RIIS_LEAFLET_HOUSING);
+  assert_int_equal(warnings.n, 0);
+}
+
+/* A unit square lies at z = 0, another stands through it: one leaflet or two. */
+static void patches_are_a_shape_of_the_user(void **state) {
+  (void)state;
+  for (int32_t second = 0; second < 2; ++second) {
+    const double control[] = {0,  0,  0, 1,  0,  0, 0,   1,  0,  1,  1,   0,  0,   0,   0,  0,
+                              1,  0,  1, 0,  0,  1, 1,   0,  .5, 0,  -.4, .5, 1,   -.4, .5, 0,
+                              .6, .5, 1, .6, .5, 0, -.4, .5, 0,  .6, .5,  1,  -.4, .5,  1,  .6};
+    const int32_t degree[] = {1, 1, 1, 1, 1, 1, 1, 1}, curve_id[] = {0, 1, 2, 3, 4, 5, 6, 7},
+                  leaflet_id[] = {0, second};
+    riis_patches patches;
+    riis_valve *valve = NULL;
+    CHECK_OK(riis_patches_init(&patches, sizeof patches));
+    patches.n_curves = 8;
+    patches.degree = degree;
+    patches.control = control;
+    patches.n_patches = 2;
+    patches.curve_id = curve_id;
+    patches.leaflet_id = leaflet_id;
+    CHECK_OK(riis_valve_create_from_patches(&patches, &valve));
+    own(valve);
+    new_surface(valve, NULL);
+    assert_int_equal(warnings.n, second + 1);
+    assert_non_null(
+        strstr(warnings.last, second ? "leaflets 0 and 1 go through each other" : "leaflet 0 goes through"));
+  }
+}
+
+/* The state to open to is a part of the shape. */
+static void an_open_state_makes_another_shape(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
+  set(valve, "leaflet_height", 1.3);
+  riis_surface *surface = new_surface(valve, NULL);
+  assert_int_equal(warnings.n, 1);
+  set(open, "leaflet_height", 1.3);
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  update(surface, valve);
+  assert_int_equal(warnings.n, 2);
+}
+
+/* Allocations of ten updates, each of another shape, in a surface that has made room. */
+static int64_t allocations_of_updates(double height) {
+  riis_valve *valve = new_valve("trileaflet");
+  riis_surface *surface = new_surface(valve, NULL);
+  int64_t before = 0;
+  for (int i = 0; i < 20; ++i) {
+    if (i == 10) before = n_allocations;
+    if (height > 0) set(valve, "leaflet_height", height - 1e-9 * i);
+    update(surface, valve);
+  }
+  return n_allocations - before;
+}
+
+static void nobody_searches_in_silence(void **state) {
+  (void)state;
+  riis_set_log(NULL, NULL);
+  const int64_t of_default = allocations_of_updates(0), in_silence = allocations_of_updates(1.3);
+  riis_set_log(listen, &warnings);
+  const int64_t of_default_heard = allocations_of_updates(0);
+  assert_int_equal(warnings.n, 0);
+  const int64_t heard_all = allocations_of_updates(1.3);
+  assert_int_equal(warnings.n, 20);
+  print_message("allocations of 10 updates: default %lld, another shape in silence %lld, heard %lld\n",
+                (long long)of_default, (long long)in_silence, (long long)heard_all);
+  assert_true(of_default_heard == of_default && in_silence <= of_default);
+#ifndef IS_SANITIZED
+  assert_true(heard_all > in_silence + 10);
+#endif
+  /* A log function that comes later hears of a shape that was there before. */
+  riis_set_log(NULL, NULL);
+  riis_valve *valve = new_valve("trileaflet");
+  set(valve, "leaflet_height", 1.3);
+  riis_surface *surface = new_surface(valve, NULL);
+  update(surface, valve);
+  riis_set_log(listen, &warnings);
+  update(surface, valve);
+  assert_int_equal(warnings.n, 21);
+}
+
+int main(void) {
+#define HEARD(test) cmocka_unit_test_setup_teardown(test, start_listening, stop_listening)
+  const struct CMUnitTest tests[] = {HEARD(a_shape_is_named_once),
+                                     HEARD(the_search_leaves_no_pairs),
+                                     HEARD(sound_shapes_are_not_named),
+                                     HEARD(patches_are_a_shape_of_the_user),
+                                     HEARD(an_open_state_makes_another_shape),
+                                     HEARD(nobody_searches_in_silence)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
