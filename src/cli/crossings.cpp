@@ -118,7 +118,7 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
   check(riis_valve_set_scalar(valve, "opening", opening));
   riis_surface *surface = nullptr;
   const riis_status status = riis_surface_create(valve, &how, &surface);
-  if (status != RIIS_INVALID_PARAMETER) check(status);
+  if (status != RIIS_INVALID_PARAMETER && status != RIIS_LIMIT_EXCEEDED) check(status);
   return Surface(surface);
 }
 
@@ -158,7 +158,7 @@ std::optional<CrossingReport> check_shape(const Options &options, const riis_val
                       "; change the sizes, and look at all openings by --check-crossing");
     return report;
   }
-  return report;
+  return report.n_openings > 0 ? std::optional(report) : std::nullopt;
 }
 
 }  // namespace riis::cli
