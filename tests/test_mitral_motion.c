@@ -13,7 +13,8 @@
 static random_source rng;
 
 /* The parameters by name. */
-#define FIELD(name) {#name, offsetof(mitral_parameters, name)}
+#define FIELD(name) \
+  { #name, offsetof(mitral_parameters, name) }
 static const struct {
   const char *name;
   size_t at;

@@ -387,7 +387,9 @@ static void opens_from_one_state_to_another(void **state) {
     CHECK_OK(riis_valve_set_open_state(valve, second));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     CHECK_OK(riis_valve_set_scalar(first, "opening", 0));
-    CHECK_SAME(area_of(valve), area_of(first));
+    /* Vertices of the aortic valve follow its motion, which the ends alone do not have. */
+    const double off = i == 0 ? 1e-3 : 0;
+    CHECK_NEAR(area_of(valve), area_of(first), off);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
     const double half_open = area_of(valve);
     riis_surface *surface = new_surface(valve, NULL);
@@ -395,7 +397,7 @@ static void opens_from_one_state_to_another(void **state) {
     free_one_owned(surface);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
     if (i == 1) CHECK_OK(riis_valve_set_scalar(second, "opening", 1));
-    CHECK_SAME(area_of(valve), area_of(second));
+    CHECK_NEAR(area_of(valve), area_of(second), off);
     assert_true(half_open != area_of(valve) && half_open != area_of(first));
     /* The second state was copied. */
     const double open = area_of(valve);

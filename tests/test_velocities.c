@@ -28,8 +28,8 @@ static double largest_speed(const riis_surface *surface) {
 
 /* The corners, the middles of the edges and the centre of a triangle. */
 enum { n_weights = 7, n_corners = 3 };
-static const double weights[n_weights][3] = {{1, 0, 0},     {0, 1, 0},     {0, 0, 1},           {0.5, 0.5, 0},
-                                             {0, 0.5, 0.5}, {0.5, 0, 0.5}, {1. / 3, 1. / 3, 1. / 3}};
+static const double weights[n_weights][3] = {
+    {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {1. / 3, 1. / 3, 1. / 3}};
 
 static void interpolate(const double *values, int n_values, const int64_t *corner, const double *weight, double *made) {
   for (int x = 0; x < n_values; ++x) {
@@ -88,12 +88,12 @@ static void velocities_follow_the_smooth_valve(void **state) {
           const compared here = compare(surface, motion, fine ? 97 : i < 2 ? 1 : 8);
           smooth_motion_destroy(motion);
           if (here.vertices > 0.01 || here.inside > 0.02)
-            fail_msg("%s at %d, triangulation %d, tolerance %g: off by %.3g at a vertex, by %.3g inside", kinds[kind], at, fixed,
-                     options.tolerance, here.vertices, here.inside);
+            fail_msg("%s at %d, triangulation %d, tolerance %g: off by %.3g at a vertex, by %.3g inside", kinds[kind],
+                     at, fixed, options.tolerance, here.vertices, here.inside);
           worst.vertices = fmax(worst.vertices, here.vertices), worst.inside = fmax(worst.inside, here.inside);
         }
-        printf("%s, triangulation %d, tolerance %g: at most %.2f %% off at vertices, %.2f %% inside triangles\n", kinds[kind],
-               fixed, options.tolerance, 100 * worst.vertices, 100 * worst.inside);
+        printf("%s, triangulation %d, tolerance %g: at most %.2f %% off at vertices, %.2f %% inside triangles\n",
+               kinds[kind], fixed, options.tolerance, 100 * worst.vertices, 100 * worst.inside);
         free_owned_after(owned_before);
       }
 }
@@ -104,10 +104,12 @@ typedef struct value {
   const char *name;
   double low, high;
 } value;
-static const value aortic_values[] = {{"opening", 0, 1},          {"root_radius", 1.2, 1.4}, {"leaflet_height", 0.95, 1.1},
-                                      {"bending_height", 0.6, 0.75}, {"xq", -0.3, 0},           {"open_radius_ratio", 0.6, 0.9}};
-static const value trileaflet_values[] = {{"opening", 0, 1},          {"root_radius", 1.15, 1.35}, {"leaflet_height", 1.1, 1.3},
-                                          {"bending_height", 0.5, 0.7}, {"zq", -0.4, -0.2},          {"open_radius_ratio", 0.7, 0.9}};
+static const value aortic_values[] = {
+    {"opening", 0, 1}, {"root_radius", 1.2, 1.4},      {"leaflet_height", 0.95, 1.1}, {"bending_height", 0.6, 0.75},
+    {"xq", -0.3, 0},   {"open_radius_ratio", 0.6, 0.9}};
+static const value trileaflet_values[] = {
+    {"opening", 0, 1},  {"root_radius", 1.15, 1.35},    {"leaflet_height", 1.1, 1.3}, {"bending_height", 0.5, 0.7},
+    {"zq", -0.4, -0.2}, {"open_radius_ratio", 0.7, 0.9}};
 static const value mitral_values[] = {{"opening", 0, 1}, {"surface_angle", -30, 30}, {"anterior_ratio", 0.36, 0.45}};
 static const value bileaflet_values[] = {{"opening", 0, 1}, {"closed_angle", 20, 35}};
 static const struct {
@@ -132,8 +134,8 @@ static void place(const riis_surface_options *by, const double *p, double *place
 }
 
 /* The largest difference from the smooth motion at equal patch, u and v. */
-static double farthest_at_labels(const riis_surface *surface, const smooth_motion *motion, const riis_surface_options *now,
-                                 const riis_surface_options *then, double seconds) {
+static double farthest_at_labels(const riis_surface *surface, const smooth_motion *motion,
+                                 const riis_surface_options *now, const riis_surface_options *then, double seconds) {
   const surface_content c = surface_content_of(surface);
   const double *velocity = velocity_of(surface);
   double farthest = 0;
@@ -190,8 +192,8 @@ static void the_bound_holds_for_any_motion(void **state) {
     smooth_motion_destroy(motion);
     assert_true(bound >= 0 && bound < 1e300);
     if (off > bound + 1e-9 * options.scale / seconds)
-      fail_msg("trial %d, %s: off by %.9g, more than the bound %.9g; the largest speed is %.3g", trial, kinds[kind], off, bound,
-               speed);
+      fail_msg("trial %d, %s: off by %.9g, more than the bound %.9g; the largest speed is %.3g", trial, kinds[kind],
+               off, bound, speed);
     if (off > 1e-6 * speed) least_ratio = fmin(least_ratio, bound / off);
     CHECK_OK(riis_surface_update(surface, valve, NULL));
     assert_true(info_of(surface).velocity_error_bound == 0); /* a plain update drops the motion */
@@ -230,7 +232,8 @@ static void the_bound_is_near(void **state) {
   const double off = farthest_at_labels(surface, motion, &options, &options, 0.001);
   smooth_motion_destroy(motion);
   const double bound = info_of(surface).velocity_error_bound;
-  printf("flat leaflets that bend: off by %.3g, the bound is %.3g, the largest speed %.3g\n", off, bound, largest_speed(surface));
+  printf("flat leaflets that bend: off by %.3g, the bound is %.3g, the largest speed %.3g\n", off, bound,
+         largest_speed(surface));
   assert_true(off > 0.3);
   CHECK_AT_MOST(off, bound);
   CHECK_AT_MOST(bound, 3 * off);

@@ -21,8 +21,8 @@ struct PatchSides {
 // keeps its own vertex. So there are no sliver quads, and no vertex of a shared curve is lost or moved: neighbouring
 // patches stay without cracks.
 struct GridLine {
-  double t0, t1;  // parameter on the first and the second side that the line ends on
-  double middle;  // their mean: the line's u (or v)
+  double t0, t1;                                // parameter on the first and the second side that the line ends on
+  double middle;                                // their mean: the line's u (or v)
   bool is_vertex0 = false, is_vertex1 = false;  // whether it ends on a vertex there
 };
 

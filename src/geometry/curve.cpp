@@ -213,10 +213,10 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
     const double along = dot(at.tangent, at.second);
     // The curvature vector, and its rate; the second derivative by the share is it times the length squared.
     const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
-    const Vec3 curvature_rate =
-        inverse * inverse *
-            (second_rate - along * tangent_rate - (dot(tangent_rate, at.second) + dot(at.tangent, second_rate)) * at.tangent) -
-        2 * inverse * speed_rate * curvature;
+    const Vec3 curvature_rate = inverse * inverse *
+                                    (second_rate - along * tangent_rate -
+                                     (dot(tangent_rate, at.second) + dot(at.tangent, second_rate)) * at.tangent) -
+                                2 * inverse * speed_rate * curvature;
     view(bend_)[k] =
         riis::length(2 * curve_length * rate_total * curvature + curve_length * curve_length * curvature_rate);
   }

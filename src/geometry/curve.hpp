@@ -77,7 +77,7 @@ class VelocityBend {
   double at(double u, std::size_t cell) const;
 
   static constexpr std::size_t n_cells = 8;
-  std::array<double, n_cells + 1> u_;  // shares of the length at the ends of the cells
+  std::array<double, n_cells + 1> u_;     // shares of the length at the ends of the cells
   std::array<double, n_cells + 1> bend_;  // the velocity's second derivative by the share
 };
 

@@ -36,9 +36,7 @@ Polyline polyline_of(Flattened flattened, const Curve &curve) {
 
 }  // namespace
 
-Polyline make_polyline(const Curve &curve, double max_error) {
-  return polyline_of(flatten(curve, max_error), curve);
-}
+Polyline make_polyline(const Curve &curve, double max_error) { return polyline_of(flatten(curve, max_error), curve); }
 
 Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend) {
   if (!(curve.length() > 0)) return make_polyline(curve, max_error);

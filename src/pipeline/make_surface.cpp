@@ -68,7 +68,8 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   // Triangles become the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   if (motion)
-    surface.moved_between({std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
+    surface.moved_between(
+        {std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);
     surface.measure_by(std::move(distance), difference);

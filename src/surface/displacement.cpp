@@ -25,7 +25,8 @@ class MovedSide {
 
   // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the points of now that are known already;
   // `unknown` says which are not, ascending, with the first and the last of all if there are any.
-  Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points, const Vector<std::size_t> &unknown) const {
+  Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
+                             const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
       Vector<double> shares_unknown;
       shares_unknown.reserve(unknown.size());
@@ -130,8 +131,7 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
   if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
     return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
   Vector<Vec3> made = offsets_at(moved.now, patch_now, base.points_now(u), edge.points_now(u));
-  const Vector<Vec3> before =
-      offsets_at(moved.before, patch_before, base.points_before(u), edge.points_before(u));
+  const Vector<Vec3> before = offsets_at(moved.before, patch_before, base.points_before(u), edge.points_before(u));
   for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i];
   return made;
 }
@@ -157,7 +157,8 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
     offsets_ = offset_displacements(moved, u_lines.middle());
   } else {
     sides_.u0 = displacements_of(moved, {&Patch::u0, &GridLine::t0, &GridLine::is_vertex0, first, n_u}, v_lines);
-    sides_.u1 = displacements_of(moved, {&Patch::u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
+    sides_.u1 =
+        displacements_of(moved, {&Patch::u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
   }
   column_ = u_lines.places(), row_ = v_lines.places();
   u_ = u_lines.middle(), v_ = v_lines.middle();
@@ -183,7 +184,10 @@ ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placem
 
 ImageMotion::ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                          const Motion &motion)
-    : now_(map_of(now, placement_now)), difference_(now_), seconds_(motion.seconds), scale_before_(motion.placement_before.scale) {
+    : now_(map_of(now, placement_now)),
+      difference_(now_),
+      seconds_(motion.seconds),
+      scale_before_(motion.placement_before.scale) {
   const AffineMap then = map_of(before, motion.placement_before);
   difference_.linear.row_x = now_.linear.row_x - then.linear.row_x;
   difference_.linear.row_y = now_.linear.row_y - then.linear.row_y;

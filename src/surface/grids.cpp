@@ -24,8 +24,7 @@ double largest_rate(const PatchSet &set) {
 
 class GridMaker {
  public:
-  GridMaker(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
-            bool keeps_lines)
+  GridMaker(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads, bool keeps_lines)
       : set_(set),
         keeps_lines_(keeps_lines),
         max_error_(max_error),

@@ -2,10 +2,9 @@
 #include "surface/velocity_bound.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -18,7 +17,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A quantity on a range of u, in both states at the same u: bounds of its length in either state, and of the length of its change.
+// A quantity on a range of u, in both states at the same u: bounds of its length in either state, and of its change.
 // Products of numbers, dot products and cross products all obey the rule for products.
 struct Both {
   double size, change;
@@ -32,8 +31,9 @@ constexpr double tight_share = 0.9;
 // The inverse of a length that is at least `least`.
 Both inverse(double least, double change) { return {1 / least, change / (least * least)}; }
 
-double larger(double a, double b) { return std::max(a, b); }
-double larger_of(Vec3 a, Vec3 b) { return std::max(length(a), length(b)); }
+// A bound that is not a number, as 0 times infinity, stays: something is not known.
+double larger(double a, double b) { return a >= b || a != a ? a : b; }
+double larger_of(Vec3 a, Vec3 b) { return larger(length(a), length(b)); }
 
 // The least distance of the segment between two points from the origin.
 double least_on_segment(Vec3 a, Vec3 b) {
@@ -59,10 +59,7 @@ struct AlongCurve {
   Both length, value, first, second;
   double size_now, size_before;  // bounds of the curve's second derivative by u in each state
   bool is_tight;                 // false: a narrower range would have much better bounds
-  // The derivatives of the point itself.
-  Both point_first() const { return length * value; }
-  Both point_second() const { return length * first; }
-  Both point_third() const { return length * second; }
+  Both second_of_point() const { return length * first; }
 };
 
 // One state's curve on a range of its parameter: bounds of its derivatives' lengths.
@@ -103,8 +100,10 @@ AlongCurve along(const CurveRange &on) {
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
   const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
   const double by_itself = half * whole * second / (least * least);
-  const double shift = by_itself < 1 ? std::min((at_ends + half * rate_change) / (1 - by_itself), to - from) : to - from;
-  const Both d1{first, change.first + second * shift}, d2{second, change.second + third * shift}, d3{third, change.third};
+  const double shift =
+      by_itself < 1 ? std::min((at_ends + half * rate_change) / (1 - by_itself), to - from) : to - from;
+  const Both d1{first, change.first + second * shift}, d2{second, change.second + third * shift},
+      d3{third, change.third};
   const Both inverse_speed = inverse(least, d1.change), t_first = length * inverse_speed;
   const Both tangent{1, d1.change / least}, across{1, tangent.change};  // across: what projects along the tangent
   const Both inverse_sq = inverse_speed * inverse_speed;
@@ -125,8 +124,12 @@ AlongCurve along(const CurveRange &on) {
 // Returns bounds of two states that have nothing to do with each other.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
-  return {of(now.length, before.length), of(now.value, before.value), of(now.first, before.first),
-          of(now.second, before.second), now.size_now,                before.size_now,
+  return {of(now.length, before.length),
+          of(now.value, before.value),
+          of(now.first, before.first),
+          of(now.second, before.second),
+          now.size_now,
+          before.size_now,
           now.is_tight && before.is_tight};
 }
 
@@ -140,8 +143,13 @@ std::size_t more_at_start(const Curve &curve, const Curve &other) {
 class SideInBoth {
  public:
   SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
-      : now_(now), before_(before), shares_(shares), at_now_(now, false, shares), at_before_(before, false, shares),
-        more_now_(more_at_start(now, before)), more_before_(more_at_start(before, now)) {}
+      : now_(now),
+        before_(before),
+        shares_(shares),
+        at_now_(now, false, shares),
+        at_before_(before, false, shares),
+        more_now_(more_at_start(now, before)),
+        more_before_(more_at_start(before, now)) {}
 
   Vec3 now(std::size_t i) const { return at_now_.point(i); }
   Vec3 before(std::size_t i) const { return at_before_.point(i); }
@@ -149,12 +157,11 @@ class SideInBoth {
   Vec3 tangent_before(std::size_t i) const { return at_before_.tangent(i); }
   const Curve &curve_now() const { return now_; }
   const Curve &curve_before() const { return before_; }
+  double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
   // Returns whether both states are in the same piece between two shares. Otherwise a joint has passed.
-  bool is_same_piece(std::size_t i) const {
-    return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_;
-  }
+  bool is_same_piece(std::size_t i) const { return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_; }
 
   // Returns whether a piece of either state begins at a share.
   bool is_joint(std::size_t i) const {
@@ -176,8 +183,9 @@ class SideInBoth {
     const double length_now = now_.length(), length_before = before_.length();
     if (is_same_piece(i))
       return along({&now, &before, {now0, now1}, {before0, before1}, length_now, length_before, width(i)});
-    return either(along({&now, &now, {now0, now1}, {now0, now1}, length_now, length_now, width(i)}),
-                  along({&before, &before, {before0, before1}, {before0, before1}, length_before, length_before, width(i)}));
+    return either(
+        along({&now, &now, {now0, now1}, {now0, now1}, length_now, length_now, width(i)}),
+        along({&before, &before, {before0, before1}, {before0, before1}, length_before, length_before, width(i)}));
   }
 
  private:
@@ -191,6 +199,10 @@ class SideInBoth {
 void add_joints(const Curve &curve, Vector<double> &shares) {
   for (const double joint : curve.joints()) shares.push_back(joint);
 }
+
+// Ranges are halved at most so often, and no more once there are so many.
+constexpr int most_rounds = 12;
+constexpr std::size_t most_ranges = 1024;
 
 // The lines of a grid, with the joints of curves between them, and with halves of ranges that are too wide for tight bounds.
 class Shares {
@@ -210,9 +222,10 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Returns whether there were any.
+  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Gives up on a curve that never gets tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
+    if (all_.size() > 2 * most_ranges) return false;
     Vector<double> made;
     for (std::size_t i = 0; i + 1 < all_.size(); ++i) {
       made.push_back(all_[i]);
@@ -227,9 +240,6 @@ class Shares {
   const Vector<double> &lines_;
   Vector<double> all_;
 };
-
-// Ranges are halved at most so often.
-constexpr int most_rounds = 12;
 
 Vector<double> shares_of(const Vector<GridLine> &lines, double GridLine::*t) {
   Vector<double> made;
@@ -263,7 +273,7 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
     double error = 0, largest = 0;
     for (std::size_t i = from; i < to; ++i) {
       const AlongCurve on = side.between(i);
-      const double second = side.is_same_piece(i) ? on.point_second().change : on.size_now + on.size_before;
+      const double second = side.is_same_piece(i) ? on.second_of_point().change : on.size_now + on.size_before;
       // Green's function of linear interpolation is at most x (width - x) / width, and its integral width squared / 8.
       const double x0 = shares.all()[i] - start, x1 = shares.all()[i + 1] - start, x = std::clamp(0.5 * width, x0, x1);
       error += (x1 - x0) * x * (width - x) / width * second;
@@ -288,20 +298,23 @@ struct ArcRangeInBoth {
 ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::size_t i) {
   const AlongCurve b = base.between(i), e = edge.between(i);
   const double width = base.width(i);
-  const Both w2 = e.point_second() + b.point_second();
+  const Both w2 = e.second_of_point() + b.second_of_point();
   const auto value = [&](std::size_t k, bool now) {
     return now ? edge.now(k) - base.now(k) : edge.before(k) - base.before(k);
   };
   const auto slope = [&](std::size_t k, bool now) {
-    const SideInBoth &of_edge = edge, &of_base = base;
-    return now ? of_edge.curve_now().length() * of_edge.tangent_now(k) - of_base.curve_now().length() * of_base.tangent_now(k)
-               : of_edge.curve_before().length() * of_edge.tangent_before(k) -
-                     of_base.curve_before().length() * of_base.tangent_before(k);
+    return now ? edge.curve_now().length() * edge.tangent_now(k) - base.curve_now().length() * base.tangent_now(k)
+               : edge.curve_before().length() * edge.tangent_before(k) -
+                     base.curve_before().length() * base.tangent_before(k);
   };
   const Vec3 now[2] = {value(i, true), value(i + 1, true)}, before[2] = {value(i, false), value(i + 1, false)};
   const double bend = off_line(width, w2.size);
   const Both w0{larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + bend,
                 larger(distance(now[0], before[0]), distance(now[1], before[1])) + off_line(width, w2.change)};
+  // No point moves along a curve by more than the curve's length.
+  const double w_far =
+      larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
+  const double w_largest = w0.size <= w_far ? w0.size : w_far;
   const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
   // The slope at the start of the range, where both states have a direction, and its change along the range.
   const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
@@ -313,13 +326,14 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
   const Vec3 start_now = normal(i, true), start_before = normal(i, false);
   const Vec3 end_now = normal(i + 1, true), end_before = normal(i + 1, false);
   const double m_bend = off_line(width, m2.size);
-  const double m_least = std::min(least_on_segment(start_now, end_now), least_on_segment(start_before, end_before)) - m_bend;
+  const double m_least =
+      std::min(least_on_segment(start_now, end_now), least_on_segment(start_before, end_before)) - m_bend;
   const double m_size = larger(larger_of(start_now, end_now), larger_of(start_before, end_before)) + m_bend;
   const double m_change =
       larger(distance(start_now, start_before), distance(end_now, end_before)) + off_line(width, m2.change);
   if (!(m_least > 0 && w_least > 0)) {
     const Both unknown{infinity, infinity};
-    return {unknown, unknown, w0.size, false};
+    return {unknown, unknown, w_largest, false};
   }
   // |W| and its derivatives, then the unit vector of M and its derivatives.
   const Both to_w{1, w0.change / w_least}, across_w{1, to_w.change};
@@ -330,13 +344,13 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
   const Both inverse_m1 = inverse_m * inverse_m * unit * m1;
   const Both across1{unit1.size, 2 * (unit1.change + unit1.size * unit.change)};
   const Both unit2 = inverse_m1 * across * m1 + inverse_m * across1 * m1 + inverse_m * across * m2;
-  return {size1 * unit + size0 * unit1, size2 * unit + 2 * size1 * unit1 + size0 * unit2, w0.size,
+  return {size1 * unit + size0 * unit1, size2 * unit + 2 * size1 * unit1 + size0 * unit2, w_largest,
           b.is_tight && e.is_tight && w_least >= tight_share * w0.size && m_least >= tight_share * m_size};
 }
 
 // Bounds how far the displacement of O is from linear between each two lines.
-Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base, const TwoCurves &edge,
-                                 const Vector<GridLine> &lines) {
+Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
+                                 const TwoCurves &edge, const Vector<GridLine> &lines) {
   const double factor = states.now.patches[patch].bulge, factor_before = states.before.patches[patch].bulge;
   const Both of_factor{larger(std::abs(factor), std::abs(factor_before)), std::abs(factor - factor_before)};
   const Vector<double> at_lines = shares_of(lines, &GridLine::middle);
@@ -377,7 +391,7 @@ double larger_mix(double at0, double at1, double from, double to) {
   return larger((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
 }
 
-// Bounds on a patch before any image is placed: of the error of its displacements, and of the error of its points, at equal (u, v).
+// Bounds at equal (u, v), before any image is placed: of the errors of a patch's displacements and of its points.
 struct PatchErrors {
   double displacement = 0, point = 0;
 };
@@ -388,7 +402,8 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   const PatchMotion motion(moved, levelled);
   const bool has_arcs = states.now.patches[patch].bulge != 0 || states.before.patches[patch].bulge != 0;
   const TwoCurves v0 = curves_of(states, patch, &Patch::v0), v1 = curves_of(states, patch, &Patch::v1);
-  const Vector<double> at_v0 = off_linear(v0, grid.lines.u, &GridLine::t0), at_v1 = off_linear(v1, grid.lines.u, &GridLine::t1);
+  const Vector<double> at_v0 = off_linear(v0, grid.lines.u, &GridLine::t0),
+                       at_v1 = off_linear(v1, grid.lines.u, &GridLine::t1);
   Vector<double> at_u0(grid.v.size() - 1, 0), at_u1 = at_u0, offset(grid.u.size() - 1, 0), rows = offset;
   if (has_arcs) {
     offset = offset_off_linear(states, patch, v0, v1, grid.lines.u);

@@ -124,7 +124,8 @@ void check_same_state(const ValveKind &kind, const ValveState &fixed, const Valv
   }
   for (std::size_t i = 0; i < fixed.patches.curves.size(); ++i)
     if (!are_equal(fixed.patches.curves[i], now.patches.curves[i]))
-      fail(RIIS_INVALID_PARAMETER, "curve ", i, where, " is another than that which the surface's triangulation is fixed for",
+      fail(RIIS_INVALID_PARAMETER, "curve ", i, where,
+           " is another than that which the surface's triangulation is fixed for",
            ": only opening and placement may move");
 }
 
@@ -232,8 +233,7 @@ Bezier blend(const Bezier &closed, const Bezier &open, double opening) {
 
 Bezier rate(const Bezier &closed, const Bezier &open) {
   Bezier made = closed;
-  for (int i = 0; i <= closed.degree; ++i)
-    view(made.control)[i] = view(open.control)[i] - view(closed.control)[i];
+  for (int i = 0; i <= closed.degree; ++i) view(made.control)[i] = view(open.control)[i] - view(closed.control)[i];
   return made;
 }
 

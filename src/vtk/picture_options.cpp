@@ -48,9 +48,7 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
 
 }  // namespace
 
-void check_picture_options_size(std::int64_t size) {
-  check_struct_size(size, first_size, size_here, "options");
-}
+void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
 
 const riis_vtk_picture_options &default_picture_options() {
   static const riis_vtk_picture_options defaults = {

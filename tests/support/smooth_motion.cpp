@@ -27,7 +27,8 @@ class MeasuredCurve {
     if (!(total > 0)) return {pieces_[0].control[0], Vec3{0, 0, 0}};
     const double behind = share * total;
     const auto cell = std::min<std::size_t>(
-        static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), behind) - ends_.begin()), ends_.size() - 1);
+        static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), behind) - ends_.begin()),
+        ends_.size() - 1);
     const Bezier &piece = pieces_[cell / n_cells];
     const double t0 = static_cast<double>(cell % n_cells) / n_cells, rest = behind - (cell == 0 ? 0 : ends_[cell - 1]);
     double t = t0 + rest / (ends_[cell] - (cell == 0 ? 0 : ends_[cell - 1])) / n_cells;
@@ -46,7 +47,8 @@ class MeasuredCurve {
   static Vec3 point(const Bezier &b, double t) {
     const double s = 1 - t;
     if (b.degree == 2) return s * s * b.control[0] + 2 * s * t * b.control[1] + t * t * b.control[2];
-    return s * s * s * b.control[0] + 3 * s * s * t * b.control[1] + 3 * s * t * t * b.control[2] + t * t * t * b.control[3];
+    return s * s * s * b.control[0] + 3 * s * s * t * b.control[1] + 3 * s * t * t * b.control[2] +
+           t * t * t * b.control[3];
   }
   static Vec3 tangent(const Bezier &b, double t) {
     const double s = 1 - t;
