@@ -18,6 +18,7 @@ struct SearchRequest {
   const std::uint8_t *node_mask;  // or null
   int n_threads;
   InstructionSet instructions;
+  TieRule ties = {};
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
 };
