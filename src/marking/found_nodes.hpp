@@ -50,7 +50,9 @@ struct FoundNodes {
 
   // Empties the lists, and makes room for the next ones.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    if (view(by_thread).size() < n_threads) resize(by_thread, n_threads), resize(ties_by_thread, n_threads);
+    // Each on its own, because memory may have run out between them.
+    if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
+    if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
         by_thread, [](auto &found) -> auto & { return found; });
     make_room(
