@@ -25,13 +25,14 @@ SearchReport query_every_node(const SearchRequest &request, const Distances &dis
 
   const int n_ran =
       parallel_for_ranges(nodes.n, nodes_per_block, request.n_threads, [&](const Range &range, int thread) {
+        Ties *const ties = found.ties_of(thread);
         std::int64_t n_queries_here = 0;
         for (std::int64_t i = range.begin; i < range.end; ++i) {
           if (request.is_masked_out(i)) continue;
           const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
           if (!distances.may_be_within(p, limit)) continue;
           ++n_queries_here;
-          const ClosestTriangle closest = distances.closest(p, limit, found.ties_of(thread));
+          const ClosestTriangle closest = distances.closest(p, limit, ties);
           if (closest.triangle >= 0) found.add(thread, i, closest);
         }
         n_queries.fetch_add(n_queries_here, std::memory_order_relaxed);

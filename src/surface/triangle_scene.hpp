@@ -64,6 +64,9 @@ class TriangleScene {
   struct Implementation;  // public for Embree's callbacks
 
  private:
+  template <bool keeps_ties>
+  ClosestTriangle find_closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const;
+
   // Adds at least the groups that have a triangle which meets the segment.
   void collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const;
 
