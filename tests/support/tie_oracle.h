@@ -10,12 +10,11 @@ enum { most_places = 16 };
 typedef struct tied_place {
   int32_t leaflet_id, patch_id;
   long double distance, point[3], velocity[3];
-  double largest; /* component of its vertices */
 } tied_place;
 
 typedef struct tied_velocity {
   int n_leaflets, n_places; /* that are equally near */
-  double mean[3], largest;  /* of the leaflets; the largest component of these places' vertices */
+  double mean[3];           /* of the leaflets */
   int is_clear;             /* 0 where rounding decides which places these are */
 } tied_velocity;
 
@@ -52,6 +51,13 @@ static inline long double closest_weights(const double *p, const double *abc, lo
   return sqrtl(best);
 }
 
+/* The largest component of the velocities of all vertices. A part at rest has velocities that are rounding alone. */
+static inline double largest_velocity(const surface_content *s, const double *velocity) {
+  double largest = 0;
+  for (int64_t i = 0; i < 3 * s->n_vertices; ++i) largest = fmax(largest, fabs(velocity[i]));
+  return largest;
+}
+
 /* Places of one patch at distances that differ by less than this may change by rounding. */
 static inline long double rounding_near(const double *p, double half_thickness) {
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
@@ -72,7 +78,7 @@ static inline int places_near(const surface_content *s, const double *velocity, 
                    (abc[c] > upper && abc[3 + c] > upper && abc[6 + c] > upper);
     }
     if (is_beside) continue;
-    tied_place place = {s->leaflet_id[t], s->patch_id[t], 0, {0}, {0}, 0};
+    tied_place place = {s->leaflet_id[t], s->patch_id[t], 0, {0}, {0}};
     long double w[3] = {0, 0, 0};
     place.distance = closest_weights(p, abc, w);
     if (!(place.distance <= reach + rounding)) continue;
@@ -81,7 +87,6 @@ static inline int places_near(const surface_content *s, const double *velocity, 
         const double v = velocity[3 * s->vertex_id[3 * t + k] + c];
         place.point[c] += w[k] * abc[3 * k + c];
         place.velocity[c] += w[k] * v;
-        place.largest = fmax(place.largest, fabs(v));
       }
     int at = 0;
     while (at < n && (places[at].leaflet_id != place.leaflet_id || places[at].patch_id != place.patch_id)) ++at;
@@ -104,7 +109,7 @@ static inline tied_velocity tied_velocity_at(const surface_content *s, const dou
   const long double rounding = rounding_near(p, half_thickness), of_leaflets = 1e-6L * half_thickness,
                     of_patches = 1e-9L * half_thickness;
   tied_place place[most_places];
-  tied_velocity made = {0, 0, {0, 0, 0}, 0, 1};
+  tied_velocity made = {0, 0, {0, 0, 0}, 1};
   long double sum[3] = {0, 0, 0}, closest = INFINITY;
   const int n = places_near(s, velocity, p, distance + 2e-6 * half_thickness, half_thickness, place, &made.is_clear);
   for (int i = 0; i < n; ++i) closest = fminl(closest, place[i].distance);
@@ -131,7 +136,6 @@ static inline tied_velocity tied_velocity_at(const surface_content *s, const dou
     made.n_places += n_places;
   }
   for (int c = 0; c < 3; ++c) made.mean[c] = (double)(sum[c] / made.n_leaflets);
-  for (int i = 0; i < n; ++i) made.largest = fmax(made.largest, place[i].largest);
   return made;
 }
 
