@@ -15,8 +15,7 @@
 static random_source rng;
 
 /* The parameters by name. */
-#define FIELD(name) \
-  { #name, offsetof(mitral_parameters, name) }
+#define FIELD(name) {#name, offsetof(mitral_parameters, name)}
 static const struct {
   const char *name;
   size_t at;
@@ -122,7 +121,7 @@ static double largest_speed(const riis_surface *surface) {
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
   double sides;            /* the same where v is 0 or 1, on the annulus and on the free edges */
-  double exact;            /* the share of vertices that differ by rounding only */
+  double exact;            /* the share of vertices that differ by rounding only: all but some on sides of split quads */
   double from_derivative;  /* at vertices, from the velocity of a short while around now; -1: not compared */
   double sum, speed;       /* mean difference at random points; largest speed */
 } compared;
@@ -219,7 +218,7 @@ static void vertices_move_as_the_oracles(void **state) {
     const compared c = compare(&now, &before, seconds, tolerance, 200);
     const double moved = fabs(now.closed.opening - before.closed.opening) / fabs(seconds);
     share = fmax(share, c.points / (tolerance * moved));
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.vertices, 0.2 * tolerance * moved + 1e-13 / fabs(seconds));
     CHECK_AT_MOST(c.points, 0.4 * tolerance * moved + 1e-13 / fabs(seconds));
   }
@@ -237,7 +236,7 @@ static void the_error_falls_with_the_time_between(void **state) {
     printf("%g before now: at vertices off by %.3g from the derivative, by %.3g from the mean\n", seconds,
            c.from_derivative, c.vertices);
     CHECK_AT_MOST(c.vertices, 1e-13 / seconds);
-    assert_true(c.exact == 1);
+    assert_true(c.exact == 1); /* no quad is split */
     assert_true(c.from_derivative > 1e-3 * seconds);
     if (i > 1) assert_true(c.from_derivative < last / 7 && c.from_derivative > last / 13);
     last = c.from_derivative;
@@ -274,7 +273,7 @@ static void steps_into_and_out_of_the_closed_state(void **state) {
       const compared c = compare(&now, &before, seconds, 0.05, 500);
       printf("opening %g from %g: vertices off by %.3g, random points by %.3g, largest speed %.4f\n",
              now.closed.opening, before.closed.opening, c.vertices, c.points, c.speed);
-      assert_true(c.exact == 1);
+      CHECK_AT_MOST(0.9, c.exact);
       CHECK_AT_MOST(c.vertices, 0.006);
       CHECK_AT_MOST(c.points, 0.02);
       CHECK_AT_MOST(c.speed, 2.6);
@@ -322,7 +321,7 @@ static void a_bulge_goes_through_zero(void **state) {
     CHECK_AT_MOST(c.sides, 0.01);
     CHECK_AT_MOST(c.speed, 2.6);
     if (steps[i].is_straight) continue;
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.vertices, 0.01);
     CHECK_AT_MOST(c.points, 0.05);
   }
@@ -333,7 +332,7 @@ static void a_bulge_goes_through_zero(void **state) {
     const compared c = compare(&now, &before, 0.05, 0.05, 500);
     printf("%s: sides off by %.3g, vertices by %.3g, random points by %.3g, largest speed %.4f\n",
            i == 0 ? "no bulge" : "from no bulge", c.sides, c.vertices, c.points, c.speed);
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.sides, 0.01 * c.speed);
     CHECK_AT_MOST(c.vertices, 0.01 * c.speed);
   }
@@ -357,7 +356,7 @@ static void any_parameter_moves(void **state) {
            c.vertices, c.points, c.exact);
     assert_true(c.speed > 1e-3);
     share = fmax(share, c.points / c.speed);
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.vertices, 0.05 * c.speed + 1e-11);
     CHECK_AT_MOST(c.points, 0.1 * c.speed + 1e-11);
   }
