@@ -8,7 +8,9 @@
 #include "handles.h"
 
 #include "bileaflet_oracle.h"
+#include "oracle.h"
 #include "searches.h"
+#include "tie_oracle.h"
 
 static random_source rng;
 
@@ -63,6 +65,7 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
     const surface_content c = surface_content_of(surface);
     const double *velocity = velocity_of(surface),
                  rounding = 1e-13 * (1 + 3 * of.radius / cos(degree * of.closed_angle)) / fabs(seconds);
+    const double half_thickness = info_of(surface).half_thickness;
     double expected[3];
     for (int64_t k = 0; k < 3 * c.n_triangles; ++k) {
       const int64_t i = c.vertex_id[k];
@@ -88,6 +91,8 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
     assert_int_equal(found.n, n_points);
     for (int64_t i = 0; i < n_points; ++i) {
       if (found.leaflet_id[i] == RIIS_LEAFLET_HOUSING) continue;
+      /* Leaflets that are equally near give a mean: test_ties. */
+      if (tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness).n_leaflets > 1) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
       CHECK_AT_MOST(distance(expected, fields.velocity + 3 * i), 10 * rounding);
     }

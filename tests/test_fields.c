@@ -9,6 +9,7 @@
 #include "oracle.h"
 #include "sanitized.h"
 #include "searches.h"
+#include "tie_oracle.h"
 
 static random_source rng;
 
@@ -154,12 +155,13 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 
 /* --- Against single queries ------------------------------------------------------------------------------------------ */
 
-/* Compares all fields of the nodes within the limit with single queries and with the rim. */
+/* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities are those of the closest
+ * triangle, but for places that are equally near. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r,
                          const riis_mark_result *result) {
   const riis_mark_fields f = within_fields(result);
   const found_nodes nodes = within_in(result);
-  const double *velocity = velocity_of(surface);
+  const double *velocity = velocity_of(surface), fastest = f.velocity ? largest_velocity(&r->c, velocity) : 0;
   for (int64_t i = 0; i < nodes.n; ++i) {
     const double *p = xyz + 3 * nodes.node_id[i];
     const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
@@ -174,6 +176,9 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
       fail_msg("rim is %d at (%.17g %.17g %.17g), weights %.17g %.17g %.17g of triangle %lld", f.rim[i],
                closest.point[0], closest.point[1], closest.point[2], closest.barycentric[0], closest.barycentric[1],
                closest.barycentric[2], (long long)t);
+    const tied_velocity tied =
+        f.velocity ? tied_velocity_at(&r->c, velocity, p, nodes.distance[i], info_of(surface).half_thickness)
+                   : (tied_velocity){.n_places = 1};
     for (int k = 0; k < 3; ++k) {
       const double *w = closest.barycentric;
       double uv = 0, v = 0, largest = 0;
@@ -184,7 +189,9 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
         largest = fmax(largest, fabs(velocity[3 * corner[j] + k]));
       }
       if (f.uv && k < 2) CHECK_NEAR(f.uv[2 * i + k], uv, 1e-15);
-      if (f.velocity) CHECK_NEAR(f.velocity[3 * i + k], v, 1e-15 * largest);
+      if (!f.velocity || !tied.is_clear) continue;
+      if (tied.n_places == 1) CHECK_NEAR(f.velocity[3 * i + k], v, 1e-15 * largest);
+      CHECK_NEAR(f.velocity[3 * i + k], tied.mean[k], 1e-9 * fastest);
     }
   }
 }

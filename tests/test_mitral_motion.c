@@ -7,14 +7,15 @@
 
 #include "handles.h"
 #include "mitral_oracle.h"
+#include "oracle.h"
 #include "sanitized.h"
 #include "searches.h"
+#include "tie_oracle.h"
 
 static random_source rng;
 
 /* The parameters by name. */
-#define FIELD(name) \
-  { #name, offsetof(mitral_parameters, name) }
+#define FIELD(name) {#name, offsetof(mitral_parameters, name)}
 static const struct {
   const char *name;
   size_t at;
@@ -120,7 +121,7 @@ static double largest_speed(const riis_surface *surface) {
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
   double sides;            /* the same where v is 0 or 1, on the annulus and on the free edges */
-  double exact;            /* the share of vertices that differ by rounding only */
+  double exact;            /* the share of vertices that differ by rounding only: all but some on sides of split quads */
   double from_derivative;  /* at vertices, from the velocity of a short while around now; -1: not compared */
   double sum, speed;       /* mean difference at random points; largest speed */
 } compared;
@@ -189,7 +190,11 @@ static compared compare(const states *now, const states *before, double seconds,
     CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
     CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
     assert_int_equal(fields.n_nodes, n_points);
+    const double *at_vertices = velocity_of(surface), half_thickness = info_of(surface).half_thickness;
     for (int64_t i = 0; i < n_points; ++i) {
+      /* Leaflets that are equally near give a mean: test_ties. */
+      if (tied_velocity_at(&c, at_vertices, xyz + 3 * i, within_in(result).distance[i], half_thickness).n_leaflets > 1)
+        continue;
       mean_velocity(&s, &t, seconds, fields.patch_id[i], fields.uv + 2 * i, expected);
       const double off = distance(expected, fields.velocity + 3 * i);
       made.points = fmax(made.points, off);
@@ -213,7 +218,7 @@ static void vertices_move_as_the_oracles(void **state) {
     const compared c = compare(&now, &before, seconds, tolerance, 200);
     const double moved = fabs(now.closed.opening - before.closed.opening) / fabs(seconds);
     share = fmax(share, c.points / (tolerance * moved));
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.vertices, 0.2 * tolerance * moved + 1e-13 / fabs(seconds));
     CHECK_AT_MOST(c.points, 0.4 * tolerance * moved + 1e-13 / fabs(seconds));
   }
@@ -231,7 +236,7 @@ static void the_error_falls_with_the_time_between(void **state) {
     printf("%g before now: at vertices off by %.3g from the derivative, by %.3g from the mean\n", seconds,
            c.from_derivative, c.vertices);
     CHECK_AT_MOST(c.vertices, 1e-13 / seconds);
-    assert_true(c.exact == 1);
+    assert_true(c.exact == 1); /* no quad is split */
     assert_true(c.from_derivative > 1e-3 * seconds);
     if (i > 1) assert_true(c.from_derivative < last / 7 && c.from_derivative > last / 13);
     last = c.from_derivative;
@@ -268,7 +273,7 @@ static void steps_into_and_out_of_the_closed_state(void **state) {
       const compared c = compare(&now, &before, seconds, 0.05, 500);
       printf("opening %g from %g: vertices off by %.3g, random points by %.3g, largest speed %.4f\n",
              now.closed.opening, before.closed.opening, c.vertices, c.points, c.speed);
-      assert_true(c.exact == 1);
+      CHECK_AT_MOST(0.9, c.exact);
       CHECK_AT_MOST(c.vertices, 0.006);
       CHECK_AT_MOST(c.points, 0.02);
       CHECK_AT_MOST(c.speed, 2.6);
@@ -316,7 +321,7 @@ static void a_bulge_goes_through_zero(void **state) {
     CHECK_AT_MOST(c.sides, 0.01);
     CHECK_AT_MOST(c.speed, 2.6);
     if (steps[i].is_straight) continue;
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.vertices, 0.01);
     CHECK_AT_MOST(c.points, 0.05);
   }
@@ -327,7 +332,7 @@ static void a_bulge_goes_through_zero(void **state) {
     const compared c = compare(&now, &before, 0.05, 0.05, 500);
     printf("%s: sides off by %.3g, vertices by %.3g, random points by %.3g, largest speed %.4f\n",
            i == 0 ? "no bulge" : "from no bulge", c.sides, c.vertices, c.points, c.speed);
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.sides, 0.01 * c.speed);
     CHECK_AT_MOST(c.vertices, 0.01 * c.speed);
   }
@@ -351,7 +356,7 @@ static void any_parameter_moves(void **state) {
            c.vertices, c.points, c.exact);
     assert_true(c.speed > 1e-3);
     share = fmax(share, c.points / c.speed);
-    assert_true(c.exact == 1);
+    CHECK_AT_MOST(0.9, c.exact);
     CHECK_AT_MOST(c.vertices, 0.05 * c.speed + 1e-11);
     CHECK_AT_MOST(c.points, 0.1 * c.speed + 1e-11);
   }

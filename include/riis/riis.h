@@ -341,8 +341,8 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  *   options_before  scale, rotation and translation before; its other fields do not count. NULL: the present
  *                   ones
  * The velocity, in mesh units over the unit of seconds, is the mean of the step: that of the step's middle to
- * second order, that of either end to first. It jumps where two leaflets touch: there the triangle
- * with the lowest id gives it.
+ * second order, that of either end to first. Leaflets that are equally near to a node give it their mean
+ * (riis_mark_fields.velocity).
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
  * whose parameters do not go together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -765,7 +765,10 @@ typedef struct riis_mark_fields {
   const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
                                 but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
                                 5, 8, 9), and the other way round for flipped normals */
-  const double *velocity;    /* (3, n_nodes): the velocity of the surface there, as its last update gave it */
+  const double *velocity;    /* (3, n_nodes): the velocity of the surface there, as its last update gave it.
+                                Where leaflets are equally near, within 1e-6 half thicknesses, it is the mean
+                                of theirs, each at its own closest point (docs/theory.md, section 10). All
+                                other fields are those of one triangle */
   const int32_t *side;       /* (n_nodes): as riis_closest.side */
   const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
                                 valve consists of the sides that only one patch has, such as free edges and

@@ -38,9 +38,9 @@ class ClusterSearch {
     const Frame &frame = groups_.frame;
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
-    // The second term covers the rounding of the decision's distances.
+    // The second term covers the rounding of the decision's distances, the third ties, which are that much farther.
     const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
-                         4 * scene_.rounding() * frame.scale;
+                         4 * scene_.rounding() * frame.scale + request.ties.of_leaflets * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
     task_.ratio = static_cast<float>(placing.ratio);
     task_.shift[0] = static_cast<float>(placing.shift.x);
@@ -51,7 +51,7 @@ class ClusterSearch {
     task_.margin = static_cast<float>(0.5 * error);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
-    found.prepare(request.n_threads);
+    found.prepare(request.n_threads, request.ties);
     own_.prepare(request.n_threads);
   }
 
@@ -94,7 +94,7 @@ class ClusterSearch {
     constexpr std::int64_t few = 128;  // they take about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
-      search_cluster(view(items)[i], view(own_.threads)[thread], view(found_.by_thread)[thread]);
+      search_cluster(view(items)[i], view(own_.threads)[thread], thread);
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -168,18 +168,19 @@ class ClusterSearch {
   // The pairs of node and triangle that the filter leaves in a cluster, until they are decided.
   struct Pairs {
     std::int64_t first_leaf;
+    Ties *ties;  // or null
     std::int32_t n = 0;
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
 
-  void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, std::vector<FoundNode> &found) {
+  void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread) {
     const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
     std::uint32_t near = 0;  // a bit for each near leaf
     for (std::size_t k = 0; k < item.n; ++k) near |= leaf_bits[k];
-    Pairs pairs{leaves.begin};
+    Pairs pairs{leaves.begin, found_.ties_of(thread)};
     for (; near; near &= near - 1) {
       const int bit = __builtin_ctz(near);
       const std::uint32_t after = near & (near - 1);
@@ -190,6 +191,7 @@ class ClusterSearch {
       filter_leaf(leaves.begin + bit, own, pairs);
     }
     decide(own, pairs);
+    std::vector<FoundNode> &found = view(found_.by_thread)[thread];
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
@@ -200,6 +202,18 @@ class ClusterSearch {
           found.emplace_back(clusters_.leaves.get()[leaf].node[lane], distance, closest.triangle);
       }
     }
+    if (pairs.ties) settle_ties(own, pairs);
+  }
+
+  // Turns the cluster's candidates into ties of nodes within the limit.
+  __attribute__((noinline)) void settle_ties(const ClusterScratch::Thread &own, const Pairs &pairs) const {
+    const auto closest_to = [&](std::int64_t node) -> auto & {
+      const ClosestTriangle &closest = view(own.closest)[node];
+      return std::sqrt(closest.distance_sq) <= request_.distance_limit ? closest : nothing;
+    };
+    pairs.ties->settle(closest_to, [&](std::int64_t node) -> std::int64_t {
+      return clusters_.leaves.get()[pairs.first_leaf + node / nodes_per_leaf].node[node % nodes_per_leaf];
+    });
   }
 
   void prefetch(std::int64_t leaf) const {
@@ -238,12 +252,28 @@ class ClusterSearch {
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {
     kernels_.decide(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(),
                     clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(), own.pair_decided.data());
-    for (std::size_t i = 0; i < static_cast<std::size_t>(pairs.n); ++i) {
-      ClosestTriangle &best = view(own.closest)[own.pair_nodes[i]];
-      if (is_closer(own.pair_decided[i], own.pair_triangles[i], best))
-        best = {own.pair_decided[i], own.pair_triangles[i]};
+    if (pairs.ties) {
+      take_closest_and_ties(own, pairs);
+    } else {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(pairs.n); ++i) {
+        ClosestTriangle &best = view(own.closest)[own.pair_nodes[i]];
+        if (is_closer(own.pair_decided[i], own.pair_triangles[i], best))
+          best = {own.pair_decided[i], own.pair_triangles[i]};
+      }
     }
     pairs.n = 0;
+  }
+
+  // Not inlined, so that a search without ties keeps its registers.
+  __attribute__((noinline)) void take_closest_and_ties(ClusterScratch::Thread &own, const Pairs &pairs) const {
+    for (std::int64_t i = 0; i < pairs.n; ++i) {
+      const std::int32_t node = view(own.pair_nodes)[i];
+      ClosestTriangle &best = view(own.closest)[node];
+      const ClosestTriangle before = best, decided{view(own.pair_decided)[i], view(own.pair_triangles)[i]};
+      const bool is_nearer = is_closer(decided.distance_sq, decided.triangle, before);
+      if (is_nearer) best = decided;
+      pairs.ties->compare(node, best, is_nearer ? before : decided);
+    }
   }
 
   static constexpr ClosestTriangle nothing{std::numeric_limits<double>::infinity(), -1};

@@ -16,7 +16,10 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  ClosestTriangle closest(Vec3 p, double limit) const { return scene.closest(p, limit, instructions); }
+  // Replaces the candidates of `ties`, which may be null, by p's.
+  ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
+    return scene.closest(p, limit, instructions, ties);
+  }
 
   // Returns a number d such that every point q has a distance of at least d - |q - p|. This proves that points near p are far.
   // Returns infinity where d is above the limit.
@@ -35,7 +38,7 @@ struct OtherDistances {
   double triangle_error;  // distances to the triangles are at most this above those to S(u,v)
 
   bool may_be_within(Vec3 p, double limit) const { return method.may_be_within(p, limit); }
-  ClosestTriangle closest(Vec3 p, double limit) const {
+  ClosestTriangle closest(Vec3 p, double limit, Ties * = nullptr) const {
     const ClosestOnPatches found = method.closest(p, limit);
     return {found.distance_sq, found.patch};
   }

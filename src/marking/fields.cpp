@@ -48,6 +48,49 @@ class Positions {
 // Two numbers in a register that every processor of a kind has.
 typedef double Two __attribute__((vector_size(16)));
 
+// The mean of the velocities of leaflets. A leaflet's velocity is the mean of its places. The closest triangle's is given first;
+// the places of each other leaflet follow each other.
+class MeanOfLeaflets {
+ public:
+  MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
+    of_closest_.add(velocity);
+  }
+  void add(std::int32_t leaflet, Vec3 velocity) {
+    if (leaflet == closest_leaflet_) {
+      of_closest_.add(velocity);
+      return;
+    }
+    if (leaflet != leaflet_) end_leaflet();
+    leaflet_ = leaflet;
+    of_leaflet_.add(velocity);
+  }
+  Vec3 mean() {
+    end_leaflet();
+    of_leaflets_.add(of_closest_.mean());
+    return of_leaflets_.mean();
+  }
+
+ private:
+  struct Sum {
+    Vec3 sum{0, 0, 0};
+    double n = 0;
+
+    void add(Vec3 v) {
+      sum = sum + v;
+      ++n;
+    }
+    Vec3 mean() const { return {sum.x / n, sum.y / n, sum.z / n}; }
+  };
+
+  void end_leaflet() {
+    if (of_leaflet_.n > 0) of_leaflets_.add(of_leaflet_.mean());
+    of_leaflet_ = {};
+  }
+
+  Sum of_closest_, of_leaflet_, of_leaflets_;
+  std::int32_t closest_leaflet_, leaflet_ = -1;
+};
+
 // Fields of nodes whose closest point lies on a triangle.
 class TriangleFields {
  public:
@@ -61,6 +104,7 @@ class TriangleFields {
         fields_(fields),
         normals_(need_normals(request.surface, fields, list.size()) ? &request.surface.pseudonormals() : nullptr),
         at_vertices_(scratch.at_vertices.data()),
+        ties_(view(scratch.ties)),
         list_(list),
         made_(made) {}
 
@@ -71,6 +115,28 @@ class TriangleFields {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
         nodes_.prefetch(view(list_.node_id)[i]);
       write_at_once(first, std::min(first + pairs_at_once, range.end));
+    }
+  }
+
+  // Replaces the velocities of nodes with ties by the mean of all leaflets that are equally near. A leaflet's is the mean of its
+  // places. A node counts in the range that its first tie is in.
+  void take_means(const Range &range) const {
+    const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
+    MeanOfLeaflets mean(-1, {0, 0, 0});
+    std::int64_t i = 0;
+    for (std::int64_t first = begin; first < end; first += pairs_at_once) {
+      const std::int64_t n = std::min<std::int64_t>(pairs_at_once, end - first);
+      VertexNumbers mixed[pairs_at_once];
+      mix_at_ties(first, n, mixed);
+      for (std::int64_t tie = first; tie < first + n; ++tie) {
+        if (next_node(tie) == tie) {
+          i = std::lower_bound(list_.node_id.begin() + i, list_.node_id.end(), ties_[tie].point) -
+              list_.node_id.begin();
+          mean = {view(list_.leaflet_id)[i], vector_at(made_.velocity.data() + 3 * i)};
+        }
+        mean.add(view(set_.leaflet_id)[ties_[tie].triangle.triangle], vector_at(mixed[tie - first].number));
+        if (next_node(tie + 1) == tie + 1) put_vector(made_.velocity.data(), i, mean.mean());
+      }
     }
   }
 
@@ -122,6 +188,26 @@ class TriangleFields {
     }
   }
 
+  // Returns the first tie from `tie` on that is its node's first, or the number of all.
+  std::int64_t next_node(std::int64_t tie) const {
+    while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
+    return tie;
+  }
+
+  void mix_at_ties(std::int64_t first, std::int64_t n, VertexNumbers *mixed) const {
+    PointsAndTriangles pairs;
+    const std::int64_t *vertex[pairs_at_once];
+    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) {
+      const Tie &tie = ties_[first + std::min(lane, n - 1)];
+      pairs.corners[lane] = corners_ + 9 * tie.triangle.triangle;
+      set_lane(pairs.point, lane, nodes_[tie.point]);
+      vertex[lane] = set_.vertex_id.data() + 3 * tie.triangle.triangle;
+    }
+    PointsOnTriangles on;
+    simd_.locate(pairs, on);
+    simd_.mix_at_vertices(at_vertices_, vertex, on, mixed);
+  }
+
   void write_sides(const std::int64_t *triangle, const PointsAndTriangles &pairs, const PointsOnTriangles &on,
                    std::int64_t first, std::int64_t n) const {
     alignas(64) Lanes normal_there;
@@ -146,6 +232,7 @@ class TriangleFields {
     to[1][lane] = v.y;
     to[2][lane] = v.z;
   }
+  static Vec3 vector_at(const double *v) { return {v[0], v[1], v[2]}; }
   static Vec3 lane_of(const Lanes &from, std::int64_t lane) { return {from[0][lane], from[1][lane], from[2][lane]}; }
   static void put_vectors(const Lanes &from, std::int64_t n, double *to) {
     for (std::int64_t lane = 0; lane < n; ++lane, to += 3) {
@@ -167,8 +254,20 @@ class TriangleFields {
   std::int32_t fields_;
   const Pseudonormals *normals_;  // null if no field needs them
   const VertexNumbers *at_vertices_;
+  ArrayView<const Tie> ties_;
   const NodeList &list_;
   NodeFields &made_;
+};
+
+// Orders ties by node, then by leaflet, and a leaflet's by distance.
+struct TieOrder {
+  const std::int32_t *leaflet_id;
+
+  bool operator()(const Tie &a, const Tie &b) const {
+    if (a.point != b.point) return a.point < b.point;
+    const std::int32_t of_a = leaflet_id[a.triangle.triangle], of_b = leaflet_id[b.triangle.triangle];
+    return of_a != of_b ? of_a < of_b : is_closer(a.triangle.distance_sq, a.triangle.triangle, b.triangle);
+  }
 };
 
 // Puts the numbers of each vertex that the fields need beside each other.
@@ -209,8 +308,29 @@ void NodeFields::resize(std::int32_t fields, std::int64_t n) {
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
 }
 
-void FieldScratch::reserve(const Surface &surface, std::int32_t fields) {
-  if (fields & (RIIS_FIELD_VELOCITY | RIIS_FIELD_UV)) reserve_amply(at_vertices, surface.triangles().n_vertices());
+void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found) {
+  if (fields & (RIIS_FIELD_VELOCITY | RIIS_FIELD_UV))
+    reserve_amply(at_vertices, request.surface.triangles().n_vertices());
+  std::int64_t n = 0;
+  for (const Ties &of_thread : found.ties_by_thread) n += view(of_thread.found).size();
+  ties.clear();
+  reserve_amply(ties, n);
+  for (const Ties &of_thread : found.ties_by_thread)
+    ties.insert(ties.end(), of_thread.found.begin(), of_thread.found.end());
+  const TieRule &rule = request.ties;
+  std::sort(ties.begin(), ties.end(), TieOrder{rule.leaflet_id});
+  const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
+    return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
+  };
+  // Each leaflet keeps its closest triangle, and one on each other patch of its own that ties with that.
+  auto closest = ties.begin(), end = ties.begin();
+  for (const Tie &tie : ties) {
+    const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);
+    const auto is_there = [&](const Tie &kept) { return rule.are_of_one_patch(kept.triangle, tie.triangle); };
+    if (is_first) closest = end;
+    if (is_first || (rule.is_tie(closest->triangle, tie.triangle) && std::none_of(closest, end, is_there))) *end++ = tie;
+  }
+  ties.erase(end, ties.end());
 }
 
 void check_fields(const Surface &surface, std::int32_t fields) {
@@ -239,6 +359,17 @@ bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_no
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 
+TieRule ties_for(const Surface &surface, std::int32_t fields) {
+  constexpr double of_leaflets = 1e-6, of_patches = 1e-9;  // half thicknesses
+  const TriangleSet &set = surface.triangles();
+  const auto are_several = [](const std::vector<std::int32_t> &ids) {
+    return std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) { return id != ids.front(); });
+  };
+  if (!(fields & RIIS_FIELD_VELOCITY) || !(are_several(set.leaflet_id) || are_several(set.patch_id))) return {};
+  const double half_thickness = surface.half_thickness();
+  return {set.leaflet_id.data(), set.patch_id.data(), of_leaflets * half_thickness, of_patches * half_thickness};
+}
+
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
                  NodeFields &made) {
   made.resize(fields, list.size());
@@ -258,6 +389,9 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
         write_patch_fields(request, fields, view(list.node_id)[i], i, made);
     }
   });
+  constexpr std::int64_t ties_per_block = 512;
+  parallel_for_ranges(view(scratch.ties).size(), ties_per_block, request.n_threads,
+                      [&](const Range &range, int) { of_triangles.take_means(range); });
 }
 
 void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,

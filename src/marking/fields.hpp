@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/unfilled.hpp"
 #include "kernels/kernels.hpp"
+#include "marking/found_nodes.hpp"
 #include "marking/node_list.hpp"
 #include "marking/search.hpp"
 
@@ -26,9 +28,10 @@ struct NodeFields {
 // Memory for the next marking's fields.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
+  std::vector<Tie> ties;  // by node, then by leaflet: its closest triangle, then those of its other patches
 
-  // Reserves memory for the fields of any list of nodes.
-  void reserve(const Surface &surface, std::int32_t fields);
+  // Reserves memory for the fields of the nodes that a search found, and puts their ties in order.
+  void prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found);
 };
 
 // Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
@@ -36,6 +39,9 @@ void check_fields(const Surface &surface, std::int32_t fields);
 
 // Returns whether the surface has to make the normals of its triangles first, for so many nodes (Surface::prepare_sides).
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
+
+// Returns which ties a search has to find for these fields.
+TieRule ties_for(const Surface &surface, std::int32_t fields);
 
 // Writes the fields of the nodes in the list. Memory was reserved for both, so this does not throw.
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "base/array_view.hpp"
+#include "surface/ties.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -44,13 +46,38 @@ void make_room(Threads &threads, const ListOf &list_of) {
 // One list per thread, each in no particular order.
 struct FoundNodes {
   std::vector<std::vector<FoundNode>> by_thread;
+  std::vector<Ties> ties_by_thread;  // without content unless a rule says which ties are wanted
 
   // Empties the lists, and makes room for the next ones.
-  void prepare(int n_threads) {
+  void prepare(int n_threads, const TieRule &ties = {}) {
+    // Each on its own, because memory may have run out between them.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
+    if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
         by_thread, [](auto &found) -> auto & { return found; });
+    make_room(
+        ties_by_thread, [](Ties & thread) -> auto & { return thread.candidates; });
+    make_room(
+        ties_by_thread, [](Ties & thread) -> auto & { return thread.found; });
     for (auto &found : by_thread) found.clear();
+    for (Ties &thread : ties_by_thread) {
+      thread.rule = ties;
+      thread.candidates.clear();
+      thread.found.clear();
+    }
+  }
+
+  // Returns where a thread keeps ties, or null if they are not wanted.
+  Ties *ties_of(int thread) {
+    Ties &ties = view(ties_by_thread)[thread];
+    return ties.rule.leaflet_id ? &ties : nullptr;
+  }
+
+  // Adds a node with its closest triangle, and with the ties among the candidates, which are all the node's.
+  void add(int thread, std::int64_t node, const ClosestTriangle &closest) {
+    view(by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
+    if (Ties *const ties = ties_of(thread))
+      ties->settle([&](std::int64_t) -> auto & { return closest; }, [&](std::int64_t) { return node; });
   }
 
   std::int64_t size() const {

@@ -76,15 +76,17 @@ Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
 
 }  // namespace
 
-void mark_nodes(const SearchRequest &request, std::int32_t asked_for, std::int32_t fields, MarkResult &result) {
+void mark_nodes(const SearchRequest &asked, std::int32_t asked_for, std::int32_t fields, MarkResult &result) {
   const auto start = std::chrono::steady_clock::now();
-  check_fields(request.surface, fields);
+  check_fields(asked.surface, fields);
+  SearchRequest request = asked;
+  request.ties = ties_for(request.surface, fields);
   const auto [search, report] = run(request, search_for(request, asked_for), result);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
   // Calls that may fail come before the first list is overwritten.
   result.fields_within.reserve(fields, result.found.size());
   if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
-  result.field_scratch.reserve(request.surface, fields);
+  result.field_scratch.prepare(request, fields, result.found);
   if (need_normals(request.surface, fields, result.found.size()))
     request.surface.pseudonormals();
   put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,

@@ -30,7 +30,7 @@ class NeighborSearch {
         limit_(request.distance_limit),
         found_(found),
         walked_(scratch) {
-    found.prepare(request.n_threads);
+    found.prepare(request.n_threads, request.ties);
     walked_.prepare(nodes_.n, request.n_threads);
   }
 
@@ -156,9 +156,9 @@ class NeighborSearch {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!distances_.may_be_within(p, limit_)) return false;
     ++view(walked_.threads)[thread].n_queries;
-    const ClosestTriangle closest = distances_.closest(p, limit_);
+    const ClosestTriangle closest = distances_.closest(p, limit_, found_.ties_of(thread));
     if (closest.triangle < 0) return false;
-    view(found_.by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
+    found_.add(thread, node, closest);
     return true;
   }
 

@@ -19,6 +19,7 @@ struct SearchRequest {
   const std::uint8_t *node_mask;  // or null
   Threads n_threads;
   InstructionSet instructions;
+  TieRule ties = {};
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
 };

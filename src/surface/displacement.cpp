@@ -139,7 +139,7 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
 }  // namespace
 
 PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
-    : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0) {
+    : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0), levelled_(levelled) {
   auto level = levelled.levels.begin();
   for_each_quad(levelled.grid, [&](std::size_t i, std::size_t j) {
     column_levels_[i] = std::max(column_levels_[i], *level);
@@ -162,6 +162,30 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
   }
   column_ = u_lines.places(), row_ = v_lines.places();
   u_ = u_lines.middle(), v_ = v_lines.middle();
+}
+
+Vec3 PatchMotion::in_quads(std::size_t i, std::size_t j, int column, int row) const {
+  const std::size_t n_columns = column_levels_.size(), n_rows = row_levels_.size();
+  const int level = levelled_.levels[j * n_columns + i], n = 1 << level;
+  const auto level_beside = [&](bool is_inside, std::size_t column_beside, std::size_t row_beside) {
+    return is_inside ? std::min(level, levelled_.levels[row_beside * n_columns + column_beside]) : level;
+  };
+  if ((row == 0 || row == n) && column != 0 && column != n) {
+    const int step = 1 << (level - (row == 0 ? level_beside(j > 0, i, j - 1) : level_beside(j + 1 < n_rows, i, j + 1)));
+    const int from = column / step * step;
+    if (from != column)
+      return mix(in_quad(i, j, level, from, row), in_quad(i, j, level, from + step, row),
+                 static_cast<double>(column - from) / step);
+  }
+  if ((column == 0 || column == n) && row != 0 && row != n) {
+    const int step =
+        1 << (level - (column == 0 ? level_beside(i > 0, i - 1, j) : level_beside(i + 1 < n_columns, i + 1, j)));
+    const int from = row / step * step;
+    if (from != row)
+      return mix(in_quad(i, j, level, column, from), in_quad(i, j, level, column, from + step),
+                 static_cast<double>(row - from) / step);
+  }
+  return in_quad(i, j, level, column, row);
 }
 
 Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {

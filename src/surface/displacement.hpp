@@ -41,6 +41,9 @@ class PatchMotion {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
+  // The same, but linear along a side between the vertices that the neighbouring quad has there too. So the displacement does not
+  // jump from quad to quad.
+  Vec3 in_quads(std::size_t i, std::size_t j, int column, int row) const;
 
   // How far O moves on each line of a patch of arcs.
   Vector<Vec3> offset_moves() const {
@@ -56,6 +59,7 @@ class PatchMotion {
   Vector<std::size_t> column_, row_;        // of each line of the grid: its place among the halved lines
   Vector<double> u_, v_;                    // of the halved lines
   bool has_arcs_;
+  const LevelledGrid &levelled_;
   SideVectors sides_;
   Vector<Vec3> offsets_;
 };

@@ -21,7 +21,7 @@ inline constexpr double planned_curve_share = 0.39;
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 // Between two vertices of a curve, the velocity is within this share of the largest speed from linear, by an estimate.
-inline constexpr double bend_share = 0.01;
+inline constexpr double bend_share = 0.008;
 
 // Returns the rows that keep the chords of arcs with offsets up to `offset` within their share of max_error.
 double rows_for(double offset, double max_error);

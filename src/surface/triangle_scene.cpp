@@ -82,16 +82,38 @@ struct Query {
   Vec3 q;          // and in the frame
   double largest;  // a bound of q's coordinates and of distances that matter
   ClosestTriangle best;
+  Ties *ties;         // or null
+  bool is_out_of_memory;
 };
 
-// Queries one triangle. Returns true if it is the closest so far.
-bool query_triangle(Query &query, std::int64_t triangle) {
+// Queries one triangle. Returns true if it is the closest so far. Not inlined: the loops over groups would lack registers.
+template <bool keeps_ties>
+__attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
   const double distance_sq =
       closest_point_on_triangle(query.p, {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}).distance_sq;
-  if (!is_closer(distance_sq, triangle, query.best)) return false;
+  if (!is_closer(distance_sq, triangle, query.best)) {
+    if constexpr (keeps_ties) query.ties->compare(0, query.best, {distance_sq, triangle});
+    return false;
+  }
+  [[maybe_unused]] const ClosestTriangle before = query.best;
   query.best = {distance_sq, triangle};
+  if constexpr (keeps_ties) query.ties->compare(0, query.best, before);
   return true;
+}
+
+// Queries a triangle inside Embree, which no exception may pass through. Only lists of ties need memory.
+template <bool keeps_ties>
+bool query_in_embree(Query &query, std::int64_t triangle) {
+  if constexpr (keeps_ties) {
+    try {
+      return query_triangle<true>(query, triangle);
+    } catch (const std::bad_alloc &) {
+      query.is_out_of_memory = true;
+      return false;
+    }
+  }
+  return query_triangle<false>(query, triangle);
 }
 
 void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
@@ -107,6 +129,7 @@ void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
 }
 
 // Queries the triangles of a group. The filter leaves out triangles farther than the radius: its distances are right to its error.
+template <bool keeps_ties>
 bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);
   const TriangleGroups &groups = query.in->groups;
@@ -119,10 +142,12 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   const float reach = arguments->query->radius + 2 * error;
   bool is_closer = false;
   for (int i = 0; i < bounds.n; ++i)
-    if (distance_sq[i] <= reach * reach) is_closer = query_triangle(query, bounds.triangle[i]) || is_closer;
+    if (distance_sq[i] <= reach * reach)
+      is_closer = query_in_embree<keeps_ties>(query, bounds.triangle[i]) || is_closer;
   if (!is_closer) return false;
-  const float radius =
-      inflated_radius(std::sqrt(query.best.distance_sq) * groups.frame.scale, query.q, query.in->rounding);
+  const double tolerance = keeps_ties ? query.ties->rule.of_leaflets : 0;
+  const float radius = inflated_radius((std::sqrt(query.best.distance_sq) + tolerance) * groups.frame.scale, query.q,
+                                       query.in->rounding);
   if (!(radius < arguments->query->radius)) return false;
   arguments->query->radius = radius;
   return true;
@@ -204,24 +229,31 @@ bool TriangleScene::may_be_within(Vec3 p, double limit) const {
   return distance <= limit * (1 + 1e-12) + rounding_;
 }
 
-ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet instructions) const {
+ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const {
+  return ties ? find_closest<true>(p, limit, instructions, ties) : find_closest<false>(p, limit, instructions, nullptr);
+}
+
+template <bool keeps_ties>
+ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const {
   const Implementation &in = *implementation_;
   const Frame &frame = in.groups.frame;
   const Vec3 q = frame(p);
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}};
+  Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
+  if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
     // The frame's units may overflow here. The surface is farther away than its own size, so most limits end here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
-    for (std::int64_t i = 0; i < n; ++i) query_triangle(query, i);
+    for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
       // This limit culls nothing, so the distance of some triangle takes its place.
-      query_triangle(query, 0);
+      query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }
+    if constexpr (keeps_ties) reach += ties->rule.of_leaflets;
     RTCPointQuery sphere;
     sphere.x = static_cast<float>(query.q.x);
     sphere.y = static_cast<float>(query.q.y);
@@ -231,7 +263,8 @@ ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet inst
     query.largest += reach * frame.scale;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(in.scene.get(), &sphere, &context, visit_group, &query);
+    rtcPointQuery(in.scene.get(), &sphere, &context, visit_group<keeps_ties>, &query);
+    if (keeps_ties && query.is_out_of_memory) throw std::bad_alloc();
   }
   if (query.best.triangle >= 0 && !(std::sqrt(query.best.distance_sq) <= limit)) return {infinity, -1};
   return query.best;

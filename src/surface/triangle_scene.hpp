@@ -12,6 +12,7 @@
 
 #include "base/array_view.hpp"
 #include "geometry/point_triangle.hpp"
+#include "surface/ties.hpp"
 #include "surface/triangle_groups.hpp"
 #include "surface/triangle_set.hpp"
 
@@ -29,8 +30,10 @@ class TriangleScene {
   void make(const TriangleSet &set, int n_threads);
 
   // Returns the closest triangle to p, or triangle -1 if none is within the limit (>= 0, may be infinite). p is finite, with
-  // coordinates up to max_coordinate. Several threads may call it at once.
-  ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set()) const;
+  // coordinates up to max_coordinate. Several threads may call it at once. `ties`, if not null, gets candidates in place of those
+  // that it had.
+  ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
+                          Ties *ties = nullptr) const;
 
   // Returns false only if no triangle is within the limit of p. It compares p with the bounds, in double, which is cheap.
   bool may_be_within(Vec3 p, double limit) const;
@@ -61,6 +64,9 @@ class TriangleScene {
   struct Implementation;  // public for Embree's callbacks
 
  private:
+  template <bool keeps_ties>
+  ClosestTriangle find_closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const;
+
   // Adds at least the groups that have a triangle which meets the segment.
   void collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const;
 

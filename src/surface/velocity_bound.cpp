@@ -431,7 +431,14 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
       const auto at = [&](int du, int dv) { return motion.in_quad(i, j, level, column + du, at_row + dv); };
       twist = larger(twist, quad_flatness({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}));
     }
-    made.displacement = larger(made.displacement, error + twist);
+    // Vertices on a side may be linear between those of a neighbour that is split less.
+    const auto is_less = [&](bool is_inside, std::size_t beside) {
+      return is_inside && levelled.levels[beside] < level;
+    };
+    const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1, here = j * n_u + i;
+    const bool has_coarser = is_less(i > 0, here - 1) || is_less(i + 1 < n_u, here + 1) || is_less(j > 0, here - n_u) ||
+                             is_less(j + 1 < n_v, here + n_u);
+    made.displacement = larger(made.displacement, (has_coarser ? 2 : 1) * error + twist);
     made.point = larger(made.point, grid.error(i, j) + std::ldexp(quad_flatness(quad_of(grid, i, j)), -2 * level));
   });
   return made;

@@ -31,12 +31,15 @@ void finish_program(pid_t process);
 
 /* Runs the program, and fails the test unless it succeeds with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
+/* The same for a mesh without volume cells, whose leaks the run calls unknown. */
+#define RUN_WITHOUT_CELLS(...) (run_program(__VA_ARGS__, NULL), expect_run_without_cells(__FILE__, __LINE__))
 /* Runs the program, and fails the test unless it ends with this exit code, nothing on stdout, and one line on stderr with this
  * text. */
 #define RUN_REFUSED(exit_code, text, ...) \
   (run_program(__VA_ARGS__, NULL), expect_run_refused(exit_code, text, __FILE__, __LINE__))
 
 void expect_run_fine(const char *file, int line);
+void expect_run_without_cells(const char *file, int line);
 void expect_run_refused(int exit_code, const char *part_of_text, const char *file, int line);
 
 /* Returns the number behind "key": in JSON text. Fails the test if there is none. */

@@ -376,8 +376,9 @@ static void test_other_cells(void **state) {
 }
 
 static void expect_warned(int exit_code) {
-  if (program_exit_code != exit_code || !(program_err[0] || program_leaks[0]))
-    fail_msg("exit code %d, not %d; stderr: %s%s", program_exit_code, exit_code, program_err, program_leaks);
+  if (program_exit_code != exit_code || !(program_err[0] || program_leaks[0] || program_crossings[0]))
+    fail_msg("exit code %d, not %d; stderr: %s%s%s", program_exit_code, exit_code, program_err, program_leaks,
+             program_crossings);
 }
 
 /* Runs the program with a warning: 0 is the status without --strict, 4 with it. */

@@ -118,16 +118,9 @@ static void test_aortic(void **state) {
   /* An opening in the file of the open state has no effect. */
   scratch_write_text("closed.json", "{\"leaflet_angle\": 68}");
   scratch_write_text("open.json", "{\"leaflet_angle\": 45, \"opening\": 0.3}");
-  riis_surface_options options;
-  expect_fine(riis_surface_options_init(&options, sizeof options));
-  options.half_thickness = 0.25;
+  expect_fine(riis_valve_set_open_state(closed, open));
   for (int i = 0; i < 3; ++i) {
-    if (i == 1) {
-      expect_fine(riis_valve_set_open_state(closed, open));
-      mark_at(closed, 0.5);
-    } else { /* only this state */
-      mark_by_c(i == 0 ? closed : open, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
-    }
+    mark_at(closed, 0.5 * i);
     /* --set changes only the closed state. */
     RUN_ON_BOX("--params-closed", scratch_path("closed.json"), "--params-open", scratch_path("open.json"), "--set",
                "root_radius=1.25", "--opening", opening_texts[i]);

@@ -326,6 +326,22 @@ static void marked_often(world *w) {
   ready_to_mark(w);
   for (int i = 0; i < 3; ++i) CHECK_OK(mark(w));
 }
+/* The leaflets of a closed valve meet, so a marking with velocities keeps ties. */
+static void tied_and_ready(world *w) {
+  riis_valve *closed = NULL, *open = NULL;
+  ready_to_mark(w);
+  CHECK_OK(riis_valve_create("trileaflet", &closed));
+  CHECK_OK(riis_valve_copy(closed, &open));
+  CHECK_OK(riis_valve_set_scalar(open, "opening", 0.1));
+  CHECK_OK(riis_surface_update_moving(w->surface, closed, open, 1, NULL, NULL));
+  riis_valve_destroy(&closed);
+  riis_valve_destroy(&open);
+}
+static riis_status mark_velocities(world *w) {
+  riis_mark_options options = options_of(w, RIIS_AUTO);
+  options.fields = RIIS_FIELD_VELOCITY;
+  return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
+}
 /* The surface's distances are by sampling. */
 static void sampled_and_ready(world *w) {
   ready_to_mark(w);
@@ -478,6 +494,8 @@ static const scenario scenarios[] = {
     ALL_SEARCHES("wider marking, 4 threads", marked_before, mark_masked_and_wide, 4, 0),
     ALL_SEARCHES("larger mesh, 1 thread", marked_little, mark, 1, 0),
     ALL_SEARCHES("larger mesh, 4 threads", marked_little, mark, 4, 0),
+    ALL_SEARCHES("first marking with ties, 1 thread", tied_and_ready, mark_velocities, 1, 0),
+    ALL_SEARCHES("first marking with ties, 4 threads", tied_and_ready, mark_velocities, 4, 0),
     {"first marking by sampling, exhaustive", sampled_and_ready, mark, 1, RIIS_SEARCH_EXHAUSTIVE, 0},
     {"first marking by minimization, neighbor", minimized_and_ready, mark, 1, RIIS_SEARCH_NEIGHBOR, 0},
     {"marking again", marked_often, mark, 1, RIIS_SEARCH_NEIGHBOR, ALLOCATES_NONE},
