@@ -9,7 +9,7 @@
 #include "handles.h"
 #include "sanitized.h"
 
-/* Every vector of the process comes by here, because an executable's symbols go before those of the libraries. A sanitizer's
+/* Replaces operator new for the process, because an executable's symbols go before those of the libraries. A sanitizer's
  * allocator must be the only one. */
 static int64_t n_allocations;
 #ifndef IS_SANITIZED

@@ -13,9 +13,9 @@
 #include "sanitized.h"
 #include "searches.h"
 
-/* All allocations of the process come by here, because an executable's symbols go before those of the libraries. Those of the
- * object that has riis_mark_nodes are counted, also if the C++ library makes a string for it. A sanitizer's allocator must be the
- * only one. */
+/* All allocations of the process use these functions, because an executable's symbols go before those of the libraries. They
+ * count those of the object that has riis_mark_nodes, also if the C++ library allocates for it. A sanitizer's allocator must be
+ * the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);
@@ -32,7 +32,7 @@ static const void *object_at(const void *address) {
   return dladdr(address, &info) ? info.dli_fbase : NULL;
 }
 
-/* Returns the object that called the C++ library, from where this is called. */
+/* Returns the object on the call stack that called the C++ library, or NULL. */
 static const void *object_behind_cxx(void) {
   void *frames[16];
   const int n = backtrace(frames, 16);

@@ -189,7 +189,7 @@ static void the_callers_openmp_settings_stay(void **state) {
   omp_set_max_active_levels(levels);
 }
 
-/* Returns the threads that a search of a mesh reports, by default and if two are asked for. Both find the same. */
+/* Returns the threads that a search of a mesh reports, by default and if two are requested. Both searches find the same. */
 typedef struct reported_threads {
   int32_t by_default, if_two;
 } reported_threads;

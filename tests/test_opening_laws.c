@@ -131,7 +131,7 @@ static void a_key_has_the_rate_after_it_in_every_period(void **state) {
   }
 }
 
-/* A last key may miss the end of the period by a thousand millionth. It is the first key as well. */
+/* A last key may miss the end of the period by a billionth. It is the first key as well. */
 static void a_last_key_is_the_first_one_of_the_next_period(void **state) {
   (void)state;
   const double opening[] = {0.5, 1, 0.5};

@@ -43,7 +43,7 @@ typedef struct compared {
   double vertices, inside;
 } compared;
 
-/* Compares one triangle of so many. */
+/* Compares every `one_of`-th triangle. */
 static compared compare(const riis_surface *surface, const smooth_motion *motion, int64_t one_of) {
   const surface_content c = surface_content_of(surface);
   const double *velocity = velocity_of(surface), speed = largest_speed(surface);

@@ -40,12 +40,12 @@
  *   defaults. Fields are only ever appended.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
- * - n_threads: 1 to 1024, or 0, the default, which takes no more threads than the work feeds: one, and one
- *   more for each 4096 triangles (of a surface: of its last content), for each 16,384 nodes, cells or faces, and
- *   for each 2048 points. These are at most the processors in the calling thread's affinity mask, whatever
- *   OMP_NUM_THREADS and omp_set_num_threads say. By default a part with little work near the surface takes one.
- *   With 1 no thread is started. If the system refuses a thread, or its memory, the run-times of OpenMP and TBB
- *   end the process (docs/building.md).
+ * - n_threads: 1 to 1024, or 0, the default: as many threads as the work feeds, at most the processors in the
+ *   calling thread's affinity mask. Work feeds one thread, and one more for each 4096 triangles (of a surface's
+ *   last content), 16,384 nodes, cells or faces, or 2048 points. By default a part of a call with little work
+ *   near the surface takes one thread. OMP_NUM_THREADS and omp_set_num_threads do not matter. 1 starts no thread.
+ *   If the system refuses a thread, or its memory, the run-times of OpenMP and TBB end the process
+ *   (docs/building.md).
  * - fork(): if the library has used several threads, a child may use 1 only, and 0 stands for 1 there. More are
  *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
  * - Environment: each call, including a log function, runs with the default floating-point environment and
@@ -120,9 +120,9 @@ enum {
                           leaflets that go through each other */
 };
 /* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
- * under way in another thread may still reach the former function. With a log function, a surface looks for
- * crossings (riis_find_crossings) once in each shape of a valve that the caller chose by parameters, patches
- * or an open state: at the opening that comes first. The search takes longer than an update.
+ * under way in another thread may still reach the former function. With a log function, a surface searches each
+ * shape that the caller chose for crossings (riis_find_crossings): once, at the shape's first opening. A shape is
+ * chosen by parameters, patches or an open state. The search takes longer than an update.
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
@@ -355,8 +355,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
  * n_vertices than that of the last arrays, and a surface that was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
-/* Interpolation between keys in time. A time is a key, give or take whole periods, if they differ by at most
- * 8 * 2^-52 of the largest of time, key and period. */
+/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at
+ * most 8 * 2^-52 of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is the rate after it */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
@@ -478,7 +478,7 @@ typedef struct riis_crossings {
  *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
  * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, and no pair. The
  * call looks at triangles, also for the other RIIS_DISTANCE_*. So smooth leaflets that touch may cross by
- * twice riis_surface_info.error_bound. The log (riis_set_log) warns of deeper ones unasked.
+ * twice riis_surface_info.error_bound. The log (riis_set_log) warns of deeper crossings by itself.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings, int64_t struct_size);

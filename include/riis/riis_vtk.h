@@ -7,9 +7,9 @@
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print while a function runs are caught and become the message of the error.
- * - Files that are cut short or of another kind are refused, and files that claim more points, cells, values
- *   or bytes than they hold. VTK's own readers can still crash on a .vtu whose bytes were damaged: read files
- *   that you do not trust in a process that you can lose.
+ * - A file is refused if it is cut short, is of another kind, or claims more points, cells, values or bytes than
+ *   it holds. VTK's own readers can still crash on a .vtu whose bytes were damaged: read files that you do not
+ *   trust in a process that you can lose.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - A path that cannot be read or written is RIIS_FILE_ERROR naming the file.
  * - A written file is complete or not there: it is written beside its place and then moved. It takes the
@@ -53,14 +53,15 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
  * - A quadratic cell has edges from each corner to the middle of each of its sides, and between the middles of
  *   neighbouring sides of a face. If the face has a node in its middle, that node has edges to the others
  *   instead.
- * - A tetrahedron, wedge or hexahedron by Lagrange or Bezier has edges along the lines of its lattice.
- * The edges of other cells of volume are not known here: convex point sets, and lattices with further nodes. */
+ * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
+ * The edges of other cells of volume are not known here. These are convex point sets, and Lagrange and Bezier
+ * cells with nodes beyond their lattice. */
 RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                              riis_adjacency **adjacency);
-/* Counts the cells of volume. A mesh without them, such as one of triangles, has no edge that leaks, and says
- * nothing about leaks.
+/* Counts the cells of volume. A mesh without such cells, as one of triangles, has no edge that leaks, so leaks
+ * are unknown there.
  *   n_volume_cells    NULL if not wanted
- *   n_cells_left_out  of these the cells whose edges are not known here, NULL if not wanted */
+ *   n_cells_left_out  the number of those whose edges are not known here, NULL if not wanted */
 RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                 int64_t *n_cells_left_out);
 
@@ -105,8 +106,8 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
                                                    int64_t n_components, const double *values);
 /* Tells whether the mesh has a point array of that name: *has is 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the edges of cells of volume, as of riis_vtk_mesh_adjacency, and of faces but
- * polygons; 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells, evenly spaced
+/* Gives the median length of the edges of cells of volume, those of riis_vtk_mesh_adjacency, and of faces other
+ * than polygons. It is 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells, evenly spaced
  * in their order, are measured. */
 RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
 
@@ -254,7 +255,7 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn, and the key
+ * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn. The key
  *   below names as many leaflets as fit, and dots stand for the others. Leaflets seen edge on are lines.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
  *   colour of the leaflet nearest to one of them. Only the far side of other cells with a marked node is

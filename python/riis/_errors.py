@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of riis: one class for each status of the C library, whose messages speak of C until they come here."""
+"""The exceptions of riis: one class for each status of the C library. Its messages get Python's names here."""
 
 import re
 from collections.abc import Callable
@@ -30,7 +30,7 @@ class InvalidParameterError(Error, ValueError):
 
 
 class UnknownParameterError(InvalidParameterError, KeyError):
-    """A valve has no parameter of the name to read."""
+    """The valve has no parameter of the name that is read."""
 
     __str__ = Exception.__str__  # KeyError's shows the message in quotes
 
@@ -110,7 +110,7 @@ _NAMES = {
     "riis_valve_parameter": "Valve.parameters",
     "riis_valve_set_open_state": "Valve.set_open_state",
 }
-# Fields of C's structs whose argument has another name. All other fields have the argument's.
+# Fields of C's structs whose argument has another name in Python. Each other field has the name of its argument.
 _ARGUMENTS = {
     "arrays.vertex_ids": "faces",
     "csr.n_rows": "the number of rows",
@@ -119,7 +119,7 @@ _ARGUMENTS = {
     "options.point_ids": "ids",
     "options.point_mask": "mask",
 }
-# The words of numbers, by the argument.
+# Python's words for C's numbers, by the argument.
 WORDS = {
     "distance": ("triangles", "sampling", "minimization"),
     "instructions": ("auto", "baseline", "avx2", "avx512"),

@@ -52,7 +52,7 @@ def _look(plotter: Any, zoom: float) -> None:
 def _check_of_mesh(marks: MarkResult | None, mesh: Mesh | None) -> None:
     if mesh is not None and marks is not None and marks._places != mesh._places:
         raise InvalidArgumentError(
-            "marks: are not of mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates"
+            "marks: do not belong to mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates"
         )
 
 

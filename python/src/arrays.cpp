@@ -71,7 +71,7 @@ nb::tuple python_shape(std::initializer_list<std::int64_t> shape) {
   return nb::tuple(sizes);
 }
 
-// Returns the argument dtype of numpy that makes entries of the wanted type.
+// Returns numpy's argument dtype for entries of the wanted type.
 const char *dtype_for(const std::string &wanted) {
   if (wanted == "float64") return "float";
   if (wanted == "int32") return "numpy.int32";

@@ -56,7 +56,8 @@ class Array {
  private:
   Array(nb::handle object, const char *name, Access access, const char *wanted);
 
-  // Refuses an object, and says how to convert it. A conversion of an array that is written would be written in its place.
+  // Refuses an object, and says how to convert it. For an array that the call writes it
+  // proposes no conversion, since the call would write the converted copy.
   template <class... Parts>
   [[noreturn]] void refuse_entries(nb::handle object, const char *wanted, const Parts &...parts) const;
 

@@ -12,7 +12,8 @@ namespace riis_python {
 struct Valve : Handle<riis_valve, riis_valve_destroy> {
   static constexpr const char *python_name = "Valve";
   std::string kind;
-  // What the library does not give back: the arguments of from_patches, and a copy of the valve that it opens to.
+  // What the library does not give back: the arguments of from_patches, and a copy of the valve whose state it
+  // opens to.
   nb::object patches = nb::none(), open = nb::none();
 };
 
@@ -41,7 +42,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   nb::object adjacency;          // keeps the rows of an Adjacency
   std::int64_t places = new_places();
 
-  // Returns a number for nodes where they are now. No other mesh has it, nor has this one after an update.
+  // Returns a number for the nodes in their present places. No other mesh gets the same, nor does this one after an update.
   static std::int64_t new_places();
 
   ~Mesh() { riis_mesh_destroy(&handle); }  // before what it borrows

@@ -17,7 +17,7 @@ riis_parameter parameter(const Valve &valve, std::int64_t id) {
   return found;
 }
 
-// Returns the number of values of a parameter, 0 if there is none of the name.
+// Returns the number of values of a parameter, or 0 if no parameter has the name.
 std::int64_t n_values(const Valve &valve, const std::string &name) {
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
     const riis_parameter found = parameter(valve, id);
@@ -206,7 +206,7 @@ void make_from_state(Valve *self, const nb::tuple &state) {
                                                     nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
-    // The open state fits a valve with the same values. Values that clash are refused by surfaces only.
+    // With the open state's values, the valve accepts that state. The valve's own values follow: only surfaces refuse a clash.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
   }

@@ -38,7 +38,7 @@ def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_pa
 
 
 def test_nodes_of_another_mesh_are_not_drawn(surface, mesh, marks, xyz, tmp_path):
-    text = "^marks: are not of mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates$"
+    text = "^marks: do not belong to mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates$"
     refused = pytest.raises(riis.InvalidArgumentError, match=text)
     others = riis.Mesh(xyz[::-1].copy()), riis.Mesh(xyz[: len(xyz) // 2].copy())
     for other in others:

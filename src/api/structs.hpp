@@ -72,8 +72,8 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// By default one more thread is taken for so much more work, half a millisecond's or more. To wake and to await a thread
-// takes a hundredth of that. On a machine with other work it takes as long as the system lets that work run.
+// By default a call takes one more thread for each such amount of work, half a millisecond or more. Waking and awaiting a
+// thread takes a hundredth of that on a quiet machine. On a busy one it takes as long as the system lets other work run.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
 
@@ -85,7 +85,7 @@ inline void check_threads(std::int32_t n_threads, const char *name) {
          "; this process was forked after riis had used several threads, so it may use 1 only");
 }
 
-// Returns the threads that an option requests, or those that so many items of work feed if the option is 0.
+// Returns the number of threads that an option requests or, if it is 0, the number that n_items of work feed.
 inline Threads threads_for(std::int32_t n_threads, const char *name, std::int64_t n_items, std::int64_t per_thread) {
   check_threads(n_threads, name);
   return n_threads > 0 ? Threads(n_threads)

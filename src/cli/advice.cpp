@@ -43,8 +43,8 @@ bool sizes_fit_at(double factor, const Situation &s) {
 
 bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// The default half thickness belongs to a parametric valve, so much longer edges speak for another unit of the mesh. If the user
-// named the unit, they only speak for a coarse mesh.
+// The default half thickness belongs to a parametric valve. Edges that are much longer suggest that the mesh has another unit or,
+// if the user named the unit, that it is coarse.
 bool edges_fit_at(double factor, const Situation &s) {
   return s.options.has_half_thickness || s.options.unit || s.options.has_scale || !is_parametric(s.options) ||
          !is_too_small(s.half_thickness / factor, s);

@@ -113,7 +113,7 @@ double depth_of_contacts(const Options &options, const riis_surface *surface) {
   return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
 
-// Returns the surface at an opening, or null if the valve cannot be there: nobody has requested that state.
+// Returns the surface at an opening, or null if the valve cannot be there. That is no error: nobody requested the opening.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", opening));
   riis_surface *surface = nullptr;
@@ -141,7 +141,7 @@ std::optional<CrossingReport> check_shape(const Options &options, const riis_val
                                           const std::string &part) {
   if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve)) return std::nullopt;
   const Valve copy = copy_of(valve);
-  // Hinges reach into a housing, in recesses that the valve here lacks.
+  // Hinges reach into recesses of the housing, which the model lacks.
   if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy.get(), "ring_height", 0));
   riis_surface_options how = by_triangles(options);
   how.triangulation = RIIS_TRIANGULATION_ADAPTED;

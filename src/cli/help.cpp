@@ -62,9 +62,9 @@ Series in time
   --resistance it has riis_resistance, K, and riis_momentum, K times that velocity. Velocities are means since the time before;
   the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
   motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
-  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the step that it is at, a
-  line says how many are written, and the .pvd lists them. The list of a process that is killed is at most a second behind its
-  files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
+  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the present step. A line
+  then says how many steps are written, and the .pvd lists them. If the process is killed, the list is at most a second behind
+  the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
   surface and marks. --picture draws the first time. --movie draws all times by one camera, and needs the program ffmpeg. The
   check for leaks runs at the time when the valve is least open, and for --surface at the first time.
 
@@ -90,11 +90,11 @@ Cases
 Leaks
   The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
   edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Leaks are unknown in a
-  mesh without volume cells, and at cells whose edges are not known, such as convex point sets. It does not
-  find gaps between leaflets, nor ways round the valve. --check-leaks FROM TO does: two points, one on either side, each as
-  X,Y,Z in the mesh. The program says whether unmarked nodes join them, where the widest passage is, and which half thickness
-  closes it. Take points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z].
-  All its valves count together, each where it is least open.
+  mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Edges do not show gaps between
+  leaflets, nor ways round the valve. --check-leaks FROM TO does: two points, one on either side, each as X,Y,Z in the mesh.
+  The program says whether unmarked nodes join them, where the widest passage is, and which half thickness closes it. Take
+  points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z]. All its valves
+  count together, each where it is least open.
 
 States
   --states measures the valve in its own frame at 101 openings, or as many as --state-count says, and takes no MESH. The table
@@ -124,13 +124,13 @@ Valve from patches
 
 Export to svMultiPhysics
   --export-uris FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
-  NAME_close.dat, the same of a face "box" that widens the box in which the solver looks, and normal.dat, the direction of
-  flow. The folder must be new or empty. The block for the solver's input goes
-  to stdout; it needs --resistance. The solver plays a frame in each of its time steps, so --time-step must be its own. The
-  valve opens from 0 to 1 in --opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens
-  from the last key of its least opening to the first of its largest, and closes on the way back; --opening-span and
-  --closing-span name other times. The solver measures to the middles of triangles. With --largest-edge 0.15 half thicknesses
-  its sum of K is within 1 % of the exact one. Triangles without area in some frame are left out, and a line on stderr says so.
+  NAME_close.dat. The same files of a face "box" widen the box in which the solver looks. normal.dat is the direction of flow.
+  The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver plays a
+  frame in each of its time steps, so --time-step must be its own. The valve opens from 0 to 1 in --opening-seconds by a ramp
+  of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its least opening to the first
+  of its largest, and closes on the way back; --opening-span and --closing-span name other times. The solver measures to the
+  middles of triangles. With --largest-edge 0.15 half thicknesses its sum of K is within 1 % of the exact one. Triangles
+  without area in some frame are left out, and a line on stderr says so.
 
 Motion
   --surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
@@ -146,7 +146,7 @@ Searches
   The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
   Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
   connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
-  tetrahedron, pyramid, wedge, hexahedron or voxel.
+  cell of volume.
 
 Distances
   --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
@@ -156,8 +156,8 @@ Distances
 While it runs
   On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
   --quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
-  An empty file .riis-NAME.lock beside each output keeps other runs from writing it meanwhile. A run that is killed leaves it
-  behind, and the next run takes it over.
+  An empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output meanwhile. A run that is
+  killed leaves the lock behind, and the next run takes it over.
 
 Exit status; one line on stderr says what was wrong:
   0  fine

@@ -9,7 +9,8 @@ namespace riis::cli {
 
 // While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object ends. A
 // second signal, from a user who will not wait, acts at once. Signals that were ignored stay ignored. Only the first of
-// several objects counts: objects made while it lives do nothing. Other threads make objects only then.
+// several objects counts: objects made while it lives do nothing. Other threads make
+// objects only while it lives.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();

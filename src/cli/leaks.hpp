@@ -24,8 +24,8 @@ struct MarkedMesh {
 // Rounds to three digits, never below x, so that the number that a user types closes the leaks.
 double rounded_up(double x);
 
-// Writes report.leaks and report.seconds.leaks, and warns on stderr if flow passes, or if that is not known. The check of two
-// points takes the warning over.
+// Writes report.leaks and report.seconds.leaks, and warns on stderr if flow passes, or if that is not known. If two points are
+// checked, that check warns instead.
 void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report);
 
 }  // namespace riis::cli

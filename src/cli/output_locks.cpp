@@ -19,7 +19,7 @@
 namespace riis::cli {
 namespace {
 
-// The lock files that this process holds. Only the first object has any, and it fills them before the handler is there.
+// The lock files that this process holds. Only the first object has any. It fills the list before it sets the handlers.
 std::vector<std::string> held;
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -45,7 +45,7 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
-// The lock of a name that is too long has the name's end.
+// A lock's name has only the end of an output's name that is too long.
 std::string lock_of(const std::string &output) {
   constexpr std::size_t longest = 200;
   const std::filesystem::path place = std::filesystem::absolute(place_of(output));
@@ -69,7 +69,7 @@ bool is_at(int file, const std::string &path) {
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    // Another user's run was killed.
+    // A killed run of another user left the file, and this user may only read it.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
       refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
@@ -82,7 +82,7 @@ int take(const std::string &output, const std::string &lock) {
     close(file);
     if (error == EINTR) continue;
     if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis-mark is writing it, and holds " + lock);
-    warn(output + ": no lock keeps other runs from writing it meanwhile: " + std::generic_category().message(error));
+    warn(output + ": it cannot be locked, so other runs may write it meanwhile: " + std::generic_category().message(error));
     unlink(lock.c_str());
     return -1;
   }
@@ -94,7 +94,7 @@ OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   try {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
-      // Long names may share one.
+      // Outputs with long names may share a lock.
       if (std::find(held.begin(), held.end(), lock) != held.end()) continue;
       const int file = take(path, lock);
       if (file < 0) continue;

@@ -12,7 +12,7 @@ namespace riis::cli {
 // the file behind; the next run takes it over.
 class OutputLocks {
  public:
-  // Throws a Refusal if another run holds the lock of one of these files. Paths of devices and pipes are none of them.
+  // Throws a Refusal if another run holds the lock of one of these files. The paths name no devices or pipes.
   explicit OutputLocks(const std::vector<std::string> &paths);
   ~OutputLocks();
   OutputLocks(OutputLocks &&other) noexcept = default;

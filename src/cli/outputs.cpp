@@ -77,7 +77,7 @@ std::vector<NamedFile> outputs_of(const Options &options) {
   return outputs;
 }
 
-// Tells files apart: by what they are if they exist, whatever their names and links, and otherwise by their places.
+// Returns a text that all paths to a file share: its device and inode if it exists, otherwise its place.
 std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);

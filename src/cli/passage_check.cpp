@@ -145,14 +145,14 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
   else if (found.state == RIIS_PASSAGE_NONE)
     warn("nothing to seal: the mesh itself does not join " + ends);
   if (found.state != RIIS_PASSAGE_OPEN) return;
-  const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is at ";
+  const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is ";
   if (report.is_end)
-    warn(text + "least as wide as the end at " + report.place + " is far from the surface, " + shown(found.distance));
+    warn(text + "nowhere nearer to the surface than its end at " + report.place + ", " + shown(found.distance));
   else if (report.closing_half_thickness > 0)
-    warn({{Cause::leaks, text + report.place,
+    warn({{Cause::leaks, text + "at " + report.place,
            ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it"}});
   else
-    warn(text + report.place + ", " + shown(found.distance) + " from the surface");
+    warn(text + "at " + report.place + ", " + shown(found.distance) + " from the surface");
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ void check_passage(const Options &options, const MarkedMesh &marked, Report &rep
   const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
   PassageReport passage;
   passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
-  // A path along known edges is a path, whatever the others are.
+  // Edges that are not known cannot close a path along known ones.
   passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
   if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())

@@ -29,7 +29,7 @@ struct PassageReport {
   bool is_end = false;                // the place is the node of a point: the passage may be wider
   double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
   std::string place{};                // the point, in text
-  bool is_unknown = false;            // not open along the edges that are known
+  bool is_unknown = false;            // closed along the known edges; others may open it
 };
 
 struct LeakReport {

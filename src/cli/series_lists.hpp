@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lists of a series, which follow its files within half a second, however long the next step takes. So a process that is
-// killed leaves lists of nearly all that it wrote. Long lists take longer to write than a file, so not every file has its own.
+// killed leaves lists of nearly all that it wrote. Writing a long list takes longer than
+// writing a file, so the lists are not written for each file.
 #pragma once
 
 #include <condition_variable>

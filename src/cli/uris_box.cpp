@@ -11,7 +11,8 @@
 namespace riis::cli {
 namespace {
 
-// The solver's share, and the end of its pressure bands in half thicknesses. A little more holds a node at the very end.
+// The share by which the solver widens its box, and the end of its pressure bands in half thicknesses. The factor keeps a node at
+// the very end inside.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
 struct Side {
@@ -68,7 +69,7 @@ void UrisBox::append_nodes(std::vector<double> &xyz) const {
       const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), middle = sum / 3;
       const double half = (box[k].upper - box[k].lower) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
-      // Along its axis the triangle reaches as far on both sides. Across, it has a width, and so an area.
+      // Along its axis the triangle reaches equally far to both sides. Across the axis it has a width, for its area.
       const double reach = wanted + std::abs(middle - box[k].middle());
       const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
       const double offsets[2] = {is_along    ? reach

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// svMultiPhysics looks at nodes only in the box of a valve's nodes, which it widens by a tenth. The band of a flat valve and the
-// bands in which the solver takes its pressures are outside. In: the triangles. Out: three more triangles that widen the box.
+// svMultiPhysics looks at a mesh only in the box of the valve's nodes, widened by a tenth. A flat valve's box is too thin: it
+// leaves out marks, and the bands in which the solver takes its pressures. In: the triangles. Out: three more, which widen the box.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace riis::cli {
 
-// Returns the power of two whose multiples the coordinates have to be, by the largest of them. Sums of three are then exact, in
-// a box that is up to some ten times larger.
+// Returns the power of two to whose multiples coordinates are rounded; `largest` is the largest of them. Sums of three are then
+// exact, even in a box some ten times larger.
 double uris_grid(double largest);
 
-// A triangle for each axis. Its middle is exactly that of a triangle of the valve, so the solver never finds it nearer. Its
-// corners reach beyond both sides of the box.
+// A triangle along each axis. Its middle is exactly that of a triangle of the valve, so the solver never finds it nearer. Its
+// corners reach beyond the box at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;

@@ -160,7 +160,7 @@ std::string mesh_block(const Options &options, const UrisMotion &motion, const U
       "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
       shortest(*options.uris.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") +
       ", the longest edge " + shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
-      "\n     face box: svMultiPhysics looks only into the box of its nodes; Mesh_scale_factor must stay 1";
+      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor must stay 1";
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
             shown(fine_edges * leaflets.half_thickness());

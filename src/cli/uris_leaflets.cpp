@@ -161,7 +161,7 @@ void UrisLeaflets::part(const Options &options) {
   }
 }
 
-// The solver looks for a housing in the housing's own box.
+// For a housing the solver looks only in the housing's own box.
 void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   std::vector<Corners> moving, resting;
   for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
@@ -177,7 +177,7 @@ void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   };
   for (UrisLeaflet &leaflet : leaflets_)
     if (leaflet.is_scaffold) add(resting, leaflet);
-  // The last face: the solver keeps the first of triangles that are equally near.
+  // The box comes last, because the solver keeps the first of equally near triangles.
   leaflets_.push_back({"box", {}, {}, false});
   add(moving, leaflets_.back());
 }

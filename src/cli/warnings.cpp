@@ -30,7 +30,7 @@ Box box_of(int64_t n_nodes, const double *xyz) {
   return box;
 }
 
-// Returns a coordinate down to a tenth of the edge. It has no sign and no digits that only rounding gives.
+// Returns a coordinate, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
   constexpr int most_digits = 17;  // of any double
   int n_digits = 6;

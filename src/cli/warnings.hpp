@@ -35,13 +35,13 @@ Situation situation_of(const Options &options, const riis_surface_info &surface,
 // What may be wrong, in the order in which to mend it: a wrong unit also makes the half thickness wrong, and either makes leaks.
 enum class Cause { units, half_thickness, place, leaks };
 
-// Texts without line breaks. The advice begins with the signs that part it from the text, such as ": write --unit m".
+// Texts without line breaks. The advice begins with the punctuation after the text, such as ": write --unit m".
 struct Warning {
   Cause cause;
   std::string text, advice;
 };
 
-// Nothing if nothing looks wrong.
+// Returns nothing if nothing looks wrong.
 std::optional<Warning> warning_of(const Situation &situation);
 
 // Prints the line on stderr and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
@@ -51,8 +51,8 @@ void warn(const std::string &text);
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();
 
-// Returns the coordinates of a place for a warning, with the unit if the user named it. They have as many digits as tell the ends
-// of an edge of this length apart, down to a tenth of it. If the length is 0, they have six.
+// Returns the coordinates of a place for a warning, with the unit if the user named it. They are rounded to
+// a tenth of the edge's length or finer, so that they tell its ends apart. If the length is 0, they have six digits.
 std::string place_text(const Options &options, const double *point, double edge);
 
 }  // namespace riis::cli

@@ -41,7 +41,7 @@ struct QuadGrid {
   Vector<double> errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: a bound
                           // of its distance, at equal (u,v), from the patch between the exact curves
 
-  GridLines lines{};  // that the grid was made from; empty unless asked for
+  GridLines lines{};  // that the grid was made from; empty unless requested
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }

@@ -13,7 +13,7 @@ namespace {
 
 // A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
 constexpr int max_depth = 20;
-// Narrower parts are not halved for the velocity. A curve that nearly turns on the spot has no end of bends there.
+// Parts that are narrower are not halved for the velocity. Where a curve nearly turns on the spot, halving would not end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts that are within max_error of them.
@@ -181,7 +181,7 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
   struct Place {
     Vec3 first, second, third, tangent, rate_first, rate_second;
     double speed;
-    double behind, rate_behind;  // the length behind, and how fast it grows
+    double behind, rate_behind;  // the length up to here, and its rate
   };
   std::array<Place, n_cells + 1> places;
   for (std::size_t k = 0; k <= n_cells; ++k) {
@@ -205,13 +205,13 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
     view(u_)[k] = k == n_cells ? 1 : at.behind / total;
     view(bend_)[k] = 0;
     if (!(at.speed > 0)) continue;
-    // The point of share u moves along the parameter so fast.
+    // The rate of the parameter of share u.
     const double t_rate = -(at.rate_behind - view(u_)[k] * rate_total) / at.speed;
     const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
     const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
     const double along = dot(at.tangent, at.second);
-    // The curvature vector, and its rate; the second derivative by the share is it times the length squared.
+    // The curvature vector and its rate. The vector times the length squared is the second derivative by the share.
     const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
     const Vec3 curvature_rate = inverse * inverse *
                                     (second_rate - along * tangent_rate -

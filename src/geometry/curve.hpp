@@ -63,13 +63,13 @@ class Curve {
 // Returns whether both have the same control points, to the last bit.
 bool are_equal(const Curve &a, const Curve &b);
 
-// How far the velocity of a curve's points is from linear along it, estimated. A point keeps its share of the length.
+// Estimates how far the velocity of a curve's points is from linear along it. A point keeps its share of the length.
 class VelocityBend {
  public:
-  // The velocities of the control points are those of a Bézier curve of the same degree.
+  // The control points of `velocity` are the velocities of the curve's control points.
   VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity);
 
-  // Estimates the largest distance between the velocity and the linear one from share u0 to u1.
+  // Estimates the largest distance of the velocity from its linear interpolation between shares u0 and u1.
   double off_linear(double u0, double u1) const;
 
  private:

@@ -10,7 +10,8 @@
 namespace riis {
 namespace {
 
-// In half thicknesses. Pairs count as riis_find_crossings has them by default. Rounding alone makes no pair as deep as the second.
+// Depths in half thicknesses. Pairs count from the first, the default of riis_find_crossings. Rounding makes none as deep as the
+// second.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
 // Returns the depth that triangles of leaflets which only touch may have (docs/theory.md, section 16).
@@ -26,7 +27,7 @@ void say(const Valve &valve, const Surface &surface, int n_threads) {
   const auto leaflet = [&](std::int64_t pair, int k) {
     return view(set.leaflet_id)[view(pairs.triangle)[2 * pair + k]];
   };
-  // The hinges of a housing are recesses, which the valve here lacks.
+  // Hinges reach into recesses of the housing, which the model lacks.
   const std::int32_t housing = valve.kind().housing;
   std::int64_t n = 0, deepest = -1;
   for (std::int64_t i = 0; i < view(pairs.depth).size(); ++i) {
@@ -56,7 +57,7 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     say(valve, surface, n_threads);
   } catch (...) {
-    // The search lacks memory. The surface is there, and the caller has not requested the search.
+    // There is no memory for the search. The caller did not request it, and the surface is good.
   }
 }
 

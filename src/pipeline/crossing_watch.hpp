@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says to the log once that the leaflets of a shape which the user chose go through each other.
+// Warns in the log if leaflets go through each other: once for each shape that the user chose.
 // In: the valve and its new surface. Out: a message or none.
 #pragma once
 
@@ -15,11 +15,11 @@ namespace riis {
 class CrossingWatch {
  public:
   // Looks at the first surface of each shape, if there is a log function. Otherwise it allocates nothing and costs nothing. It
-  // never fails, because the surface is good: without memory for the search nothing is said.
+  // never fails, because the surface is good: without memory for the search there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
-  // A caller may go back and forth between some shapes.
+  // A caller that goes back and forth between so few shapes gets one warning for each.
   static constexpr std::size_t n_remembered = 8;
 
   std::array<std::uint64_t, n_remembered> looked_at_{};

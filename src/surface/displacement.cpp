@@ -23,8 +23,8 @@ class MovedSide {
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the points of now that are known already;
-  // `unknown` says which are not, ascending, with the first and the last of all if there are any.
+  // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the points of now that are known
+  // already. `unknown` lists the others, ascending. If there are any, it also lists the first point and the last.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
@@ -48,7 +48,7 @@ class MovedSide {
   bool is_at_rest_;
 };
 
-// The lines of a grid in one direction, and the lines that halve the steps between them as often as the quads there need it.
+// The lines of a grid in one direction, and the lines that halve the steps between them as often as the quads there are halved.
 class HalvedLines {
  public:
   HalvedLines(const Vector<GridLine> &lines, const Vector<int> &levels) : lines_(lines) {
@@ -91,7 +91,7 @@ struct SideOnGrid {
   Side Patch::*side;
   double GridLine::*t;
   bool GridLine::*is_vertex;
-  const Vec3 *first;  // point of the grid; the others follow at this distance
+  const Vec3 *first;  // point of the grid; the others follow at distances of `stride`
   std::size_t stride;
 };
 
@@ -115,7 +115,7 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   return side.displacements(lines.shares(on.t), std::move(points), unknown);
 }
 
-// O of a patch of arcs at ascending u. The neighbours have the same at the ends.
+// O of a patch of arcs at ascending u. At the ends it is made from the shared sides, as in the neighbours.
 Vector<Vec3> offsets_at(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge) {
   Vector<Vec3> made(base.size(), Vec3{0, 0, 0});
   if (patch.bulge == 0) return made;

@@ -31,12 +31,12 @@ struct MovedPatch {
 // a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
 class PatchMotion {
  public:
-  // The grid has its lines.
+  // The grid must have kept its lines.
   PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled);
 
-  // At the crossing of two lines of the grid.
+  // Returns the displacement at the crossing of two lines of the grid.
   Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
-  // In the quad behind this crossing, whose sides are halved `level` times.
+  // Returns the displacement in the quad behind this crossing, whose sides are halved `level` times.
   Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
@@ -55,7 +55,7 @@ class PatchMotion {
  private:
   Vec3 at(std::size_t i, std::size_t j) const;
 
-  Vector<int> column_levels_, row_levels_;  // the largest of the quads between two lines
+  Vector<int> column_levels_, row_levels_;  // the largest level of the quads between two lines
   Vector<std::size_t> column_, row_;        // of each line of the grid: its place among the halved lines
   Vector<double> u_, v_;                    // of the halved lines
   bool has_arcs_;

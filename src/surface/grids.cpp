@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// The largest speed by the opening, at five points of each curve: a cubic that is 0 at all of them is 0.
+// Returns the largest speed per unit of opening at five points of each curve. A cubic that is 0 at all five is 0 everywhere.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
   for (const Bezier &rate : set.rates)

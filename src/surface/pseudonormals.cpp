@@ -57,7 +57,7 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// Sorts edges by their upper ends. They are few and in the order of their slots, and those with equal ends stay in it. A stable
+// Sorts edges, in the order of their slots and mostly few, by their upper ends. Edges with equal ends keep their order. A stable
 // sort of the standard library would allocate.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {

@@ -17,21 +17,21 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A quantity on a range of u, in both states at the same u: bounds of its length in either state, and of its change.
-// Products of numbers, dot products and cross products all obey the rule for products.
+// Bounds of a quantity on a range of u: of its length in either state, and of its change between the states at the same u.
+// The rule for products holds for products of numbers, dot products and cross products.
 struct Both {
   double size, change;
 };
 Both operator+(Both a, Both b) { return {a.size + b.size, a.change + b.change}; }
 Both operator*(Both a, Both b) { return {a.size * b.size, a.change * b.size + a.size * b.change}; }
 Both operator*(double a, Both b) { return {a * b.size, a * b.change}; }
-// Bounds are tight if the least length of a range is so large a part of the largest.
+// Bounds are tight if the least length on a range is at least this share of the largest.
 constexpr double tight_share = 0.9;
 
 // The inverse of a length that is at least `least`.
 Both inverse(double least, double change) { return {1 / least, change / (least * least)}; }
 
-// A bound that is not a number, as 0 times infinity, stays: something is not known.
+// Returns NaN if either is NaN, such as 0 times infinity: then no bound is known.
 double larger(double a, double b) { return a >= b || a != a ? a : b; }
 double larger_of(Vec3 a, Vec3 b) { return larger(length(a), length(b)); }
 
@@ -43,7 +43,7 @@ double least_on_segment(Vec3 a, Vec3 b) {
   return length(mix(a, b, share));
 }
 
-// A function with a second derivative of at most `second` is so far from the line between its ends.
+// Bounds how far a function is from the line between its ends if its second derivative is at most `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
 // A range of u on which each state's curve is a part of one Bézier piece.
@@ -95,7 +95,8 @@ AlongCurve along(const CurveRange &on) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // The parameters of the same u differ by at most `shift`: so much at the ends, and by the rates dt/du = length / |B'| between.
+  // The states' parameters of the same u differ by at most `shift`. It is the difference at the ends, and the growth in between
+  // that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*on.now, *on.before, from, to);
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
   const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -105,7 +106,7 @@ AlongCurve along(const CurveRange &on) {
   const Both d1{first, change.first + second * shift}, d2{second, change.second + third * shift},
       d3{third, change.third};
   const Both inverse_speed = inverse(least, d1.change), t_first = length * inverse_speed;
-  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // across: what projects along the tangent
+  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // across: the projection along the tangent
   const Both inverse_sq = inverse_speed * inverse_speed;
   const Both bent = length * inverse_sq * across * d2;
   const Both inverse_speed_first = inverse_sq * tangent * d2 * t_first;
@@ -121,7 +122,7 @@ AlongCurve along(const CurveRange &on) {
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds of two states that have nothing to do with each other.
+// Returns the bounds that follow from each state alone, for states that are in different pieces.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -133,7 +134,7 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if the first curve has a piece more than the second, which is at its start: the shorter one of its ends.
+// Returns 1 if `curve` has one piece more than `other`, and has it at the start. The shorter end piece is taken for that piece.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
   const std::size_t n = curve.pieces().size();
   return n == other.pieces().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
@@ -192,7 +193,7 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // A joint may pass an end of the curve: pieces at the start that one state has and the other has not.
+  // 1 for the state that has one more piece at the start, because a joint passed that end of the curve; otherwise 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -200,7 +201,7 @@ void add_joints(const Curve &curve, Vector<double> &shares) {
   for (const double joint : curve.joints()) shares.push_back(joint);
 }
 
-// Ranges are halved at most so often, and no more once there are so many.
+// Limits for halving ranges: of the rounds, and of the number of ranges.
 constexpr int most_rounds = 12;
 constexpr std::size_t most_ranges = 1024;
 
@@ -222,7 +223,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Gives up on a curve that never gets tight.
+  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Returns
+  // false once there are too many ranges, as for a curve that never gets tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -256,7 +258,8 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
 
-// Bounds how far a side's displacement is from linear between each two lines, and at a line from that at its middle.
+// Bounds how far a side's displacement is from linear between each two lines. The bound includes the difference between a line's
+// own share on the side and the line's middle.
 Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines, double GridLine::*t) {
   const Vector<double> at_lines = shares_of(lines, t);
   Shares shares(at_lines, {&curves.now, &curves.before});
@@ -274,7 +277,7 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
     for (std::size_t i = from; i < to; ++i) {
       const AlongCurve on = side.between(i);
       const double second = side.is_same_piece(i) ? on.second_of_point().change : on.size_now + on.size_before;
-      // Green's function of linear interpolation is at most x (width - x) / width, and its integral width squared / 8.
+      // Green's function of linear interpolation is at most x (width - x) / width. Its integral is at most width squared / 8.
       const double x0 = shares.all()[i] - start, x1 = shares.all()[i + 1] - start, x = std::clamp(0.5 * width, x0, x1);
       error += (x1 - x0) * x * (width - x) / width * second;
       largest = larger(largest, second);
@@ -288,7 +291,7 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
   return made;
 }
 
-// O of a patch of arcs and its derivatives by u on a range, less the factor.
+// Bounds of O of a patch of arcs, and of its derivatives by u, on a range. They leave out the factor, the bulge.
 struct ArcRangeInBoth {
   Both first, second;
   double largest;  // of |O| in either state
@@ -316,7 +319,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;
   const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
-  // The slope at the start of the range, where both states have a direction, and its change along the range.
+  // W' is its value at the start of the range, where both states have a direction, and its change along the range.
   const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
                 distance(slope(i, true), slope(i, false)) + width * w2.change};
   const Both m1 = w1 * b.value + w0 * b.first, m2 = w2 * b.value + 2 * w1 * b.first + w0 * b.second;
@@ -391,7 +394,7 @@ double larger_mix(double at0, double at1, double from, double to) {
   return larger((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
 }
 
-// Bounds at equal (u, v), before any image is placed: of the errors of a patch's displacements and of its points.
+// Bounds of the errors of a patch's displacements and of its points, at equal (u, v), before any image is placed.
 struct PatchErrors {
   double displacement = 0, point = 0;
 };

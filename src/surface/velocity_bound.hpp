@@ -17,7 +17,7 @@ struct TwoStates {
   double seconds;
 };
 
-// The grids are those of `now`, and they have their lines.
+// The grids are those of `now`, and must have kept their lines.
 double velocity_error_bound(const TwoStates &states, const Vector<LevelledGrid> &grids);
 
 }  // namespace riis

@@ -42,7 +42,7 @@ struct HalfCusp {
 };
 HalfCusp half_cusp(const CuspShape &shape);
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
-// Returns how fast the control points move by the opening.
+// Returns the derivatives of the control points by the opening.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
 // Refuses curves that reach far away. Values that are sound one by one can make them: a high power with a long tangent, or a

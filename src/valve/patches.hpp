@@ -63,8 +63,8 @@ struct PatchSet {
   // Bounds the distance of the patches from the valve's shape, in the Hausdorff sense. It is not 0 for curves that stand
   // for arcs of circles.
   double deviation = 0;
-  // How fast the control points of each curve move by the opening, for valves that blend them; otherwise empty. All curves then
-  // have one piece.
+  // The derivatives of each curve's control points by the opening, if the valve blends control points. All curves then have one
+  // piece. Otherwise empty.
   Vector<Bezier> rates = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

@@ -46,8 +46,8 @@ struct ValveKind {
   // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
   // states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // Leaflets meet only where their triangles have common vertices, such as at commissures. Other leaflets may touch anywhere, and
-  // then their triangles go through each other by the error of the triangles.
+  // True if leaflets meet only where their triangles have common vertices, such as at commissures. Otherwise they may touch
+  // anywhere, and their triangles may then go through each other by the triangles' error.
   bool has_exact_contacts = false;
   // The leaflet_id of a wall into which hinges reach, or -1.
   std::int32_t housing = -1;
@@ -80,7 +80,7 @@ class Valve {
 
   // Returns whether the shape is that of the kind's defaults: the user chose at most the opening.
   bool has_default_shape() const;
-  // Returns a number for the shape, whatever the opening. Another shape has another number, as good as surely. Never 0.
+  // Returns a digest of the shape without the opening, never 0. Two shapes practically never have the same digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
@@ -105,7 +105,7 @@ inline Vec3 blend(Vec3 closed, Vec3 open, double opening) {
 }
 // Blends two curves of the same degree.
 Bezier blend(const Bezier &closed, const Bezier &open, double opening);
-// Returns how fast the control points of the blend move by the opening.
+// Returns the derivatives of the blend's control points by the opening.
 Bezier rate(const Bezier &closed, const Bezier &open);
 
 // Returns the spec of the opening, a parameter that every kind has.

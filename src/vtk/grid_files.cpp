@@ -156,7 +156,7 @@ void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
   check_polyhedra(path, grid);
 }
 
-// Runs steps that may fail while VTK's code is below them. The first failure is kept for afterwards.
+// Runs steps that VTK calls. No exception may pass through VTK, so the first one is kept for rethrow().
 class Steps {
  public:
   template <class Step>
@@ -177,15 +177,15 @@ class Steps {
   std::exception_ptr failure_;
 };
 
-// Returns a value as an id. Those that no file can hold become -1 or a large one.
+// Returns a value as an id. Values that no file can hold become -1 or a large id.
 vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   constexpr double most = 1e15;
   const double value = array->GetTuple1(i);
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes public what VTK's XML readers know about their own failure, and refuses an array before VTK reads it where the file holds
-// less than VTK would read.
+// Makes public what VTK's XML readers know about their own failure. Refuses an array before VTK reads it if the file holds less
+// than VTK would read.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -228,7 +228,7 @@ class WatchedReader : public Reader {
   Steps &steps() { return steps_; }
 
  private:
-  // The last of some offsets is the number of values of another array, which VTK reads next.
+  // Offsets end with the number of values of another array, which VTK reads next.
   void check_next_array(vtkXMLDataElement *element, vtkDataArray *array, vtkIdType n) {
     const std::string name = element->GetAttribute("Name") ? element->GetAttribute("Name") : "";
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";

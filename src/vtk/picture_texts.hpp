@@ -48,8 +48,8 @@ struct PanelTexts {
   std::vector<KeyEntry> key;         // as many as fit
 };
 
-// Draws all texts of a picture behind its panels. unit follows the number at the scale bar, with an s unless it is 1 or the unit
-// has no plural, as symbols have none.
+// Draws all texts of a picture behind its panels. unit follows the number at the scale bar. It gets an s unless the number is 1,
+// or the unit has no plural, as a symbol.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural);

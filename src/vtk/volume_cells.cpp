@@ -30,7 +30,7 @@ bool is_linear_volume(int type) {
 
 Edge edge_between(vtkIdType a, vtkIdType b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Sorts edges and leaves each once. Edges from a node to itself go.
+// Sorts edges. Removes repeated ones, and those from a node to itself.
 void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::remove_if(edges.begin(), edges.end(), [](const Edge &edge) { return edge[0] == edge[1]; }),
               edges.end());
@@ -71,7 +71,7 @@ void add_inner_edges(int type, std::vector<Edge> &edges) {
   };
   if (type == VTK_TRIQUADRATIC_HEXAHEDRON) add_star(26, 20);
   if (type == VTK_TRIQUADRATIC_PYRAMID) add_star(18, 13);
-  // The middles of the sides are the corners of a triangle half way up.
+  // The middles of the quads are the corners of a triangle half way up.
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
@@ -110,7 +110,7 @@ const Shape &known_shape(int type) {
 using Orders = std::array<int, 4>;  // along three axes, and the number of nodes, as VTK has them
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Each place of the lattice one step smaller is a small tetrahedron.
+  // Each place of a lattice of one order less stands for a small tetrahedron.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {

@@ -43,7 +43,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-// Memory that ran out at a file. The text is in the exception, because there may be no memory for it.
+// Thrown when memory runs out at a file. It contains the text itself, because there may be no memory for a string.
 struct OutOfMemory {
   char text[longest_path + 32];
 };

@@ -26,9 +26,9 @@ struct Failure {
 [[noreturn]] void fail(riis_status status, std::string text);
 // Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path too long for the message loses its beginning, not the reason.
 [[noreturn]] void fail_file(const std::string &path, const std::string &reason);
-// Throws that memory ran out at the file, with the message "PATH: out of memory". It takes no memory itself.
+// Throws RIIS_OUT_OF_MEMORY with the message "PATH: out of memory". It takes no memory itself.
 [[noreturn]] void fail_memory(const std::string &path);
-// Does what reads or writes the file, which is named if memory runs out.
+// Calls `work`, which reads or writes the file. If memory runs out, the error names the file.
 template <class Work>
 auto naming(const std::string &path, const Work &work) {
   try {

@@ -19,7 +19,7 @@
 namespace riis::vtk {
 namespace {
 
-// The bits that a value takes at least. A string has at least its end.
+// Returns the fewest bits that a value takes. A string takes at least the byte that ends it.
 std::uint64_t bits_of(const char *type) {
   static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},  {"UInt16", 16},
                                                                   {"Int32", 32}, {"UInt32", 32}, {"Float32", 32},
@@ -163,7 +163,7 @@ void XmlSizes::check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, 
     // A number takes a character at least, and a blank before the next.
     held.n = held.is_text ? (place.end - place.begin + 1) / 2 : n_bytes_in(parser, element, place);
   }
-  // Each number of a text is a value, or eight bits.
+  // Each number of a text is one value, or eight values of one bit.
   const std::uint64_t n_values = held.is_text ? held.n * (n_bits == 1 ? 8 : 1) : held.n * 8 / n_bits;
   if (n < 0 || static_cast<std::uint64_t>(n) > n_values)
     refuse(element, "must have " + std::to_string(n) + " values and has " + (held.is_text ? "at most " : "") +
@@ -185,7 +185,7 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns 0 for an attribute that is missing or no number, as VTK does or refuses.
+// Returns 0 for an attribute that is missing or is no number. VTK takes it for 0 also, or refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;

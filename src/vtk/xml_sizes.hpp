@@ -21,8 +21,8 @@ class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);
 
-  // Fails unless the arrays of all pieces, and those of the field, hold as many values as are promised. The parser has read the
-  // elements.
+  // Fails unless the arrays of all pieces, and those of the field, hold as many values as are promised. The parser must have
+  // read the elements.
   void check_pieces(vtkXMLDataParser *parser);
   // Fails unless the file holds n values for an element, of the size that the array's values have. It also fails if a block of
   // binary data claims to be larger than the file.
@@ -48,7 +48,7 @@ class XmlSizes {
   const std::string &path_;
   MappedFile file_;
   std::string_view bytes_;
-  // What the elements hold that were looked at so far: bytes, or numbers of a text.
+  // What each element that was looked at holds: bytes, or numbers of a text.
   struct Held {
     std::uint64_t n = 0;
     bool is_text = false;

@@ -18,7 +18,7 @@ enum { longest_output = 65536 };
 extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
 extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if there was none */
-extern char program_crossings[longest_output]; /* the same of leaflets that cross */
+extern char program_crossings[longest_output]; /* the warning about crossings, likewise */
 
 /* The place for the program's stdout instead of program_out: the path of a file, or "" for a closed stdout. NULL at first. */
 extern const char *program_stdout;
@@ -46,8 +46,8 @@ void expect_run_refused(int exit_code, const char *part_of_text, const char *fil
 double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
-/* Fails unless the text begins with this place, off by at most a tenth of an edge and without digits below a hundredth, and
- * then with what follows. */
+/* Fails unless the text begins with this place and goes on with `follows`. The place may be off by a tenth of an edge, and must
+ * have no digits below a hundredth of one. */
 void expect_place(const char *text, const double point[3], double edge, const char *follows);
 
 /* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */

@@ -389,7 +389,7 @@ typedef struct {
 
 static random_source rng;
 
-/* Whatever the solver takes from a point, a mark or a part of a pressure band, must be that of the leaflets' triangles, and the
+/* Checks a point that is marked or in a pressure band. The solver must take its distance from the leaflets' triangles, and the
  * point must lie in the box. */
 static void look_at(frame *at, const double point[3]) {
   double expected = 0, distance = 0;
@@ -435,8 +435,8 @@ static double check_box_of_frame(int is_closing, int k) {
   }
   assert_true(at.n_marked > 10);
   const double outside = at.n_marked_outside / (double)at.n_marked;
-  /* Without nodes in a band the solver divides 0 by 0: a closed valve never opens, and an open one, which looks for nodes before
-   * the leaflets, never closes. */
+  /* Without nodes in a band the solver divides 0 by 0. A closed valve then never opens. An open one, which needs nodes before the
+   * leaflets, never closes. */
   assert_true(at.n_of_side[0] > 10 && (!is_closing || at.n_of_side[1] > 10));
   assert_int_equal(at.all.n - at.leaflets.n, 3);
   for (int i = at.leaflets.n; i < at.all.n; ++i) look_around(&at, at.all.middle + 3 * i);

@@ -177,7 +177,7 @@ static void test_second_run(void **state) {
   assert_true(scratch_exists(".riis-held.vtu.lock"));
   RUN_FINE(mesh, "--output", held, "--half-thickness", "0.6", "--quiet");
   assert_false(scratch_exists(".riis-held.vtu.lock"));
-  /* Ctrl-C takes its lock along. */
+  /* Ctrl-C also removes the lock. */
   const pid_t interrupted = start_held_run(held);
   kill(interrupted, SIGINT);
   finish_program(interrupted);

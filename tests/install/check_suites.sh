@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_suites.sh CTEST SOURCE_DIR BUILD_DIR SCRATCH_FOLDER
-# ./run test leaves out the slow tests and no other, ./run quick none of the slow ones, and continuous integration nothing. A test
-# that needs a slow one as its fixture would bring it back.
+# ./run test must leave out the slow tests and no others, ./run quick must have no slow test, and continuous integration must run
+# every part. A test whose fixture is slow would bring the fixture back.
 set -euo pipefail
 ctest=$1 source=$2 build=$3 scratch=$4
 
