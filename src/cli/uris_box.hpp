@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // svMultiPhysics looks at a mesh only in the box of the valve's nodes, widened by a tenth. A flat valve's box is too thin: it
-// leaves out marks, and the bands in which the solver takes its pressures. In: the triangles. Out: three more, which widen the box.
+// leaves out marks, and the bands in which the solver takes its pressures. In: the triangles. Out: three more,
+// which widen the box.
 #pragma once
 
 #include <array>
