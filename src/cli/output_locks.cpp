@@ -45,6 +45,23 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
+// Ending signals wait while one of these lives, so a lock file always has the handlers that remove it.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : ending_signals) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait &) = delete;
+  SignalsWait &operator=(const SignalsWait &) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
 // A lock's name has only the end of an output's name that is too long.
 std::string lock_of(const std::string &output) {
   constexpr std::size_t longest = 200;
@@ -91,6 +108,7 @@ int take(const std::string &output, const std::string &lock) {
 }  // namespace
 
 OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
+  const SignalsWait wait;
   try {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
