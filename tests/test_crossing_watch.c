@@ -101,6 +101,21 @@ static void a_shape_is_named_once(void **state) {
   assert_int_equal(warnings.n, 3);
 }
 
+/* A valve that begins open closes later: each range of the opening is looked at, until there was something to say. */
+static void a_valve_that_begins_open_is_named(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet");
+  set(valve, "leaflet_height", 1.3);
+  set(valve, "opening", 1);
+  riis_surface *surface = new_surface(valve, NULL);
+  assert_int_equal(warnings.n, 0);
+  for (int i = 10; i >= 0; --i) {
+    set(valve, "opening", i / 10.0);
+    update(surface, valve);
+  }
+  assert_int_equal(warnings.n, 1);
+}
+
 /* What the caller found stays the caller's. */
 static void the_search_leaves_no_pairs(void **state) {
   (void)state;
@@ -229,6 +244,7 @@ static void nobody_searches_in_silence(void **state) {
 int main(void) {
 #define HEARD(test) cmocka_unit_test_setup_teardown(test, start_listening, stop_listening)
   const struct CMUnitTest tests[] = {HEARD(a_shape_is_named_once),
+                                     HEARD(a_valve_that_begins_open_is_named),
                                      HEARD(the_search_leaves_no_pairs),
                                      HEARD(sound_shapes_are_not_named),
                                      HEARD(patches_are_a_shape_of_the_user),

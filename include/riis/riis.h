@@ -121,8 +121,9 @@ enum {
 };
 /* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
  * under way in another thread may still reach the former function. With a log function, a surface searches each
- * shape that the caller chose for crossings (riis_find_crossings): once, at the shape's first opening. A shape is
- * chosen by parameters, patches or an open state. The search takes longer than an update.
+ * shape that the caller chose for crossings (riis_find_crossings): at its first opening in each of the ranges 0,
+ * to 0.05, to 1/3, to 2/3 and to 1, until it has warned. A shape is chosen by parameters, patches or an open
+ * state. The search takes longer than an update.
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 

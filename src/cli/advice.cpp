@@ -52,15 +52,27 @@ bool edges_fit_at(double factor, const Situation &s) {
 
 // Returns the factor by which the mesh's lengths must grow to fit the surface's, or none if they fit or no power of ten helps.
 std::optional<double> missing_factor(const Situation &s) {
-  if (sizes_fit_at(1, s) && edges_fit_at(1, s) && overlap_at(1, s)) return std::nullopt;
+  const bool sizes_fit = sizes_fit_at(1, s);
+  if (sizes_fit && edges_fit_at(1, s)) {
+    // Sizes that are alike, or that fit in the units that the user named, are in these units. Then the place is wrong.
+    const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
+    if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
+  }
   // Sizes that differ this much are not in one unit, whatever the places.
   const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
   std::optional<double> best;
-  for (const bool must_overlap : {true, false}) {
-    if (!must_overlap && (best || !differ_widely)) break;
+  // A mesh in another unit may also be too coarse.
+  struct Pass {
+    bool must_overlap, must_resolve;
+  };
+  for (const auto [must_overlap, must_resolve] :
+       {Pass{true, true}, Pass{false, true}, Pass{true, false}, Pass{false, false}}) {
+    if (best || (!must_overlap && !differ_widely) || (!must_resolve && sizes_fit)) continue;
     double least = std::numeric_limits<double>::infinity();
     for (const double factor : factors) {
-      if (!sizes_fit_at(factor, s) || !edges_fit_at(factor, s) || (must_overlap && !overlap_at(factor, s))) continue;
+      if (!sizes_fit_at(factor, s) || (must_resolve && !edges_fit_at(factor, s)) ||
+          (must_overlap && !overlap_at(factor, s)))
+        continue;
       const double oddity = std::abs(std::log(factor * mesh_in_surfaces(s) / usual_mesh));
       if (oddity < least) {
         least = oddity;

@@ -146,7 +146,7 @@ Searches
   The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
   Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
   connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
-  cell of volume.
+  volume cell.
 
 Distances
   --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.

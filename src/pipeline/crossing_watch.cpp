@@ -20,7 +20,8 @@ double depth_of_contacts(const Valve &valve, const Surface &surface) {
   return 2 * surface.triangles().error_bound;
 }
 
-void say(const Valve &valve, const Surface &surface, int n_threads) {
+// Returns whether there was something to say.
+bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =
       find_crossings(set, surface.scene().groups(), least_depth * surface.half_thickness(), n_threads);
@@ -35,7 +36,7 @@ void say(const Valve &valve, const Surface &surface, int n_threads) {
     ++n;
     if (deepest < 0 || view(pairs.depth)[i] > view(pairs.depth)[deepest]) deepest = i;
   }
-  if (n == 0 || view(pairs.depth)[deepest] <= depth_of_contacts(valve, surface)) return;
+  if (n == 0 || view(pairs.depth)[deepest] <= depth_of_contacts(valve, surface)) return false;
   constexpr int digits = 3;
   const auto at = [&](int k) { return rounded(view(pairs.point)[3 * deepest + k], digits + 1); };
   const std::int32_t one = leaflet(deepest, 0), other = leaflet(deepest, 1);
@@ -44,18 +45,31 @@ void say(const Valve &valve, const Surface &surface, int n_threads) {
   log_message(RIIS_LOG_WARNING, who.text(), " at opening ", valve.opening(), ": ", n, n == 1 ? " pair" : " pairs",
               " of triangles, up to ", rounded(view(pairs.depth)[deepest], digits), " deep, at (", at(0), ", ", at(1),
               ", ", at(2), "); riis_find_crossings lists them, riis-mark --check-crossing looks at all openings");
+  return true;
 }
 
 }  // namespace
 
+CrossingWatch::Shape &CrossingWatch::remembered(std::uint64_t digest) {
+  const auto known =
+      std::find_if(shapes_.begin(), shapes_.end(), [&](const Shape &shape) { return shape.digest == digest; });
+  if (known != shapes_.end()) return *known;
+  Shape &shape = shapes_[next_];
+  next_ = (next_ + 1) % n_remembered;
+  shape = {digest, 0, false};
+  return shape;
+}
+
 void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threads) noexcept {
   if (!is_logging() || valve.has_default_shape()) return;
-  const std::uint64_t shape = valve.shape_digest();
-  if (std::find(looked_at_.begin(), looked_at_.end(), shape) != looked_at_.end()) return;
-  looked_at_[next_] = shape;
-  next_ = (next_ + 1) % n_remembered;
+  Shape &shape = remembered(valve.shape_digest());
+  unsigned range = 1;
+  for (const double least : {0.0, 0.05, 1.0 / 3, 2.0 / 3})
+    if (valve.opening() > least) range *= 2;
+  if (shape.is_said || (shape.looked_at & range) != 0) return;
+  shape.looked_at |= range;
   try {
-    say(valve, surface, n_threads);
+    shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
     // There is no memory for the search. The caller did not request it, and the surface is good.
   }

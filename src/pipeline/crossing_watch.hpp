@@ -14,15 +14,23 @@ namespace riis {
 
 class CrossingWatch {
  public:
-  // Looks at the first surface of each shape, if there is a log function. Otherwise it allocates nothing and costs nothing. It
+  // Looks at the first surface of each shape in each range of the opening, until it has warned of the shape, if there
+  // is a log function. Otherwise it allocates nothing and costs nothing. It
   // never fails, because the surface is good: without memory for the search there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
+  struct Shape {
+    std::uint64_t digest = 0;
+    unsigned looked_at = 0;  // a bit for each range of the opening
+    bool is_said = false;
+  };
+  Shape &remembered(std::uint64_t digest);
+
   // A caller that goes back and forth between so few shapes gets one warning for each.
   static constexpr std::size_t n_remembered = 8;
 
-  std::array<std::uint64_t, n_remembered> looked_at_{};
+  std::array<Shape, n_remembered> shapes_{};
   std::size_t next_ = 0;
 };
 

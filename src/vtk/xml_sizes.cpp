@@ -179,6 +179,7 @@ void XmlSizes::check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element
 void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n) {
   int width = 1;
   element->GetScalarAttribute("NumberOfComponents", width);
+  if (width < 0) refuse(element, "claims " + std::to_string(width) + " components");
   const std::int64_t n_components = std::max(width, 1);
   if (n > std::numeric_limits<std::int64_t>::max() / n_components)
     refuse(element, "claims " + std::to_string(n) + " times " + std::to_string(n_components) + " values");

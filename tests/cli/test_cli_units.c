@@ -183,6 +183,33 @@ static void test_coarse_or_other_unit(void **state) {
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
 
+/* A mesh in another unit that is also too coarse: the unit comes first. */
+static void test_coarse_and_other_unit(void **state) {
+  (void)state;
+  for (int i = 0; i < n_units; i += 2) {
+    const double f = factors[i];
+    assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 8, (double[3]){-2.1 * f, -2.1 * f, -1.5 * f},
+                                    (double[3]){2.1 * f, 2.2 * f, 1.5 * f}, 0),
+                     1);
+    char advice[64];
+    snprintf(advice, sizeof advice, ": write --unit %s\n", units[i]);
+    run_program(scratch_path("coarse.vtu"), NULL);
+    expect_warning(program_exit_code, advice);
+  }
+}
+
+/* A surface that is beside the mesh in the unit of both is not in another unit: sizes that are alike say so. */
+static void test_beside_the_mesh(void **state) {
+  (void)state;
+  for (int named = 0; named < 2; ++named) {
+    run_program(meshes[1], "--surface", surfaces[1], "--translate", "0,0,2.6", named ? "--unit" : NULL, "cm",
+                "--surface-unit", "cm", NULL);
+    assert_int_equal(program_exit_code, 3);
+    assert_null(strstr(program_err, "looks as if"));
+    assert_non_null(strstr(program_err, "--translate"));
+  }
+}
+
 /* In a case the likelier cause comes first, whatever the order of the valves, and it alone gives advice. */
 static void test_order_of_causes(void **state) {
   (void)state;
@@ -285,7 +312,8 @@ int main(void) {
       cmocka_unit_test(test_patches),          cmocka_unit_test(test_wrong_valve_units),
       cmocka_unit_test(test_wrong_file_units), cmocka_unit_test(test_coarse_or_other_unit),
       cmocka_unit_test(test_half_thickness),   cmocka_unit_test(test_places),
-      cmocka_unit_test(test_order_of_causes),
+      cmocka_unit_test(test_order_of_causes),  cmocka_unit_test(test_coarse_and_other_unit),
+      cmocka_unit_test(test_beside_the_mesh),
   };
   return cmocka_run_group_tests(tests, make_files, scratch_teardown);
 }

@@ -81,6 +81,8 @@ static void test_promised_numbers(void **state) {
        "has an array of 2147483647 components, more than it has bits"},
       {"f.vtu", "Name=\"velocity\" NumberOfComponents=\"3\"", "Name=\"velocity\" NumberOfComponents=\"2147483647\"",
        "has an array of 2147483647 components, more than it has bits"},
+      {"f.vtu", "Name=\"velocity\" NumberOfComponents=\"3\"", "Name=\"velocity\" NumberOfComponents=\"-5\"",
+       "array velocity claims -5 components"},
       {"f.vtu", "NumberOfTuples=\"2\"", "NumberOfTuples=\"5000000000\"",
        "array time must have 5000000000 values and has "},
       {"f.vtu", "Name=\"offsets\"", "Name=\"offset\"", "promises 389 cells and has no array of their offsets"},
