@@ -35,21 +35,10 @@ Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &sid
   return errors;
 }
 
-// Returns the larger of two values, at `from` and at `to`, of the linear function that is at0 at 0 and at1 at 1.
-double larger_mix(double at0, double at1, double from, double to) {
-  return std::max((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
-}
-
 Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
   // Each side moves by at most half the difference of the parameters, since the line stands at their mean.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
-}
-
-// Returns the largest 2 v (1-v) from one v to another.
-double largest_arc_weight(double from, double to) {
-  const double v = std::clamp(0.5, from, to);
-  return 2 * v * (1 - v);
 }
 
 // Adds grid lines between the last one and `to` until O is nearly linear between them.
@@ -94,6 +83,15 @@ class ArcRefinement {
 };
 
 }  // namespace
+
+double larger_mix(double at0, double at1, double from, double to) {
+  return std::max((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
+}
+
+double largest_arc_weight(double from, double to) {
+  const double v = std::clamp(0.5, from, to);
+  return 2 * v * (1 - v);
+}
 
 Vector<double> middles(const Vector<GridLine> &lines) {
   Vector<double> values;

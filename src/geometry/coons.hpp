@@ -85,6 +85,11 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
 // Makes rows of equal height h. An arc is at most |O| / 2 times h squared from its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
+// Returns the larger of two values, at `from` and at `to`, of the linear function that is at0 at 0 and at1 at 1.
+double larger_mix(double at0, double at1, double from, double to);
+// Returns the largest 2 v (1-v) from one v to another.
+double largest_arc_weight(double from, double to);
+
 // Returns the parameters of lines.
 Vector<double> middles(const Vector<GridLine> &lines);
 

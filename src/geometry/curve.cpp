@@ -236,14 +236,8 @@ double VelocityBend::at(double u, std::size_t cell) const {
   return (1 - share) * view(bend_)[cell] + share * view(bend_)[cell + 1];
 }
 
-Flattened flatten(const Curve &curve, double max_error) {
-  Flattening flattening(curve.first(), max_error, nullptr, 0);
-  if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
-  return flattening.take();
-}
-
-Flattened flatten(const Curve &curve, double max_error, const VelocityBend &bend, double max_bend) {
-  Flattening flattening(curve.first(), max_error, &bend, max_bend);
+Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend, double max_bend) {
+  Flattening flattening(curve.first(), max_error, bend, max_bend);
   if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
   return flattening.take();
 }

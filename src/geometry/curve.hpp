@@ -93,10 +93,8 @@ struct Flattened {
 // or 1/2 (quadratic) of its flatness from its chord. Parts are halved by length; the paper (algorithm "Recursive de
 // Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at
 // least a part, and patches have no slivers between them. A shared middle point appears once. Fails with
-// RIIS_LIMIT_EXCEEDED for more than 2^20 parts.
-Flattened flatten(const Curve &curve, double max_error);
-
-// Also halves parts on which the velocity is estimated to be off linear by more than max_bend.
-Flattened flatten(const Curve &curve, double max_error, const VelocityBend &bend, double max_bend);
+// RIIS_LIMIT_EXCEEDED for more than 2^20 parts. With a bend it also halves parts on which the velocity is estimated to be
+// off linear by more than max_bend.
+Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 }  // namespace riis

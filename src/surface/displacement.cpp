@@ -164,7 +164,7 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
   u_ = u_lines.middle(), v_ = v_lines.middle();
 }
 
-Vec3 PatchMotion::in_quads(std::size_t i, std::size_t j, int column, int row) const {
+Vec3 PatchMotion::without_jumps(std::size_t i, std::size_t j, int column, int row) const {
   const std::size_t n_columns = column_levels_.size(), n_rows = row_levels_.size();
   const int level = levelled_.levels[j * n_columns + i], n = 1 << level;
   const auto level_beside = [&](bool is_inside, std::size_t column_beside, std::size_t row_beside) {

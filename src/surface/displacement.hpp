@@ -43,7 +43,7 @@ class PatchMotion {
   }
   // The same, but linear along a side between the vertices that the neighbouring quad has there too. So the displacement does not
   // jump from quad to quad.
-  Vec3 in_quads(std::size_t i, std::size_t j, int column, int row) const;
+  Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
   // How far O moves on each line of a patch of arcs.
   Vector<Vec3> offset_moves() const {

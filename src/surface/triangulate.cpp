@@ -107,7 +107,7 @@ struct PatchVertices {
         for (int column = 0; column <= n_parts; ++column) {
           const double s = column * step, t = row * step;
           points.push_back(quad.at(s, t));
-          if (motion) displacements.push_back(motion->in_quads(i, j, column, row));
+          if (motion) displacements.push_back(motion->without_jumps(i, j, column, row));
           add((1 - s) * u0 + s * u1, (1 - t) * v0 + t * v1);
         }
     });

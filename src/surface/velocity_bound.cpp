@@ -390,10 +390,6 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
   return made;
 }
 
-double larger_mix(double at0, double at1, double from, double to) {
-  return larger((1 - from) * at0 + from * at1, (1 - to) * at0 + to * at1);
-}
-
 // Bounds of the errors of a patch's displacements and of its points, at equal (u, v), before any image is placed.
 struct PatchErrors {
   double displacement = 0, point = 0;
@@ -420,11 +416,11 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   auto next_level = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
-    const double row = grid.v[j + 1] - grid.v[j], v = std::clamp(0.5, grid.v[j], grid.v[j + 1]);
+    const double row = grid.v[j + 1] - grid.v[j];
     // Between two vertices the arcs' part is as far from linear as 2 v (1-v) is.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
-                   larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) + 2 * v * (1 - v) * offset[i] +
-                   0.5 * row * row * rows[i];
+                   larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
+                   largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;
