@@ -18,7 +18,7 @@ class CurvePoints {
 
   std::size_t size() const { return places_.size(); }
   Vec3 point(std::size_t i) const;
-  // Where point i is: the piece, and the parameter on it.
+  // Return the piece that point i is on, and its parameter there.
   std::size_t piece(std::size_t i) const { return place(i).piece; }
   double parameter(std::size_t i) const { return place(i).t; }
   // Returns the unit vector along the curve, or 0 if the curve has no direction there.

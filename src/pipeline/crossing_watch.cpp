@@ -20,7 +20,7 @@ double depth_of_contacts(const Valve &valve, const Surface &surface) {
   return 2 * surface.triangles().error_bound;
 }
 
-// Returns whether there was something to say.
+// Warns of crossings. Returns whether there were any.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =

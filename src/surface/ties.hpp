@@ -14,7 +14,7 @@ namespace riis {
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // of each triangle; null if ties are not wanted
-  // Distances that differ by at most this are equal: to two leaflets, and to two patches of one leaflet.
+  // Distances to two leaflets, and to two patches of one leaflet, count as equal up to these differences.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {
