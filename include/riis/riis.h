@@ -2,32 +2,35 @@
  *
  * riis.h - the whole public interface of riis: heart valves as resistive immersed implicit surfaces.
  *
- *   riis_valve  --riis_surface_create-->  riis_surface  --riis_mark_nodes-->  riis_mark_result
+ *   riis_valve  --riis_surface_create-->  riis_surface  --riis_mark_nodes-->  riis_marks
  *   (named parameters)                    (triangles, Embree scene)           (nodes in the band)
  *
  * The shortest true program:
  *
- *   riis_valve *valve = NULL; riis_surface *surface = NULL;
- *   riis_mesh *mesh = NULL; riis_mark_result *result = NULL;
- *   int64_t n_marked; const int64_t *node_id; const double *distance;
+ *   riis_valve *valve = NULL; riis_surface *surface = NULL; riis_mesh *mesh = NULL; riis_marks *marks = NULL;
+ *   riis_mark_list marked;
  *   riis_valve_create("aortic", &valve);
  *   riis_surface_create(valve, NULL, &surface);
  *   riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh);
- *   riis_mark_result_create(&result);
- *   riis_mark_nodes(surface, mesh, NULL, result);                                  (once a time step)
- *   riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL);
+ *   riis_marks_create(&marks);
+ *   riis_mark_nodes(surface, mesh, NULL, marks);                                   (once a time step)
+ *   riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked);          (marked.node_id, .distance)
  *
- * Rules for every function, not repeated below:
+ * These rules hold for every function:
  *
  * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valve tables are in
  *   centimetres; a placement's scale turns them into the mesh's unit (0.01 for metres).
  * - Ids: anything called *_id counts from 0, also in messages. Ids that the caller gives count from a field
- *   index_base, 0 (default) or 1. A field *_bits tells their width: 32 (default) or 64.
+ *   index_base, 0 (default) or 1. A field id_bits tells their width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride is
- *   at least 1, in doubles: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2.
- * - Status: a function that can fail returns a riis_status. 0 is success. A positive status refuses the call,
- *   and no object changed. A negative status leaves an object passed for writing fit for destruction only.
- *   riis_last_error() has the message. No function aborts, prints, throws, or lets an exception out.
+ *   at least 1, in numbers: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. A field real_bits
+ *   tells the numbers' width: 64 (default) or 32. Without it they are doubles. Vectors are given alike.
+ * - Order: the object that the function is named after comes first, then what the call reads, then options,
+ *   then what it writes. `get` stands before everything that a function gives from an object.
+ * - Status: a function that can fail returns a riis_status. 0 is success. A positive status refuses the call:
+ *   no object, no array and no pointer that an object gave has changed. A negative status leaves an object
+ *   passed for writing fit for destruction only. riis_last_error() has the message. No function aborts, prints,
+ *   throws, or lets an exception out.
  * - Errors: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out of range,
  *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, written only on success. Destroying takes a handle's address,
@@ -35,9 +38,10 @@
  * - Memory: a call reads its arguments and their arrays only while it runs, unless they are borrowed. Arrays
  *   that it gives belong to the handle, until the handle's next update or its destruction. Empty arrays are
  *   NULL, and any pointer to receive them may be NULL.
- * - Structs: struct_size is sizeof of the struct as the caller compiled it; a call writes no more. An init
- *   function sets struct_size, the defaults, and all else to 0 or NULL. A NULL options pointer means all
- *   defaults. Fields are only ever appended.
+ * - Structs: a struct that a call fills in stands before its size, as in (&list, sizeof list), and the call
+ *   writes no more. A struct that a call reads begins with struct_size. Its init function sets that field, the
+ *   defaults, and all else to 0 or NULL. A NULL options pointer means all defaults. Fields are only ever
+ *   appended; `reserved`, which is 0, is the place of the next.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default: as many threads as the work feeds, at most the processors in the
@@ -60,8 +64,8 @@
 
 #include <stdint.h>
 
-#define RIIS_VERSION_MAJOR 0 /* of this header; grows when compiled callers would break */
-#define RIIS_VERSION_MINOR 2 /* grows when something is added */
+#define RIIS_VERSION_MAJOR 1 /* of this header; grows when compiled callers would break */
+#define RIIS_VERSION_MINOR 0 /* grows when something is added */
 #define RIIS_VERSION_PATCH 0 /* grows when something is mended */
 
 #if defined(__GNUC__) && !defined(RIIS_STATIC)
@@ -103,9 +107,9 @@ RIIS_API const char *riis_status_name(riis_status status);
  * none has failed, never NULL. Owned by the library, valid until the next failed call of the same thread. */
 RIIS_API const char *riis_last_error(void);
 
-/* Tells the version of the linked library, not of this header. Any pointer may be NULL. */
-RIIS_API void riis_version(int32_t *major, int32_t *minor, int32_t *patch);
-/* Returns the version of the linked library as static text, such as "0.1.0". */
+/* Gives the version of the linked library, not of this header. Any pointer may be NULL. */
+RIIS_API void riis_get_version(int32_t *major, int32_t *minor, int32_t *patch);
+/* Returns the version of the linked library as static text, such as "1.0.0". */
 RIIS_API const char *riis_version_string(void);
 
 /* Receives messages on any thread that calls the library. It must not call the library, throw or jump out.
@@ -127,8 +131,19 @@ enum {
  *   user_data  handed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
-/* Requests the default, in fields that name it. */
+/* Takes the value from another quantity, which the field's comment names. */
 #define RIIS_AUTO (-1.0)
+
+/* Points in the caller's arrays, for the calls that copy them or read them once. */
+typedef struct riis_points {
+  int64_t struct_size;     /* set by the init function */
+  int64_t n_points;        /* 0 to 2^40 */
+  const void *x, *y, *z;   /* (n_points) by stride; NULL only without points */
+  int64_t stride;          /* of x, y and z. Default 1 */
+  int32_t real_bits;       /* of x, y and z */
+  int32_t reserved;        /* 0 */
+} riis_points;
+RIIS_API riis_status riis_points_init(riis_points *points, int64_t struct_size); /* the defaults */
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Valve: named parameters (paper, tables "Aortic valve parameters" and "Mitral valve parameters"), or patches
@@ -190,8 +205,7 @@ typedef struct riis_patches {
   int32_t index_base;        /* of curve_id */
   int32_t reserved;          /* 0 */
 } riis_patches;
-/* Fills *patches with the defaults. */
-RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size);
+RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
 
 /* Makes a valve from patches, which it copies. Its only parameter is "opening"; patch_id is the patch's
  * number, from 0.
@@ -208,12 +222,12 @@ typedef struct riis_parameter {
   double minimum;          /* of every value, inclusive */
   double maximum;          /* of every value, inclusive */
 } riis_parameter;
-/* Tells how many parameters the valve has. */
-RIIS_API riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters);
-/* Describes a parameter.
+/* Gives the number of the valve's parameters. */
+RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
+/* Gives the description of a parameter.
  *   parameter_id  0 to n_parameters - 1 */
-RIIS_API riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id,
-                                          riis_parameter *parameter, int64_t struct_size);
+RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
+                                              riis_parameter *parameter, int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Surface: triangles in space that answer closest-point queries
@@ -243,14 +257,14 @@ enum {
 
 /* How the distance of a point to the surface is measured (paper, 4.1). The last two are the paper's, for
  * comparison, and only for surfaces of valves. They measure to points S(u,v) of patches, up to the error
- * distance_tolerance * half_thickness (docs/theory.md, section 9). Such a closest point has the leaflet_id of
+ * measure_tolerance * half_thickness (docs/theory.md, section 9). Such a closest point has the leaflet_id of
  * its patch, the normal of S (0 0 0 where S has none), triangle_id -1, barycentric 0 and side 0.
  * RIIS_INVALID_ARGUMENT refuses arrays for barycentric and side, and RIIS_SEARCH_CLUSTERS. */
 enum {
-  RIIS_DISTANCE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
-  RIIS_DISTANCE_SAMPLING = 1,    /* the nearest of points evenly spaced on every patch, at most 16,777,216:
+  RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
+  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points evenly spaced on every patch, at most 16,777,216:
                                     within the error, and below by at most a tenth of it */
-  RIIS_DISTANCE_MINIMIZATION = 2 /* Powell's method (1964) on every patch: below by at most a tenth of the
+  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch: below by at most a tenth of the
                                     error, but above by any amount, unnoticed, in a local minimum */
 };
 
@@ -276,14 +290,14 @@ typedef struct riis_surface_options {
   double rotation_angle;   /* degrees, counter-clockwise seen against the axis; -1e6 to 1e6, default 0 */
   double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve where coordinates
                               would round by more than a thousandth of tolerance * half_thickness */
+  double measure_tolerance; /* for distances by sampling and minimisation, in half thicknesses: 1e-6 to 1.
+                               Default RIIS_AUTO: tolerance */
+  int32_t measure;         /* RIIS_MEASURE_*, of closest points and marking only; default
+                              RIIS_MEASURE_TRIANGLES, the only one for arrays */
+  int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
   int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
-  int32_t distance;        /* RIIS_DISTANCE_*, of closest points and marking only; default
-                              RIIS_DISTANCE_TRIANGLES, the only one for arrays */
   int32_t n_threads;       /* default 0 */
-  double distance_tolerance; /* for distances by sampling and minimisation, in half thicknesses: 1e-6 to 1.
-                                Default RIIS_AUTO: tolerance */
-  int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
   int32_t reserved;        /* 0 */
 } riis_surface_options;
 /* Fills *options with the defaults. */
@@ -304,18 +318,18 @@ RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_sur
 typedef struct riis_surface_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
-  const double *x, *y, *z;   /* (n_vertices) by stride: the vertices, before placement */
+  const void *x, *y, *z;     /* (n_vertices) by stride: the vertices, before placement */
   int64_t stride;            /* of x, y and z. Default 1 */
+  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths over
+                                the caller's time. The placement turns and scales them. All NULL: none */
+  int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
   const void *vertex_ids;    /* (corners_per_face, n_faces); the right-hand rule makes the normal */
-  int32_t vertex_id_bits;    /* of vertex_ids */
-  int32_t index_base;        /* of vertex_ids */
-  int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
-  int32_t reserved;          /* 0 */
   const int32_t *leaflet_id; /* (n_faces), >= 0; NULL: all 0 */
-  const double *vx, *vy, *vz; /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths over
-                                 the caller's time. The placement turns and scales them. All NULL: none */
-  int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
+  int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
+  int32_t id_bits;           /* of vertex_ids */
+  int32_t index_base;        /* of vertex_ids */
+  int32_t real_bits;         /* of vertices and velocities */
 } riis_surface_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
@@ -338,16 +352,16 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  * gives every vertex a velocity: from the point with the same patch, u and v of an earlier state to the
  * vertex, over the time between (docs/theory.md, section 10). A valve at rest is its own state before.
  *   valve_before    the state before: of the same kind; from patches, with the same curves and sides
- *   seconds         from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
+ *   dt              the time from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
  *   options_before  scale, rotation and translation before; its other fields do not count. NULL: the present
  *                   ones
- * The velocity, in mesh units over the unit of seconds, is the mean of the step: that of the step's middle to
+ * The velocity, in mesh units over the unit of dt, is the mean of the step: that of the step's middle to
  * second order, that of either end to first. Leaflets that are equally near to a node give it their mean
- * (riis_mark_fields.velocity).
+ * (riis_mark_list.velocity).
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
  * whose parameters do not go together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
-                                                const riis_valve *valve_before, double seconds,
+                                                const riis_valve *valve_before, double dt,
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 /* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0, and
@@ -370,43 +384,42 @@ typedef struct riis_keyframe_arrays {
   int64_t n_keys;        /* 1 to 1,000,000 */
   int64_t n_vertices;    /* of each frame, that of the faces */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
-  const double *xyz;     /* (3, n_vertices, n_keys): the vertices, frame after frame; finite, magnitude at
+  const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; finite, magnitude at
                             most 1e60 */
   double period;         /* > 0: the motion repeats; its keys lie within a period of the first, and a last key
                             that is a period after the first has its frame. 0, the default: the first frame
                             counts before its time, the last one after it */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
-  int32_t reserved;      /* 0 */
+  int32_t real_bits;     /* of xyz */
 } riis_keyframe_arrays;
 /* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
-/* Makes keyframes from copies of faces and frames.
- *   faces  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
+/* Makes keyframes from copies of arrays and frames.
+ *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
  * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face and its value; RIIS_LIMIT_EXCEEDED for more
  * than memory can hold. */
-RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *faces,
+RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
- *   time   finite, magnitude at most 1e30
- *   since  the time that the velocity is the mean from; time itself for the derivative of the interpolation
+ *   time  finite, magnitude at most 1e30
+ *   dt    the velocity is the mean from time - dt to time; 0 for the derivative of the interpolation
  * Errors: as riis_surface_create_from_arrays. */
-RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time,
-                                                        double since, const riis_surface_options *options,
+RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
+                                                        const riis_surface_options *options,
                                                         riis_surface **surface);
 /* Replaces the surface's content by the frames around a time. Arguments and errors as
  * riis_surface_create_from_keyframes, options as in riis_surface_update. */
-RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface,
-                                                        const riis_keyframes *keyframes, double time,
-                                                        double since,
+RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
+                                                        double time, double dt,
                                                         const riis_surface_options *options);
-/* Destroys the surface. Results stay. */
+/* Destroys the surface. Marks stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
 /* The size of a surface, and the seconds that its last create or update took. */
 typedef struct riis_surface_info {
-  int64_t n_vertices;        /* length of the array of riis_surface_vertices */
+  int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
   int64_t n_zero_area;       /* triangles skipped for want of area */
   double half_thickness;     /* placed units */
@@ -420,31 +433,33 @@ typedef struct riis_surface_info {
                                 same patch, u and v. The first call after a moving update computes it, which
                                 takes about as long as the update. 0 without a motion, and for arrays */
 } riis_surface_info;
-/* Tells the size of the surface, and the seconds that it took. */
+/* Gives the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
                                            int64_t struct_size);
 
-/* Gives the vertices, xyz(3, n_vertices), after placement. */
-RIIS_API riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices,
-                                           const double **xyz);
-/* Gives each vertex's place on its patch, uv(2, n_vertices), in [0,1]; NULL for a surface from arrays. */
-RIIS_API riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices,
-                                                    const double **uv);
-/* Gives each vertex's velocity, (3, n_vertices), after placement; NULL if the last update gave none. Where
- * closed cusps meet, a vertex has the velocity of its own cusp. */
-RIIS_API riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices,
-                                                    const double **velocity);
-/* Gives the triangles that answer queries; all arrays (n_triangles), vertex_id (3, n_triangles).
- *   triangle_id  ascending: the id that queries report; 0, 1, 2, ... for a valve
- *   leaflet_id   RIIS_LEAFLET_* for the parametric valves; from patches or arrays: the caller's
- *   patch_id     aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored bottom, 3 mirrored top;
- *                mitral, from the posteromedial commissure round: anterior 0 commissure's triangle, 1 side,
- *                2 middle, 3 mirrored middle, 4 mirrored side, 5 mirrored triangle, posterior 6 side scallop,
- *                7 half of the middle one, 8 and 9 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves,
- *                4 to 7 the ring's quarters; from patches: the patch's number; from arrays: 0 */
-RIIS_API riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles,
-                                            const int64_t **vertex_id, const int64_t **triangle_id,
-                                            const int32_t **leaflet_id, const int32_t **patch_id);
+/* The triangles of a surface, after placement. */
+typedef struct riis_triangles {
+  int64_t n_vertices;         /* of the surface */
+  const double *xyz;          /* (3, n_vertices): the vertices */
+  const double *uv;           /* (2, n_vertices): each vertex's place on its patch, in [0,1]; NULL for a surface
+                                 from arrays */
+  const double *velocity;     /* (3, n_vertices): each vertex's velocity; NULL if the last update gave none.
+                                 Where closed cusps meet, a vertex has the velocity of its own cusp */
+  int64_t n_triangles;        /* triangles that answer queries */
+  const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
+  const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
+  const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_* for the parametric valves; from patches or arrays:
+                                 the caller's */
+  const int32_t *patch_id;    /* (n_triangles): aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored
+                                 bottom, 3 mirrored top; mitral, from the posteromedial commissure round: anterior
+                                 0 commissure's triangle, 1 side, 2 middle, 3 mirrored middle, 4 mirrored side,
+                                 5 mirrored triangle, posterior 6 side scallop, 7 half of the middle one, 8 and 9
+                                 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves, 4 to 7 the ring's
+                                 quarters; from patches: the patch's number; from arrays: 0 */
+} riis_triangles;
+/* Gives the triangles of the surface, until its next update or its destruction. */
+RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
+                                                int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Crossings: self-intersections, where the surface goes through itself
@@ -460,45 +475,49 @@ typedef struct riis_crossing_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
 
-/* Pairs of triangles that cross. Without a pair, ids are -1, and other fields but seconds 0. */
-typedef struct riis_crossings {
-  int64_t n_pairs;        /* pairs that cross */
-  double length;          /* of the pairs' intersections, which are segments, together; mesh units */
-  double depth;           /* of the deepest pair, of equal ones the first; mesh units */
-  double point[3];        /* the middle of its segment */
-  int64_t triangle_id[2]; /* its triangles, ascending */
-  int32_t leaflet_id[2];  /* their leaflets */
-  double seconds;         /* wall time of riis_find_crossings */
-} riis_crossings;
+/* The pairs of triangles that riis_find_crossings found. Make one and reuse it. */
+typedef struct riis_crossings riis_crossings;
+/* Makes crossings without a pair. */
+RIIS_API riis_status riis_crossings_create(riis_crossings **crossings);
+RIIS_API void riis_crossings_destroy(riis_crossings **crossings);
 
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
  * depth: the length of the shortest translation of one triangle after which both only touch
  * (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0.
- *   surface  keeps the pairs, all else stays
- *   options  a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
- *            2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
+ *   options    a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
+ *              2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
+ *   crossings  its content is replaced
  * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, and no pair. The
- * call looks at triangles, also for the other RIIS_DISTANCE_*. So smooth leaflets that touch may cross by
+ * call looks at triangles, also for the other RIIS_MEASURE_*. So smooth leaflets that touch may cross by
  * twice riis_surface_info.error_bound. The log (riis_set_log) warns of deeper crossings by itself.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
-RIIS_API riis_status riis_find_crossings(riis_surface *surface, const riis_crossing_options *options,
-                                         riis_crossings *crossings, int64_t struct_size);
+RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
+                                         riis_crossings *crossings);
 
-/* Gives the pairs of the last riis_find_crossings with the surface, ascending by their first triangle, then
- * by their second. Valid until the next riis_find_crossings or update, which leaves none.
- *   triangle_id  (2, n_pairs), the lower one first
- *   point        (3, n_pairs), the middle of the pair's segment
- *   depth        (n_pairs)
- *   length       (n_pairs), of the segment */
-RIIS_API riis_status riis_surface_crossing_pairs(const riis_surface *surface, int64_t *n_pairs,
-                                                 const int64_t **triangle_id, const double **point,
-                                                 const double **depth, const double **length);
+/* Pairs of triangles that cross, ascending by their first triangle, then by their second. Lengths are in mesh
+ * units. */
+typedef struct riis_crossing_list {
+  int64_t n_pairs;            /* pairs that cross. Without one, ids are -1, other fields but seconds 0 */
+  const int64_t *triangle_id; /* (2, n_pairs): their triangles, the lower one first */
+  const double *point;        /* (3, n_pairs): the middle of their intersection, which is a segment */
+  const double *depth;        /* (n_pairs) */
+  const double *length;       /* (n_pairs): of the segment */
+  double total_length;        /* the sum of length */
+  double deepest_depth;       /* of the deepest pair, of equal ones the first */
+  double deepest_point[3];
+  int64_t deepest_triangle_id[2];
+  int32_t deepest_leaflet_id[2];
+  double seconds;             /* wall time of riis_find_crossings */
+} riis_crossing_list;
+/* Gives the pairs of the last riis_find_crossings with these crossings, until the next or the destruction. */
+RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
+                                             int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Closest points (paper, 4.1)
  * -------------------------------------------------------------------------------------------------------- */
 
-/* The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in. */
+/* The closest point of the surface to one point. RIIS_MEASURE_* says what other distances fill in. */
 typedef struct riis_closest {
   double distance;        /* >= 0, mesh units */
   double point[3];        /* on the triangle, mesh units */
@@ -514,23 +533,23 @@ typedef struct riis_closest {
  * precision would. Distances below 1e-154 underflow to 0.
  *   point  3 finite coordinates, magnitude at most 1e60
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
-RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point,
-                                        riis_closest *closest, int64_t struct_size);
+RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
+                                        int64_t struct_size);
 
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
-  int64_t struct_size;    /* set by the init function */
-  double distance_limit;  /* >= 0; points farther than this get far_distance, ids -1, side 0, and zeros.
-                             Default RIIS_AUTO: no limit, the same as infinity */
-  double far_distance;    /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
-  int32_t n_threads;      /* default 0 */
-  int32_t reserved;       /* 0 */
+  int64_t struct_size;       /* set by the init function */
+  double distance_limit;     /* >= 0; points farther than this get far_distance, ids -1, side 0, and zeros.
+                                Default infinity: no limit */
+  double far_distance;       /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
   const uint8_t *point_mask; /* (n_points): points with 0 are not written, but still finite. NULL: all
                                 points */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
   const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only
                                 their entries written, at their ids. NULL: all points. Not together with
                                 point_mask */
+  int32_t n_threads;         /* default 0 */
+  int32_t reserved;          /* 0 */
 } riis_closest_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
@@ -550,11 +569,9 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest points of many points, in parallel.
- *   n_points  >= 0
- *   arrays    its arrays are written; none may overlap another or the coordinates
+ *   arrays  its arrays are written; none may overlap another or the coordinates
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
-RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x,
-                                         const double *y, const double *z, int64_t stride,
+RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
 
@@ -565,10 +582,11 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, int64_t n_
  * Mesh: the nodes that are marked
  * -------------------------------------------------------------------------------------------------------- */
 
-/* The caller's nodes. Coordinates are borrowed: they stay in place until an update or the destruction. */
+/* The caller's nodes. The coordinates are borrowed or copied, as the last call that gave them says. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates and checks them once. A process without nodes calls everything as the others do.
+/* Borrows node coordinates and checks them once: they stay in place until an update or the destruction. A
+ * process without nodes calls everything as the others do.
  *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
@@ -578,7 +596,13 @@ RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const do
  * Arguments and errors as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
-/* Destroys the handle. The caller's coordinates stay, and so do results. */
+/* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision
+ * becomes double once, exactly. The handle keeps 24 bytes a node.
+ * Errors: as riis_mesh_create. */
+RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
+/* Does for copies what riis_mesh_update does. A mesh may change between borrowed and copied coordinates. */
+RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
+/* Destroys the handle. The caller's coordinates stay, and so do marks. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They copy
  * the coordinates: 41 bytes a node while the handle lives, 32 more while they are made.
@@ -601,8 +625,7 @@ typedef struct riis_csr {
   int32_t index_base;    /* of both offsets and columns */
   int32_t reserved;      /* 0 */
 } riis_csr;
-/* Fills *csr with the defaults. */
-RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size);
+RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
  *   csr  its arrays are borrowed: they stay in place, unchanged, until the handle is destroyed or given
@@ -619,7 +642,7 @@ typedef struct riis_adjacency riis_adjacency;
 
 /* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: base first, then apex or the nodes above.
  * The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
-typedef struct riis_cells {
+typedef struct riis_mesh_cells {
   int64_t struct_size;     /* set by the init function */
   int64_t n_nodes;         /* of the mesh, >= 0 */
   int64_t n_cells;         /* >= 0 */
@@ -630,15 +653,14 @@ typedef struct riis_cells {
   int32_t id_bits;         /* of node_ids and offsets */
   int32_t index_base;      /* of node_ids */
   int32_t n_threads;       /* default 0 */
-} riis_cells;
-/* Fills *cells with the defaults. */
-RIIS_API riis_status riis_cells_init(riis_cells *cells, int64_t struct_size);
+} riis_mesh_cells;
+RIIS_API riis_status riis_mesh_cells_init(riis_mesh_cells *cells, int64_t struct_size); /* the defaults */
 /* Makes the adjacency of nodes that an edge of a cell joins.
  * Errors: RIIS_INVALID_MESH naming the cell and its value. */
-RIIS_API riis_status riis_adjacency_create_from_cells(const riis_cells *cells, riis_adjacency **adjacency);
+RIIS_API riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency);
 
 /* Faces between cells, for codes that mark cell centres. */
-typedef struct riis_faces {
+typedef struct riis_mesh_faces {
   int64_t struct_size;     /* set by the init function */
   int64_t n_cells;         /* >= 0: the nodes of the mesh are cell centres */
   int64_t n_faces;         /* >= 0 */
@@ -649,21 +671,21 @@ typedef struct riis_faces {
   int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */
   int32_t reserved;        /* 0 */
-} riis_faces;
-/* Fills *faces with the defaults. */
-RIIS_API riis_status riis_faces_init(riis_faces *faces, int64_t struct_size);
+} riis_mesh_faces;
+RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size); /* the defaults */
 /* Makes the adjacency of cells with a common face.
  * Errors: RIIS_INVALID_MESH naming the face and its owner or neighbor that is no cell. */
-RIIS_API riis_status riis_adjacency_create_from_faces(const riis_faces *faces, riis_adjacency **adjacency);
+RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
  *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0
  * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
-/* Fills *csr for riis_mesh_set_adjacency. Its arrays are the adjacency's. Offsets are int64_t; columns are
+/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays are the adjacency's. Offsets are int64_t; columns are
  * int32_t for fewer than 2^31 nodes, as column_bits says. */
-RIIS_API riis_status riis_adjacency_csr(const riis_adjacency *adjacency, riis_csr *csr, int64_t struct_size);
+RIIS_API riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr,
+                                            int64_t struct_size);
 /* Destroys the adjacency and its arrays. Destroy the mesh that borrows them first. */
 RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
@@ -672,11 +694,10 @@ RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
  * -------------------------------------------------------------------------------------------------------- */
 
 /* The nodes that a marking found. Make one and reuse it every step: its memory is kept. */
-typedef struct riis_mark_result riis_mark_result;
-/* Makes an empty result. It belongs to no mesh and no surface. */
-RIIS_API riis_status riis_mark_result_create(riis_mark_result **result);
-/* Destroys the result. */
-RIIS_API void riis_mark_result_destroy(riis_mark_result **result);
+typedef struct riis_marks riis_marks;
+/* Makes empty marks. They belong to no mesh and no surface. */
+RIIS_API riis_status riis_marks_create(riis_marks **marks);
+RIIS_API void riis_marks_destroy(riis_marks **marks);
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
@@ -705,15 +726,36 @@ enum {
 /* Fields of the closest point that a marking keeps on request. The values are added. Distances by sampling or
  * minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
 enum {
-  RIIS_FIELD_POINT = 1,      /* riis_mark_fields.point */
-  RIIS_FIELD_NORMAL = 2,     /* riis_mark_fields.normal */
-  RIIS_FIELD_BARYCENTRIC = 4, /* riis_mark_fields.barycentric */
-  RIIS_FIELD_SIDE = 8,       /* riis_mark_fields.side */
-  RIIS_FIELD_RIM = 16,       /* riis_mark_fields.rim */
+  RIIS_FIELD_POINT = 1,      /* riis_mark_list.point */
+  RIIS_FIELD_NORMAL = 2,     /* riis_mark_list.normal */
+  RIIS_FIELD_BARYCENTRIC = 4, /* riis_mark_list.barycentric */
+  RIIS_FIELD_SIDE = 8,       /* riis_mark_list.side */
+  RIIS_FIELD_RIM = 16,       /* riis_mark_list.rim */
   RIIS_FIELD_UV = 32,        /* refused for surfaces from arrays */
   RIIS_FIELD_VELOCITY = 64,  /* refused unless the last update gave velocities */
-  RIIS_FIELD_PATCH = 128     /* riis_mark_fields.patch_id */
+  RIIS_FIELD_PATCH = 128     /* riis_mark_list.patch_id */
 };
+
+/* How the band around the surface ends at its rim. */
+enum {
+  RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
+  RIIS_RIM_CUT = 1    /* except nodes whose closest point is on the rim */
+};
+
+/* The term K (u - u_surface) of the momentum equation, of the fluid velocity u and the surface velocity u_surface
+ * (paper, 2.1; docs/theory.md, "Resistance"). At the distance d < eps, K = (R / eps) delta(d) with
+ * delta(d) = (1 + cos(pi d / eps)) / (2 eps). Beyond, K is 0. */
+typedef struct riis_resistance {
+  int64_t struct_size;   /* set by the init function */
+  double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
+                            velocity u has a pressure drop of (R / eps) u. The init function sets NaN, which
+                            is refused */
+  double half_thickness; /* eps, mesh units, 1e-50 to the distance limit of the marking. Default RIIS_AUTO:
+                            the half thickness of the marking */
+  int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
+  int32_t reserved;      /* 0 */
+} riis_resistance;
+RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size); /* the defaults */
 
 /* Options of a marking. */
 typedef struct riis_mark_options {
@@ -721,81 +763,80 @@ typedef struct riis_mark_options {
   double distance_limit;     /* nodes get their distance up to here, mesh units: the half thickness to 1e60.
                                 Default RIIS_AUTO: the half thickness. Marks do not depend on it */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but still finite. NULL: all nodes */
+  const riis_resistance *resistance; /* makes riis_mark_list.K and, if the last update of the surface gave
+                                        velocities, riis_mark_list.K_u_surface. Default NULL: neither */
+  int32_t fields;            /* a sum of RIIS_FIELD_*, for every node within the distance limit: see
+                                riis_mark_list. Default 0: none */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
   int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default
                                 RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE where the processor lacks them.
                                 Distances by sampling or minimisation use the baseline's */
-  int32_t reserved;          /* 0 */
-  int32_t fields;            /* a sum of RIIS_FIELD_*, for every node within the distance limit: see
-                                riis_mark_fields. Default 0: none */
-  int32_t reserved2;         /* 0 */
 } riis_mark_options;
-/* Fills *options with the defaults. */
-RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size);
+RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance
  * limit. The reported distance decides, in double precision, inclusive.
- *   result  its content is replaced
+ *   marks  its content is replaced
  * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or
  * less than the half thickness. It warns once for the two, at most eight times for a mesh, and never for a
  * mesh of less than 1000 nodes.
- * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. A positive status
- * leaves the result's content as it was, but its arrays may have moved: get the pointers again. */
+ * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
-                                     const riis_mark_options *options, riis_mark_result *result);
+                                     const riis_mark_options *options, riis_marks *marks);
 
-/* Gives the marked nodes, ascending by node_id; arrays (n_marked), valid until the next riis_mark_nodes.
- *   distance                 mesh units
- *   triangle_id, leaflet_id  of the closest triangle, as in riis_closest */
-RIIS_API riis_status riis_mark_result_marked(const riis_mark_result *result, int64_t *n_marked,
-                                             const int64_t **node_id, const double **distance,
-                                             const int64_t **triangle_id, const int32_t **leaflet_id);
-/* Gives the nodes within the distance limit, marked or not, as riis_mark_result_marked does. */
-RIIS_API riis_status riis_mark_result_within_limit(const riis_mark_result *result, int64_t *n_within,
-                                                   const int64_t **node_id, const double **distance,
-                                                   const int64_t **triangle_id, const int32_t **leaflet_id);
+/* The lists of a marking. */
+enum {
+  RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness */
+  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not */
+};
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. From point on, the arrays are the fields that
+ * options.fields requested, and NULL for others. All equal those of riis_closest_point, to the last bit. */
+typedef struct riis_mark_list {
+  int64_t n_nodes;            /* in the list */
+  const int64_t *node_id;     /* (n_nodes) */
+  const double *distance;     /* (n_nodes) */
+  const int64_t *triangle_id; /* (n_nodes): of the closest triangle, as in riis_closest */
+  const int32_t *leaflet_id;  /* (n_nodes): the triangle's */
+  const double *K;            /* (n_nodes): K by options.resistance; NULL without one */
+  const double *K_u_surface;  /* (3, n_nodes): K u_surface; NULL without a resistance or velocities */
+  const double *point;        /* (3, n_nodes): the closest point of the surface */
+  const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
+  const double *barycentric;  /* (3, n_nodes): its weights of the triangle's vertices */
+  const double *uv;           /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
+                                 but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
+                                 5, 8, 9), and the other way round for flipped normals */
+  const double *velocity;     /* (3, n_nodes): the velocity of the surface there, as its last update gave it.
+                                 Where leaflets are equally near, within 1e-6 half thicknesses, it is the mean
+                                 of theirs, each at its own closest point (docs/theory.md, section 10). All
+                                 other fields are those of one triangle */
+  const int32_t *side;        /* (n_nodes): as riis_closest.side */
+  const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
+                                 valve consists of the sides that only one patch has, such as free edges and
+                                 the annulus, but not closed free edges that coincide; the rim of arrays of the
+                                 edges of one triangle, where vertices with equal coordinates are one */
+  const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
+} riis_mark_list;
+/* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
+ *   which  RIIS_LIST_* */
+RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
+                                         int64_t struct_size);
 
-/* The fields of closest points that options.fields requested; NULL for the others. All equal those of
- * riis_closest_point for the node, to the last bit. */
-typedef struct riis_mark_fields {
-  int64_t n_nodes;           /* n_marked or n_within, as of the call that gave the fields */
-  const double *point;       /* (3, n_nodes): the closest point of the surface */
-  const double *normal;      /* (3, n_nodes): the unit normal of its triangle */
-  const double *barycentric; /* (3, n_nodes): its weights of the triangle's vertices */
-  const double *uv;          /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
-                                but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
-                                5, 8, 9), and the other way round for flipped normals */
-  const double *velocity;    /* (3, n_nodes): the velocity of the surface there, as its last update gave it.
-                                Where leaflets are equally near, within 1e-6 half thicknesses, it is the mean
-                                of theirs, each at its own closest point (docs/theory.md, section 10). All
-                                other fields are those of one triangle */
-  const int32_t *side;       /* (n_nodes): as riis_closest.side */
-  const int32_t *rim;        /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
-                                valve consists of the sides that only one patch has, such as free edges and
-                                the annulus, but not closed free edges that coincide; the rim of arrays of the
-                                edges of one triangle, where vertices with equal coordinates are one */
-  const int32_t *patch_id;   /* (n_nodes): as riis_surface_triangles gives it */
-} riis_mark_fields;
-/* Gives the fields of the marked nodes, in the order and with the lifetime of riis_mark_result_marked. */
-RIIS_API riis_status riis_mark_result_marked_fields(const riis_mark_result *result, riis_mark_fields *fields,
-                                                    int64_t struct_size);
-/* Gives the fields of the nodes within the limit, in the order and with the lifetime of
- * riis_mark_result_within_limit. */
-RIIS_API riis_status riis_mark_result_within_limit_fields(const riis_mark_result *result,
-                                                          riis_mark_fields *fields, int64_t struct_size);
-
-/* Writes the result to the caller's arrays (n_nodes), every entry; NULL for arrays that are not wanted.
- *   n_nodes       the number of nodes of the marking, 0 for an empty result
- *   far_distance  distance of nodes beyond the limit or masked out: RIIS_FAR_DISTANCE, or any value (NaN
- *                 also) outside [0, distance limit]
- *   mark          1 for marked nodes, 0 for others
- *   distance      of every node within the distance limit, else far_distance
- *   triangle_id   of every node within the distance limit, else -1
- *   leaflet_id    of every node within the distance limit, else -1 */
-RIIS_API riis_status riis_mark_result_dense(const riis_mark_result *result, int64_t n_nodes,
-                                            double far_distance, uint8_t *mark, double *distance,
-                                            int64_t *triangle_id, int32_t *leaflet_id);
+/* The caller's arrays (n_nodes) with an entry for each node of the mesh; NULL for arrays that are not wanted. */
+typedef struct riis_dense_arrays {
+  int64_t struct_size;  /* set by the init function */
+  int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
+  double far_distance;  /* distance of nodes beyond the limit or masked out: any value (NaN also) outside
+                           [0, distance limit]. Default RIIS_FAR_DISTANCE */
+  uint8_t *mark;        /* 1 for marked nodes, 0 for others */
+  double *distance;     /* of every node within the distance limit, else far_distance */
+  int64_t *triangle_id; /* of every node within the distance limit, else -1 */
+  int32_t *leaflet_id;  /* of every node within the distance limit, else -1 */
+} riis_dense_arrays;
+RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
+/* Writes the marks to the caller's arrays, every entry.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays);
 
 /* How the last marking went. */
 typedef struct riis_mark_stats {
@@ -811,57 +852,49 @@ typedef struct riis_mark_stats {
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search found by proof, not walk */
 } riis_mark_stats;
-/* Tells how the last marking with the result went; all 0 for an empty result. */
-RIIS_API riis_status riis_mark_result_stats(const riis_mark_result *result, riis_mark_stats *stats,
-                                            int64_t struct_size);
+/* Tells how the last marking with the marks went; all 0 for empty marks. */
+RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
- * Resistance: the term K (u - u_surface) of the momentum equation (paper, 2.1; docs/theory.md, "Resistance")
+ * Resistance: K and K u_surface in the caller's arrays, and sums of a flow around the surface
  * -------------------------------------------------------------------------------------------------------- */
 
-/* How the band around the surface ends at its rim. */
-enum {
-  RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
-  RIIS_RIM_CUT = 1    /* except nodes whose closest point is on the rim; needs RIIS_FIELD_RIM */
-};
-
-/* A resistance K = (R / eps) delta(d) at the distance d < eps: delta(d) = (1 + cos(pi d / eps)) / (2 eps). */
-typedef struct riis_resistance {
-  int64_t struct_size;   /* set by the init function */
-  double resistance;     /* R, 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
-                            velocity u has a pressure drop of (R / eps) u. The init function sets NaN, which
-                            is refused */
-  double half_thickness; /* eps, mesh units, 1e-50 to the distance limit of the marking. Default RIIS_AUTO:
-                            the half thickness of the marking */
-  int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
-  int32_t reserved;      /* 0 */
-} riis_resistance;
-/* Fills *resistance with the defaults. */
-RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size);
-
+/* The caller's arrays with an entry for each node of the mesh, to which K and K u_surface are added. */
+typedef struct riis_resistance_arrays {
+  int64_t struct_size;         /* set by the init function */
+  int64_t n_nodes;             /* the number of nodes of the marking */
+  double *K;                   /* (n_nodes) by K_stride; NULL if not wanted */
+  int64_t K_stride;            /* default 1 */
+  double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, the components x, y and z; all NULL if not
+                                  wanted */
+  int64_t K_u_surface_stride;  /* default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
+} riis_resistance_arrays;
+/* Fills *arrays with the defaults. */
+RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, so that several valves add up: a scheme takes (sum of K) u -
- * (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points.
- *   n_nodes      the number of nodes of the marking
- *   coefficient  (n_nodes), K is added; NULL if not wanted
- *   momentum     (3, n_nodes), K u_surface is added; needs RIIS_FIELD_VELOCITY. NULL if not wanted
- * Errors: RIIS_INVALID_ARGUMENT also for a result never marked with, and for a field that the result lacks.
- * The arrays are then as they were. */
-RIIS_API riis_status riis_mark_result_add_resistance(const riis_mark_result *result,
-                                                     const riis_resistance *resistance, int64_t n_nodes,
-                                                     double *coefficient, double *momentum);
+ * (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points. riis_mark_list has both for
+ * the nodes of a list.
+ *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
+ * Errors: RIIS_INVALID_ARGUMENT also for marks never marked with, and for a field that the marks lack. */
+RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
+                                               const riis_resistance_arrays *arrays);
 
+/* The flow at the nodes, in the caller's arrays. */
+typedef struct riis_flow_arrays {
+  int64_t struct_size;       /* set by the init function */
+  int64_t n_nodes;           /* the number of nodes of the marking */
+  const double *velocity[3]; /* (n_nodes) by velocity_stride, the components x, y and z; NULL only for 0 nodes */
+  int64_t velocity_stride;   /* default 1; 3 for u(3,n) with {u, u + 1, u + 2} */
+  const double *weight;      /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks;
+                                NULL only for 0 nodes */
+} riis_flow_arrays;
+RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks sum
  * their forces by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
- *   n_nodes   the number of nodes of the marking
- *   velocity  (3, n_nodes), of the flow; NULL only for 0 nodes
- *   weight    (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for 0
- *             nodes
- *   force     (3), added to; its unit is that of weight K velocity, N in SI units
- * Errors: as riis_mark_result_add_resistance. */
-RIIS_API riis_status riis_mark_result_add_reaction(const riis_mark_result *result,
-                                                   const riis_resistance *resistance, int64_t n_nodes,
-                                                   const double *velocity, const double *weight,
-                                                   double *force);
+ *   force  (3), added to; its unit is that of weight K velocity, N in SI units
+ * Errors: as riis_marks_add_resistance. */
+RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
+                                             const riis_flow_arrays *flow, double *force);
 
 /* Sums over the nodes on either side of the surface: entry 0 is upstream, side -1, entry 1 downstream. The
  * mean is sum / weight, after ranks have added theirs. */
@@ -870,57 +903,64 @@ typedef struct riis_band_sums {
   double weight[2];   /* of weight */
   int64_t n_nodes[2]; /* nodes in the band */
 } riis_band_sums;
-/* Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose
- * closest point is on the rim are left out, and so are nodes on neither side. With an open valve the two
- * sides have no meaning.
- *   inner, outer  mesh units, 0 <= inner <= outer <= distance limit of the marking
- *   n_nodes       the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM
- *   value         (n_nodes); NULL only for 0 nodes
- *   weight        (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL only for
- *                 0 nodes
- * Errors: RIIS_INVALID_ARGUMENT also for a field that the result lacks. */
-RIIS_API riis_status riis_mark_result_band_sums(const riis_mark_result *result, double inner, double outer,
-                                                int64_t n_nodes, const double *value, const double *weight,
-                                                riis_band_sums *sums, int64_t struct_size);
+/* A band around the surface, and a value at the nodes. */
+typedef struct riis_band {
+  int64_t struct_size;  /* set by the init function */
+  double inner, outer;  /* the distances of its nodes, mesh units, 0 <= inner <= outer <= distance limit of the
+                           marking. Default 0 */
+  int64_t n_nodes;      /* the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
+  const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
+  const double *weight; /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL
+                           only for 0 nodes */
+} riis_band;
+RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
+/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim are
+ * left out, and so are nodes on neither side. With an open valve the two sides have no meaning.
+ * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
+RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
+                                              riis_band_sums *sums, int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md)
  * -------------------------------------------------------------------------------------------------------- */
 
-/* Mesh edges that leak: they cross the surface, and neither node is marked. Edges that are at most two half
- * thicknesses long do not leak (docs/meshes.md). */
-typedef struct riis_leaks {
-  int64_t n_edges;            /* edges that leak. If 0, node ids are -1, other fields but seconds 0 */
-  int64_t longest_node_id[2]; /* the longest edge's nodes, ascending; of equal edges the first listed */
-  double longest_length;      /* its length, mesh units */
-  double longest_middle[3];   /* its middle */
-  double half_thickness;      /* the smallest that gives each edge a marked node, by these triangles */
-  double seconds;             /* wall time of riis_find_leaks */
-} riis_leaks;
+/* The edges that riis_find_leaks found. Make one and reuse it. */
+typedef struct riis_leaks riis_leaks;
+/* Makes leaks without an edge. */
+RIIS_API riis_status riis_leaks_create(riis_leaks **leaks);
+RIIS_API void riis_leaks_destroy(riis_leaks **leaks);
 
 /* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
  * Touching counts. The decision is exact for coordinates in double precision; those below 1e-90 count as 0.
- * An edge may stand in one row or in both, and counts once. Edges to ghosts do not count.
+ * An edge may stand in one row or in both, and counts once. Edges to ghosts do not count. Edges that are at most
+ * two half thicknesses long do not leak (docs/meshes.md).
  *   surface, mesh  those of the marking. The mesh must have an adjacency
+ *   marks          of riis_mark_nodes
  *   options        those of the marking. An edge to a node that node_mask leaves out is no path
- *   result         of riis_mark_nodes; its edges are replaced, all else stays
- * A marking of the same triangles with leaks.half_thickness closes all of these edges, except by
+ *   leaks          its content is replaced
+ * A marking of the same triangles with riis_leak_list.half_thickness closes all of these edges, except by
  * RIIS_SEARCH_PAPER. A new half thickness moves a valve's triangles, by up to tolerance * half_thickness:
  * look again after riis_surface_update.
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a result never marked with, or with
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with
  * another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
-                                     const riis_mark_options *options, riis_mark_result *result,
-                                     riis_leaks *leaks, int64_t struct_size);
+                                     const riis_marks *marks, const riis_mark_options *options,
+                                     riis_leaks *leaks);
 
-/* Gives the edges of the last riis_find_leaks with the result, ascending by their first node, then by their
- * second. Valid until the next riis_find_leaks or riis_mark_nodes with it, which leaves none.
- *   node_id   (2, n_edges), the lower one first
- *   length    (n_edges)
- *   distance  (n_edges): that of its nearer node, the half thickness that closes the edge */
-RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *result, int64_t *n_edges,
-                                                    const int64_t **node_id, const double **length,
-                                                    const double **distance);
+/* Mesh edges that leak, ascending by their first node, then by their second. Lengths are in mesh units. */
+typedef struct riis_leak_list {
+  int64_t n_edges;            /* edges that leak. Without one, node ids are -1, other fields but seconds 0 */
+  const int64_t *node_id;     /* (2, n_edges): their nodes, the lower one first */
+  const double *length;       /* (n_edges) */
+  const double *distance;     /* (n_edges): that of its nearer node, the half thickness that closes the edge */
+  double half_thickness;      /* the smallest that gives each edge a marked node, by these triangles */
+  int64_t longest_node_id[2]; /* the longest edge's nodes, ascending; of equal edges the first listed */
+  double longest_length;
+  double longest_middle[3];
+  double seconds;             /* wall time of riis_find_leaks */
+} riis_leak_list;
+/* Gives the edges of the last riis_find_leaks with these leaks, until the next or the destruction. */
+RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Open regions and passages: whether the unmarked nodes still join two places (docs/meshes.md)
@@ -930,16 +970,16 @@ RIIS_API riis_status riis_mark_result_leaking_edges(const riis_mark_result *resu
  * edges of the mesh's adjacency. An edge may stand in one row or in both. Edges to ghosts are not looked at:
  * ranks of MPI exchange their labels (examples/mpi_leaks.c).
  *   mesh       that of the marking, with an adjacency
+ *   marks      of riis_mark_nodes
  *   options    those of the marking; nodes that node_mask leaves out are in no region
- *   result     of riis_mark_nodes
  *   n_nodes    the number of nodes of the marking
  *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region; NULL only for 0
  *              nodes
  *   n_regions  how many there are; may be NULL
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a result never marked with, or with
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with
  * another number of nodes. */
-RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_mark_options *options,
-                                             const riis_mark_result *result, int64_t n_nodes, int64_t *label,
+RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks,
+                                             const riis_mark_options *options, int64_t n_nodes, int64_t *label,
                                              int64_t *n_regions);
 
 /* These values say whether marked nodes part two sets of nodes. */
@@ -960,21 +1000,25 @@ typedef struct riis_passage {
   int32_t state;    /* RIIS_PASSAGE_* */
   int32_t reserved; /* 0 */
 } riis_passage;
+/* The two sets of nodes that a passage joins. */
+typedef struct riis_passage_ends {
+  int64_t struct_size; /* set by the init function */
+  int64_t n_from;      /* at least 1 */
+  const int64_t *from; /* (n_from), node ids in any order: where paths begin */
+  int64_t n_to;        /* at least 1 */
+  const int64_t *to;   /* (n_to), node ids in any order: where they end. A node in both sets is a path */
+} riis_passage_ends;
+RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
  *   options  node_mask, n_threads and instructions count. A node that node_mask leaves out is on no path
- *   n_from   at least 1
- *   from     (n_from), node ids in any order: where paths begin
- *   n_to     at least 1
- *   to       (n_to), node ids in any order: where they end. A node in both sets is a path
  * Ends count as well, so take them farther from the surface than the passage is wide. A new half thickness
  * moves a valve's triangles, by up to tolerance * half_thickness: look again after riis_surface_update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
  * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
-                                       const riis_mark_options *options, int64_t n_from, const int64_t *from,
-                                       int64_t n_to, const int64_t *to, riis_passage *passage,
-                                       int64_t struct_size);
+                                       const riis_passage_ends *ends, const riis_mark_options *options,
+                                       riis_passage *passage, int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Laws of opening: a valve's opening from the time, the pressure difference and the flow
@@ -983,8 +1027,8 @@ RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_m
 /* Pure functions: the same arguments give the same bits, and nothing is kept. Times, pressures and flows have
  * the solver's units. The pressure difference is that upstream less that downstream, and flow is positive
  * downstream, so both open a valve. `rate` is the derivative of the opening by time. A state is flat: a
- * restart file holds it as it is, and goes on with the same bits. `now` may be `before`; a step that is taken
- * again starts from `before`. */
+ * restart file holds it as it is, and goes on with the same bits. `now` may be `before`, and has its
+ * struct_size; a step that is taken again starts from `before`. */
 
 /* An opening by keys. */
 typedef struct riis_opening_table {
@@ -998,8 +1042,7 @@ typedef struct riis_opening_table {
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
-/* Fills *table with the defaults. */
-RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size);
+RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
 /* Tells the opening at a time by a table. opening and rate may be NULL.
  *   time  magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
@@ -1012,14 +1055,13 @@ typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. No default, as for the next three: NaN, which is
                              refused */
-  double opening_seconds; /* how long that takes, > 0 */
-  double closing_start;   /* when it begins to close, at least opening_start + opening_seconds */
-  double closing_seconds; /* how long that takes, > 0 */
+  double opening_duration; /* how long that takes, > 0 */
+  double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
+  double closing_duration; /* how long that takes, > 0 */
   double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
   double period;          /* > 0: repeats, not before it has closed. Default 0: opens once */
 } riis_opening_times;
-/* Fills *times with the defaults. */
-RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size);
+RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Tells the opening at a time by the times of opening and closing. opening and rate may be NULL.
  *   time  magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
@@ -1033,19 +1075,18 @@ enum {
 };
 
 /* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one.
- * An aortic valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the
- * flow reverses), filter_seconds 0.002, dwell_seconds 0.02. */
+ * An aortic valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the
+ * flow reverses), filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_seconds; /* from closed to open, > 0. No default, as for the next: NaN, which is refused */
-  double closing_seconds; /* from open to closed, > 0 */
+  double opening_duration; /* from closed to open, > 0. No default, as for the next: NaN, which is refused */
+  double closing_duration; /* from open to closed, > 0 */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
-  double filter_seconds;  /* time constant of a filter of first order on both, >= 0. Default 0: no filter */
-  double dwell_seconds;   /* the least time from one turn to the next, >= 0. Default 0 */
+  double filter_time;  /* time constant of a filter of first order on both, >= 0. Default 0: no filter */
+  double dwell_time;   /* the least time from one turn to the next, >= 0. Default 0 */
 } riis_opening_switch;
-/* Fills *law with the defaults. */
-RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size);
+RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size); /* the defaults */
 /* The state of a switch. */
 typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
@@ -1055,7 +1096,7 @@ typedef struct riis_opening_switch_state {
                                  over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
-  double since;               /* the time of the last turn; NaN: none yet */
+  double turn_time;           /* of the last turn; NaN: none yet */
   int32_t phase;              /* RIIS_PHASE_* */
   int32_t reserved;           /* 0 */
 } riis_opening_switch_state;
@@ -1087,8 +1128,7 @@ typedef struct riis_opening_angle {
   double angle_min;     /* degrees, 0 to 90: closed. Default 0 */
   double angle_max;     /* degrees, above angle_min, at most 90: open. Default 75 */
 } riis_opening_angle;
-/* Fills *law with the defaults. */
-RIIS_API riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size);
+RIIS_API riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size); /* the defaults */
 /* The state of the angle law. */
 typedef struct riis_opening_angle_state {
   int64_t struct_size;        /* set by the init function */

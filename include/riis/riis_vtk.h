@@ -43,8 +43,8 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
 /* Gives the nodes in the file's order, xyz(3, n_nodes), and the number of cells. The array is valid until the
  * mesh's destruction. */
-RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
-                                         const double **xyz);
+RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
+                                             const double **xyz);
 
 /* Makes the adjacency of nodes that an edge of a cell of volume joins, for riis_mesh_set_adjacency. It borrows
  * nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds them,
@@ -56,14 +56,14 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
  * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
  * The edges of other cells of volume are not known here. These are convex point sets, and Lagrange and Bezier
  * cells with nodes beyond their lattice. */
-RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
-                                             riis_adjacency **adjacency);
+RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
+                                                    riis_adjacency **adjacency);
 /* Counts the cells of volume. A mesh without such cells, as one of triangles, has no edge that leaks, so leaks
  * are unknown there.
  *   n_volume_cells    NULL if not wanted
  *   n_cells_left_out  the number of those whose edges are not known here, NULL if not wanted */
-RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
-                                                int64_t *n_cells_left_out);
+RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
+                                                    int64_t *n_cells_left_out);
 
 /* Makes only the edges of that adjacency that riis_find_leaks needs, in one pass over the cells: those longer
  * than a length whose bounding box meets that of the surface. It borrows nothing. Use it for riis_find_leaks
@@ -71,34 +71,29 @@ RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64
  *   longer_than       twice the half thickness of the marking; 0, for all edges near the surface, if it was
  *                     by RIIS_SEARCH_PAPER or by other distances than the triangles'. Edges up to a billionth
  *                     shorter count also
- *   n_cells_left_out  as in riis_vtk_mesh_volume_cells
+ *   n_cells_left_out  as in riis_vtk_mesh_get_volume_cells
  * Errors: RIIS_INVALID_ARGUMENT for longer_than below 0 or not finite. */
-RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
-                                              double longer_than, int32_t n_threads,
-                                              int64_t *n_cells_left_out, riis_adjacency **adjacency);
+RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
+                                                     double longer_than, int32_t n_threads,
+                                                     int64_t *n_cells_left_out, riis_adjacency **adjacency);
 
-/* Sets the point arrays of a marking: riis_marked (UInt8, 0 or 1), riis_distance (Float64, far_distance
- * beyond the limit), riis_leaflet (Int32, -1 beyond the limit). Arrays of these names are replaced.
- *   far_distance  as in riis_mark_result_dense
- * Errors: RIIS_INVALID_ARGUMENT for a result of a mesh with another number of nodes. */
-RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
-                                             double far_distance);
-/* Sets the marks of one of several valves as PREFIX_marked, PREFIX_distance, PREFIX_leaflet.
- * riis_vtk_draw shows the marks of riis_vtk_mesh_set_marks only, whose prefix is "riis".
- *   prefix  1 to 64 letters, digits, "_", "-" and "."
- * Errors: as riis_vtk_mesh_set_marks. */
-RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
-                                                   double far_distance, const char *prefix);
+/* Sets the point arrays of a marking: PREFIX_marked (UInt8, 0 or 1), PREFIX_distance (Float64, far_distance
+ * beyond the limit), PREFIX_leaflet (Int32, -1 beyond the limit). Arrays of these names are replaced.
+ *   far_distance  as in riis_dense_arrays
+ *   prefix        1 to 64 letters, digits, "_", "-" and ".". NULL is "riis", whose marks riis_vtk_draw shows
+ * Errors: RIIS_INVALID_ARGUMENT for marks of a mesh with another number of nodes. */
+RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
+                                             const char *prefix);
 /* Sets point arrays of the fields of a marking: PREFIX_point, PREFIX_normal,
  * PREFIX_barycentric, PREFIX_uv, PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32).
  * Beyond the limit they are 0, and PREFIX_patch is -1.
  *   fields  a sum of RIIS_FIELD_* of the marking's fields
- *   prefix  as in riis_vtk_mesh_set_named_marks
- * Errors: RIIS_INVALID_ARGUMENT for a field that the result lacks, and as riis_vtk_mesh_set_marks. */
-RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_mark_result *result,
+ *   prefix  as in riis_vtk_mesh_set_marks
+ * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as riis_vtk_mesh_set_marks. */
+RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks,
                                               int32_t fields, const char *prefix);
 /* Sets a point array of the caller's numbers, such as a resistance; an array of that name is replaced.
- *   name          as a prefix of riis_vtk_mesh_set_named_marks
+ *   name          as a prefix of riis_vtk_mesh_set_marks
  *   n_nodes       of the mesh
  *   n_components  1 to 9 a node
  *   values        (n_components, n_nodes) */
@@ -106,10 +101,10 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
                                                    int64_t n_components, const double *values);
 /* Tells whether the mesh has a point array of that name: *has is 1 or 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the edges of cells of volume, those of riis_vtk_mesh_adjacency, and of faces other
+/* Gives the median length of the edges of cells of volume, those of riis_vtk_mesh_create_adjacency, and of faces other
  * than polygons. It is 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells, evenly spaced
  * in their order, are measured. */
-RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length);
+RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Makes a mesh of some nodes and of all cells that have one of them, with the cells' other nodes. Nodes and
  * cells keep their order and their data. Two arrays tell their ids in the whole mesh: riis_node_id of points
@@ -119,8 +114,8 @@ RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double
  * Errors: RIIS_INVALID_ARGUMENT naming the id and its place in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
-/* Tells how many bytes the file of riis_vtk_mesh_write takes, without its few kilobytes of text. */
-RIIS_API riis_status riis_vtk_mesh_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
+/* Gives the number of bytes that the file of riis_vtk_mesh_write takes, without its few kilobytes of text. */
+RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file, points as Float64.
  *   path  ends in .vtu */
@@ -136,24 +131,22 @@ typedef struct riis_vtk_surface riis_vtk_surface;
 /* Reads a surface. Polygons and strips are cut into triangles; quads stay in a file of quads only.
  *   path  ends in .vtp (faces only), .vtu (triangles, quads, polygons, strips; errors name other cells) or
  *         .stl
- * A cell array riis_leaflet of whole numbers >= 0 gives the leaflet ids. A quad is cut from its first corner
- * to its third. The corners of a concave quad move on by one, the winding kept, if that line runs outside
- * it. */
-RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface);
-/* Reads a surface with leaflet ids from another cell array.
- *   leaflets  the array's name; it must be there, with one whole number >= 0 a cell
+ *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 a cell. It must be there. NULL is
+ *             riis_leaflet, which need not be there
+ * A quad is cut from its first corner to its third. The corners of a concave quad move on by one, the winding
+ * kept, if that line runs outside it.
  * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that there are. */
-RIIS_API riis_status riis_vtk_surface_read_with_leaflets(const char *path, const char *leaflets,
-                                                         riis_vtk_surface **surface);
+RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
  * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as
  * in an .stl file. Arrays that the surface gave before are no longer valid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
 /* Destroys the surface. Its arrays are no longer valid; surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
-/* Points *arrays at the arrays of the surface, for riis_surface_create_from_arrays.
- *   arrays  filled by its init function before; its arrays are valid until the surface's destruction */
-RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays);
+/* Gives the arrays of the surface, for riis_surface_create_from_arrays. They are valid until the surface's
+ * destruction. */
+RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
+                                                 int64_t struct_size);
 
 /* Writes exactly the triangles that are queried, after placement, to a file: points Float64; cell arrays
  * riis_leaflet, riis_patch (Int32), riis_triangle (Int64); point arrays riis_uv (2 x Float64) for valves and
@@ -168,15 +161,15 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 /* The frames of a surface that moves, such as a patient's valve, read from files: the same faces at several
  * times. It becomes keyframes, which take the frames' period and interpolation:
  *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
- *   riis_surface_arrays_init(&faces, sizeof faces); riis_keyframe_arrays_init(&frames, sizeof frames);
- *   riis_vtk_motion_arrays(motion, &faces, &frames);
+ *   riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays);
+ *   riis_vtk_motion_get_frames(motion, &frames, sizeof frames);
  *   frames.period = 0.8;
- *   riis_keyframes_create(&faces, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
+ *   riis_keyframes_create(&arrays, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
  * All reading functions share these rules:
  * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the
  *   same order. Polygons and quads are cut as in the first file.
  * - Leaflets are those of the first file. `leaflets` names their cell array, as in
- *   riis_vtk_surface_read_with_leaflets; NULL is riis_leaflet, which need not be there.
+ *   riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
  *   place in the first file are one vertex, and must share their place in every other file. A surface whose
  *   leaflets touch at corners in the first file, and part later, needs files with points.
@@ -209,19 +202,19 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
                                                         riis_vtk_motion **motion);
 /* Gives the files that were read, one for each frame, or the one with displacements.
  *   paths  (n_files), as given or with the folder of the .pvd file; valid until the motion's destruction */
-RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files,
-                                           const char *const **paths);
+RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
+                                               const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
 RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
 /* Destroys the motion. Its arrays are no longer valid; keyframes made from it stay. */
 RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion);
-/* Points the structs at the motion's arrays, for riis_keyframes_create. Their other fields, such as
- * frames->period, stay.
- *   faces   filled by its init function before; its vertices are those of the first frame
- *   frames  filled by its init function before
- * The arrays are valid until the motion's destruction or riis_vtk_motion_number_pieces. */
-RIIS_API riis_status riis_vtk_motion_arrays(const riis_vtk_motion *motion, riis_surface_arrays *faces,
-                                            riis_keyframe_arrays *frames);
+/* Gives the faces of all frames with the vertices of the first, for riis_keyframes_create. They are valid until
+ * the motion's destruction or riis_vtk_motion_number_pieces. */
+RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
+                                                int64_t struct_size);
+/* Gives the frames, for riis_keyframes_create. They are valid until the motion's destruction. */
+RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, riis_keyframe_arrays *frames,
+                                                int64_t struct_size);
 
 /* -------------------------------------------------------------------------------------------------------- *
  * Pictures
@@ -237,19 +230,19 @@ enum {
 /* What a picture shows and how. Texts are ASCII; other characters are drawn as ?. */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
-  int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
-  int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
-  int32_t reserved;       /* 0 */
   const char *title;      /* stands before the number of triangles; NULL, the default: "Surface" */
+  const char *unit;       /* stands behind the number at the scale bar, such as "mm". NULL, the default, and "":
+                             "mesh units", or "units" without a mesh */
+  int64_t n_leaflet_names;/* >= 0, default 0 */
   const char *const *leaflet_names; /* (n_leaflet_names): by leaflet_id, for the key of the colours; NULL, the
                                        default, and leaflets beyond: "leaflet 0", ... */
-  int64_t n_leaflet_names;/* >= 0, default 0 */
   int64_t n_leaking_edges;/* >= 0, default 0 */
   const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges to draw red, in front of all
                                    else. NULL, the default: no word of leaks. Not NULL, but none: the picture
                                    says that no edge leaks */
-  const char *unit;       /* stands behind the number at the scale bar, such as "mm". NULL, the default, and "":
-                             "mesh units", or "units" without a mesh */
+  int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
+  int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
+  int32_t reserved;       /* 0 */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
