@@ -9,6 +9,7 @@
 #include "api/structs.hpp"
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
+#include "base/integer_array.hpp"
 #include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 
@@ -17,11 +18,8 @@ using riis::require;
 
 namespace {
 
-// The structs' sizes in the first release.
-constexpr std::int64_t closest_size = 96, options_size = 32, arrays_size = 64;
-
 const riis_closest_options default_options{
-    sizeof(riis_closest_options), RIIS_AUTO, RIIS_FAR_DISTANCE, 0, 0, nullptr, 0, nullptr};
+    sizeof(riis_closest_options), std::numeric_limits<double>::infinity(), RIIS_FAR_DISTANCE, nullptr, 0, nullptr, 0, 0};
 const riis_closest_arrays default_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
@@ -73,9 +71,7 @@ void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distanc
     if (vectors) riis::put_vector(vectors, i, {0, 0, 0});
 }
 
-// Returns infinity if the options have no limit.
-double limit_of(const riis_closest_options &options) {
-  if (options.distance_limit == RIIS_AUTO) return std::numeric_limits<double>::infinity();
+double checked_limit(const riis_closest_options &options) {
   if (!(options.distance_limit >= 0))
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
   // Without a limit no point is far, so far_distance does not matter.
@@ -87,28 +83,29 @@ double limit_of(const riis_closest_options &options) {
 // The wanted points: all points, a mask's points, or a list's points.
 class WantedPoints {
  public:
-  WantedPoints(const riis_closest_options &options, const riis::StridedPoints &points)
+  template <class Points>
+  WantedPoints(const riis_closest_options &options, const Points &points)
       : mask_(options.point_mask), ids_(options.point_ids), n_(points.n) {
     if (!ids_) {
       if (options.n_point_ids != 0)
         riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
                    ", but options.point_ids is NULL");
-      if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT);
+      if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT, "points.");
       return;
     }
     if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are both given");
     if (options.n_point_ids < 0 || options.n_point_ids > points.n)
       riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
-                 "; it must be from 0 to n_points, ", points.n);
+                 "; it must be from 0 to points.n_points, ", points.n);
     n_ = options.n_point_ids;
     if (n_ == 0) return;
-    riis::check_points({0, points.x, points.y, points.z, points.stride}, "point", RIIS_INVALID_ARGUMENT);
+    riis::check_pointers(points, "point", "points.");
     std::int64_t last = -1;
     for (std::int64_t k = 0; k < n_; ++k) {
       const std::int64_t id = ids_[k];
       if (id <= last || id >= points.n)
         riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
-                   "; it must be above the entry before, ", last, ", and below n_points, ", points.n);
+                   "; it must be above the entry before, ", last, ", and below points.n_points, ", points.n);
       riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
       last = id;
     }
@@ -125,6 +122,41 @@ class WantedPoints {
   std::int64_t n_;
 };
 
+// Writes the wanted entries of the arrays for the points, whose options were checked.
+template <class Points>
+void find_closest(const riis::Surface &content, const Points &points, const riis_closest_options &options, double limit,
+                  const riis_closest_arrays &to) {
+  const WantedPoints wanted(options, points);
+  if (wanted.n() == 0) return;
+  const int n_threads =
+      riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
+  // If memory runs out here, the arrays are still untouched.
+  if (to.side) content.pseudonormals();
+  // write_found(i) returns false where nothing is within the limit.
+  const auto for_each_point = [&](const auto &write_found) {
+    constexpr std::int64_t points_per_block = 512;
+    riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {
+      for (std::int64_t k = range.begin; k < range.end; ++k) {
+        const std::int64_t i = wanted.id(k);
+        if (wanted.is_wanted(i) && !write_found(i)) write_far(to, i, options.far_distance);
+      }
+    });
+  };
+  if (const riis::PatchDistance *method = content.other_distance()) {
+    for_each_point([&](std::int64_t i) {
+      const riis::ClosestOnPatches found = method->closest(points[i], limit);
+      if (found.patch >= 0) write_closest(to, i, *method, found);
+      return found.patch >= 0;
+    });
+  } else {
+    for_each_point([&](std::int64_t i) {
+      const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
+      if (found.triangle >= 0) write_closest(to, i, content, points[i], found);
+      return found.triangle >= 0;
+    });
+  }
+}
+
 }  // namespace
 
 extern "C" {
@@ -134,7 +166,7 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
     require(point, "point");
-    riis::check_points({1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
+    riis::check_points(riis::StridedPoints{1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
     const riis::Vec3 p{point[0], point[1], point[2]};
     const double no_limit = std::numeric_limits<double>::infinity();
     riis_closest answer{};
@@ -144,62 +176,35 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
       write_closest(to, 0, *method, method->closest(p, no_limit));
     else
       write_closest(to, 0, content, p, content.scene().closest(p, no_limit));
-    riis::write_struct<closest_size>(closest, struct_size, "closest", answer);
+    riis::write_struct(closest, struct_size, "closest", answer);
   });
 }
 
 riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<options_size>(options, struct_size, "options", default_options); });
+  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
 }
 
 riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<arrays_size>(arrays, struct_size, "arrays", default_arrays); });
+  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
 }
 
-riis_status riis_closest_points(const riis_surface *surface, int64_t n_points, const double *x, const double *y,
-                                const double *z, int64_t stride, const riis_closest_options *options,
-                                const riis_closest_arrays *arrays) {
+riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
+                                const riis_closest_options *options, const riis_closest_arrays *arrays) {
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
-    const riis_closest_options whole = riis::completed<options_size>(options, "options", default_options);
-    const riis_closest_arrays to = riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
-    if (n_points < 0) riis::fail(RIIS_INVALID_ARGUMENT, "n_points is ", n_points, "; it must be at least 0");
+    const riis_points from = riis::completed(require(points, "points"), "points", riis::default_points);
+    const riis_closest_options whole = riis::completed(options, "options", default_options);
+    const riis_closest_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
+    if (from.n_points < 0)
+      riis::fail(RIIS_INVALID_ARGUMENT, "points.n_points is ", from.n_points, "; it must be at least 0");
+    riis::check_bits("points.real_bits", from.real_bits);
+    riis::check_reserved("points.reserved", from.reserved);
     riis::check_threads(whole.n_threads, "options.n_threads");
-    if (whole.reserved != 0)
-      riis::fail(RIIS_INVALID_ARGUMENT, "options.reserved is ", whole.reserved, "; it must be 0");
-    const double limit = limit_of(whole);
+    riis::check_reserved("options.reserved", whole.reserved);
+    const double limit = checked_limit(whole);
     if (const riis::PatchDistance *method = content.other_distance()) refuse_what_is_of_triangles(to, *method);
-    const riis::StridedPoints points{n_points, x, y, z, stride};
-    const WantedPoints wanted(whole, points);
-    if (wanted.n() == 0) return;
-    const int n_threads =
-        riis::threads_for(whole.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
-
-    // If memory runs out here, the arrays are still untouched.
-    if (to.side) content.pseudonormals();
-    // write_found(i) returns false where nothing is within the limit.
-    const auto for_each_point = [&](const auto &write_found) {
-      constexpr std::int64_t points_per_block = 512;
-      riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {
-        for (std::int64_t k = range.begin; k < range.end; ++k) {
-          const std::int64_t i = wanted.id(k);
-          if (wanted.is_wanted(i) && !write_found(i)) write_far(to, i, whole.far_distance);
-        }
-      });
-    };
-    if (const riis::PatchDistance *method = content.other_distance()) {
-      for_each_point([&](std::int64_t i) {
-        const riis::ClosestOnPatches found = method->closest(points[i], limit);
-        if (found.patch >= 0) write_closest(to, i, *method, found);
-        return found.patch >= 0;
-      });
-    } else {
-      for_each_point([&](std::int64_t i) {
-        const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
-        if (found.triangle >= 0) write_closest(to, i, content, points[i], found);
-        return found.triangle >= 0;
-      });
-    }
+    riis::with_points(from.n_points, {from.x, from.y, from.z}, from.stride, from.real_bits,
+                      [&](const auto &given) { find_closest(content, given, whole, limit, to); });
   });
 }
 }

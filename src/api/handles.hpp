@@ -13,7 +13,8 @@
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
 #include "distance/surface.hpp"
-#include "marking/mark_result.hpp"
+#include "marking/leaks.hpp"
+#include "marking/marks.hpp"
 #include "marking/mesh.hpp"
 #include "parallel/keeps_arenas.hpp"
 #include "pipeline/crossing_watch.hpp"
@@ -31,8 +32,10 @@ enum class HandleKind : std::uint64_t {
   surface = 0x7269697373757266,
   mesh = 0x726969736d657368,
   adjacency = 0x7269697361646a63,
-  mark_result = 0x7269697372736c74,
-  keyframes = 0x726969736b657966
+  marks = 0x7269697372736c74,
+  keyframes = 0x726969736b657966,
+  crossings = 0x7269697363726f73,
+  leaks = 0x726969736c65616b
 };
 
 template <HandleKind the_kind>
@@ -74,7 +77,6 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   double seconds_triangles, seconds_scene;
   riis::UserFaces faces, faces_memory;            // of the last arrays; no faces after a valve or keyframes
   std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
-  riis::Crossings crossings;                      // of the content, as last found
   riis::CrossingWatch crossing_watch;
   // No earlier surface had this number. An address may be used again, so it does not identify a surface.
   const std::uint64_t number = next_number();
@@ -101,9 +103,18 @@ struct riis_adjacency : riis::Handle<riis::HandleKind::adjacency> {
   riis::OwnAdjacency adjacency;
 };
 
-struct riis_mark_result : riis::Handle<riis::HandleKind::mark_result> {
+struct riis_marks : riis::Handle<riis::HandleKind::marks> {
   riis::KeepsArenas keeps_arenas;
-  riis::MarkResult result;
+  riis::Marks marks;
+};
+
+struct riis_leaks : riis::Handle<riis::HandleKind::leaks> {
+  riis::Leaks leaks;
+};
+
+struct riis_crossings : riis::Handle<riis::HandleKind::crossings> {
+  riis::Crossings pairs;
+  riis_crossing_list list{0, nullptr, nullptr, nullptr, nullptr, 0, 0, {0, 0, 0}, {-1, -1}, {-1, -1}, 0};
 };
 
 namespace riis {

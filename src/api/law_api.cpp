@@ -11,10 +11,6 @@ using riis::require;
 
 namespace {
 
-// The structs' sizes in the first release.
-constexpr std::int64_t table_size = 48, times_size = 64, switch_size = 56, switch_state_size = 72, angle_size = 56,
-                       angle_state_size = 64;
-
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 const riis_opening_table default_table{sizeof(riis_opening_table), 0, nullptr, nullptr, 0,
@@ -32,16 +28,16 @@ void write(const riis::ValueAndRate &made, double *opening, double *rate) {
 }
 
 // The body of both functions that advance a state. `now` may be `before`.
-template <std::size_t law_size, std::size_t state_size, class Law, class State>
+template <class Law, class State>
 void advance(const Law *law, const Law &default_law, const State *before, const State &default_state, double time,
              double pressure_difference, double flow, State *now) {
-  const Law whole_law = riis::completed<law_size>(require(law, "law"), "law", default_law);
-  const State whole_before = riis::completed<state_size>(require(before, "before"), "before", default_state);
+  const Law whole_law = riis::completed(require(law, "law"), "law", default_law);
+  const State whole_before = riis::completed(require(before, "before"), "before", default_state);
   const std::int64_t size = before->struct_size;
   require(now, "now");
   State made = riis::advance(whole_law, whole_before, time, pressure_difference, flow);
   made.struct_size = size;
-  riis::write_struct<state_size>(now, size, "now", made);
+  riis::write_struct(now, size, "now", made);
 }
 
 }  // namespace
@@ -49,57 +45,57 @@ void advance(const Law *law, const Law &default_law, const State *before, const 
 extern "C" {
 
 riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<table_size>(table, struct_size, "table", default_table); });
+  return guarded([&] { riis::init_struct(table, struct_size, "table", default_table); });
 }
 
 riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening, double *rate) {
   return guarded([&] {
-    write(riis::opening_from_table(riis::completed<table_size>(require(table, "table"), "table", default_table), time),
+    write(riis::opening_from_table(riis::completed(require(table, "table"), "table", default_table), time),
           opening, rate);
   });
 }
 
 riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<times_size>(times, struct_size, "times", default_times); });
+  return guarded([&] { riis::init_struct(times, struct_size, "times", default_times); });
 }
 
 riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening, double *rate) {
   return guarded([&] {
-    write(riis::opening_from_times(riis::completed<times_size>(require(times, "times"), "times", default_times), time),
+    write(riis::opening_from_times(riis::completed(require(times, "times"), "times", default_times), time),
           opening, rate);
   });
 }
 
 riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<switch_size>(law, struct_size, "law", default_switch); });
+  return guarded([&] { riis::init_struct(law, struct_size, "law", default_switch); });
 }
 
 riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<switch_state_size>(state, struct_size, "state", default_switch_state); });
+  return guarded([&] { riis::init_struct(state, struct_size, "state", default_switch_state); });
 }
 
 riis_status riis_opening_switch_advance(const riis_opening_switch *law, const riis_opening_switch_state *before,
                                         double time, double pressure_difference, double flow,
                                         riis_opening_switch_state *now) {
   return guarded([&] {
-    advance<switch_size, switch_state_size>(law, default_switch, before, default_switch_state, time,
+    advance(law, default_switch, before, default_switch_state, time,
                                             pressure_difference, flow, now);
   });
 }
 
 riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<angle_size>(law, struct_size, "law", default_angle); });
+  return guarded([&] { riis::init_struct(law, struct_size, "law", default_angle); });
 }
 
 riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<angle_state_size>(state, struct_size, "state", default_angle_state); });
+  return guarded([&] { riis::init_struct(state, struct_size, "state", default_angle_state); });
 }
 
 riis_status riis_opening_angle_advance(const riis_opening_angle *law, const riis_opening_angle_state *before,
                                        double time, double pressure_difference, double flow,
                                        riis_opening_angle_state *now) {
   return guarded([&] {
-    advance<angle_size, angle_state_size>(law, default_angle, before, default_angle_state, time, pressure_difference,
+    advance(law, default_angle, before, default_angle_state, time, pressure_difference,
                                           flow, now);
   });
 }

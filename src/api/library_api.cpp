@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The public functions that belong to no handle: the last error, names of statuses, version, log.
+#include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
 
@@ -36,10 +37,14 @@ const char *riis_status_name(riis_status status) {
   }
 }
 
-void riis_version(int32_t *major, int32_t *minor, int32_t *patch) {
+void riis_get_version(int32_t *major, int32_t *minor, int32_t *patch) {
   if (major) *major = RIIS_VERSION_MAJOR;
   if (minor) *minor = RIIS_VERSION_MINOR;
   if (patch) *patch = RIIS_VERSION_PATCH;
+}
+
+riis_status riis_points_init(riis_points *points, int64_t struct_size) {
+  return riis::guarded([&] { riis::init_struct(points, struct_size, "points", riis::default_points); });
 }
 
 void riis_set_log(riis_log_function function, void *user_data) { riis::set_log_function(function, user_data); }

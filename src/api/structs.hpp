@@ -14,15 +14,89 @@
 
 namespace riis {
 
-// first_size is the struct's size in the first release that had it. All later sizes are larger multiples of 8.
-template <std::int64_t first_size, class Struct>
+const riis_points default_points{sizeof(riis_points), 0, nullptr, nullptr, nullptr, 1, 64, 0};
+
+// The struct's size in the first release that had it.
+template <class Struct>
+inline constexpr std::int64_t first_size = 0;
+template <>
+inline constexpr std::int64_t first_size<riis_points> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_patches> = 72;
+template <>
+inline constexpr std::int64_t first_size<riis_parameter> = 72;
+template <>
+inline constexpr std::int64_t first_size<riis_surface_options> = 120;
+template <>
+inline constexpr std::int64_t first_size<riis_surface_arrays> = 120;
+template <>
+inline constexpr std::int64_t first_size<riis_keyframe_arrays> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_surface_info> = 120;
+template <>
+inline constexpr std::int64_t first_size<riis_triangles> = 72;
+template <>
+inline constexpr std::int64_t first_size<riis_crossing_options> = 24;
+template <>
+inline constexpr std::int64_t first_size<riis_crossing_list> = 112;
+template <>
+inline constexpr std::int64_t first_size<riis_closest> = 96;
+template <>
+inline constexpr std::int64_t first_size<riis_closest_options> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_closest_arrays> = 64;
+template <>
+inline constexpr std::int64_t first_size<riis_csr> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_mesh_cells> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_mesh_faces> = 64;
+template <>
+inline constexpr std::int64_t first_size<riis_resistance> = 32;
+template <>
+inline constexpr std::int64_t first_size<riis_mark_options> = 48;
+template <>
+inline constexpr std::int64_t first_size<riis_mark_list> = 120;
+template <>
+inline constexpr std::int64_t first_size<riis_dense_arrays> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_mark_stats> = 64;
+template <>
+inline constexpr std::int64_t first_size<riis_resistance_arrays> = 64;
+template <>
+inline constexpr std::int64_t first_size<riis_flow_arrays> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_band_sums> = 48;
+template <>
+inline constexpr std::int64_t first_size<riis_band> = 48;
+template <>
+inline constexpr std::int64_t first_size<riis_leak_list> = 96;
+template <>
+inline constexpr std::int64_t first_size<riis_passage> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_passage_ends> = 40;
+template <>
+inline constexpr std::int64_t first_size<riis_opening_table> = 48;
+template <>
+inline constexpr std::int64_t first_size<riis_opening_times> = 64;
+template <>
+inline constexpr std::int64_t first_size<riis_opening_switch> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_opening_switch_state> = 72;
+template <>
+inline constexpr std::int64_t first_size<riis_opening_angle> = 56;
+template <>
+inline constexpr std::int64_t first_size<riis_opening_angle_state> = 64;
+
+// All sizes after the first are larger multiples of 8.
+template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);
   constexpr std::int64_t size_here = sizeof(Struct);
-  static_assert(first_size <= size_here);
-  if (size < first_size || size > size_here || size % 8 != 0)
+  static_assert(first_size<Struct> <= size_here);
+  if (size < first_size<Struct> || size > size_here || size % 8 != 0)
     fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of ", name, " is ", size, "; riis ", riis_version_string(),
-         " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
+         " knows ", first_size<Struct>, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
 // Copies the first bytes of a struct: as many as check_struct_size accepted.
@@ -31,20 +105,20 @@ inline void copy_bytes(void *to, const void *from, std::int64_t size) {
 }
 
 // The body of an init function.
-template <std::int64_t first_size, class Struct>
+template <class Struct>
 void init_struct(Struct *out, std::int64_t size, const char *name, const Struct &defaults) {
   require(out, name);
-  check_struct_size<first_size, Struct>(size, name);
+  check_struct_size<Struct>(size, name);
   copy_bytes(out, &defaults, size);
   out->struct_size = size;
 }
 
 // Returns the caller's struct, completed by defaults. Returns the defaults for NULL.
-template <std::int64_t first_size, class Struct>
+template <class Struct>
 Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   Struct whole = defaults;
   if (in) {
-    check_struct_size<first_size, Struct>(in->struct_size, name);
+    check_struct_size<Struct>(in->struct_size, name);
     copy_bytes(&whole, in, in->struct_size);
   }
   whole.struct_size = sizeof(Struct);
@@ -52,10 +126,10 @@ Struct completed(const Struct *in, const char *name, const Struct &defaults) {
 }
 
 // Writes as much of the value as the caller has room for.
-template <std::int64_t first_size, class Struct>
+template <class Struct>
 void write_struct(Struct *out, std::int64_t size, const char *name, const Struct &value) {
   require(out, name);
-  check_struct_size<first_size, Struct>(size, name);
+  check_struct_size<Struct>(size, name);
   copy_bytes(out, &value, size);
 }
 

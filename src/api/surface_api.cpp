@@ -10,6 +10,7 @@
 #include "api/structs.hpp"
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
+#include "base/integer_array.hpp"
 #include "base/ranges.hpp"
 #include "parallel/parallel_for.hpp"
 #include "pipeline/make_surface.hpp"
@@ -21,9 +22,6 @@ using riis::require_handle;
 
 namespace {
 
-// The structs' sizes in the first release.
-constexpr std::size_t options_size = 96, arrays_size = 88, info_size = 104;
-
 const riis_surface_options default_options{sizeof(riis_surface_options),
                                            RIIS_AUTO,
                                            0.05,
@@ -31,12 +29,12 @@ const riis_surface_options default_options{sizeof(riis_surface_options),
                                            {0, 0, 1},
                                            0,
                                            {0, 0, 0},
+                                           RIIS_AUTO,
+                                           RIIS_MEASURE_TRIANGLES,
+                                           RIIS_TRIANGULATION_ADAPTED,
                                            RIIS_ZERO_AREA_REFUSE,
                                            0,
-                                           RIIS_DISTANCE_TRIANGLES,
                                            0,
-                                           RIIS_AUTO,
-                                           RIIS_TRIANGULATION_ADAPTED,
                                            0};
 const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          0,
@@ -44,17 +42,17 @@ const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          nullptr,
                                          nullptr,
                                          1,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         1,
                                          0,
                                          nullptr,
+                                         nullptr,
+                                         3,
                                          32,
                                          0,
-                                         3,
-                                         0,
-                                         nullptr,
-                                         nullptr,
-                                         nullptr,
-                                         nullptr,
-                                         1};
+                                         64};
 
 void check_flag(const char *name, std::int32_t value) {
   if (value != 0 && value != 1)
@@ -80,14 +78,15 @@ void check_options(const riis_surface_options &options) {
   check_range("options", "tolerance", options.tolerance, 1e-6, 1.0);
   check_flag("zero_area", options.zero_area);
   check_flag("flip_normals", options.flip_normals);
-  if (options.distance < RIIS_DISTANCE_TRIANGLES || options.distance > RIIS_DISTANCE_MINIMIZATION)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance, "; it must be one of RIIS_DISTANCE_*");
+  if (options.measure < RIIS_MEASURE_TRIANGLES || options.measure > RIIS_MEASURE_MINIMIZATION)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure, "; it must be one of RIIS_MEASURE_*");
   if (options.triangulation < RIIS_TRIANGULATION_ADAPTED || options.triangulation > RIIS_TRIANGULATION_FIXED)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
                "; it must be one of RIIS_TRIANGULATION_*");
   riis::check_threads(options.n_threads, "options.n_threads");
-  if (options.distance_tolerance != RIIS_AUTO)
-    check_range("options", "distance_tolerance", options.distance_tolerance, 1e-6, 1.0);
+  if (options.measure_tolerance != RIIS_AUTO)
+    check_range("options", "measure_tolerance", options.measure_tolerance, 1e-6, 1.0);
+  riis::check_reserved("options.reserved", options.reserved);
 }
 
 riis::Placement placement_of(const riis_surface_options &options) {
@@ -103,10 +102,10 @@ double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
 
-// Returns distance_tolerance * half_thickness. The tolerance stands in where distance_tolerance is RIIS_AUTO.
+// Returns measure_tolerance * half_thickness. The tolerance stands in where measure_tolerance is RIIS_AUTO.
 double distance_error_of(const riis_surface_options &options) {
   return half_thickness_of(options) *
-         (options.distance_tolerance == RIIS_AUTO ? options.tolerance : options.distance_tolerance);
+         (options.measure_tolerance == RIIS_AUTO ? options.tolerance : options.measure_tolerance);
 }
 
 // Refuses a translation so far that the rounding of coordinates would flatten the valve.
@@ -143,7 +142,6 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
   surface.options = options;
   surface.seconds_triangles = seconds.triangles;
   surface.seconds_scene = seconds.scene;
-  surface.crossings = {};
   if (!surface.before) return;
   surface.before->measure_by(nullptr, 0);
   if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
@@ -152,19 +150,19 @@ void fill(riis_surface &surface, const riis_surface_options &options, const Make
 // The state before a moving update, and the arguments that it comes from.
 struct MotionArguments {
   const riis_valve *valve_before;
-  double seconds;
+  double dt;
   const riis_surface_options *options_before;
 };
 
 riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
   // A shorter or longer time is a mistake. Within these limits the velocity stays far from overflow.
-  if (!(std::abs(motion.seconds) >= 1e-30 && std::abs(motion.seconds) <= 1e30))
-    riis::fail(RIIS_INVALID_ARGUMENT, "seconds is ", motion.seconds,
+  if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
+    riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");
-  const riis_surface_options before = riis::completed<options_size>(
+  const riis_surface_options before = riis::completed(
       motion.options_before, "options_before", motion.options_before ? default_options : options_now);
   check_placement(before, "options_before");
-  return {motion.valve_before->valve, placement_of(before), motion.seconds};
+  return {motion.valve_before->valve, placement_of(before), motion.dt};
 }
 
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options,
@@ -180,10 +178,10 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
     newly_fixed = std::make_unique<riis::FixedTriangulation>(valve->valve, triangle_error / options.scale,
                                                              threads_for(surface, options));
   const riis::FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : surface.fixed.get();
-  const riis::ValveAccuracy accuracy{triangle_error, options.distance, distance_error_of(options),
+  const riis::ValveAccuracy accuracy{triangle_error, options.measure, distance_error_of(options),
                                      is_fixed ? fixed : nullptr};
-  if (options.distance != RIIS_DISTANCE_TRIANGLES)
-    check_precision(options, "distance_tolerance", accuracy.distance_error);
+  if (options.measure != RIIS_MEASURE_TRIANGLES)
+    check_precision(options, "measure_tolerance", accuracy.distance_error);
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
   });
@@ -200,21 +198,21 @@ void update_from_valve(riis_surface *surface, const riis_valve *valve, const rii
   require_handle(valve, "valve");
   if (motion) require_handle(motion->valve_before, "valve_before");
   fill_from_valve(*surface, valve,
-                  riis::completed<options_size>(options, "options", options ? default_options : surface->options),
+                  riis::completed(options, "options", options ? default_options : surface->options),
                   motion);
 }
 
 riis_surface_arrays completed(const riis_surface_arrays *arrays) {
-  return riis::completed<arrays_size>(require(arrays, "arrays"), "arrays", default_arrays);
+  return riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
 }
 
 void fill_from_faces(riis_surface &surface, const riis::UserFaces &faces, const riis_surface_arrays &arrays,
                      const riis_surface_options &options) {
   check_options(options);
-  if (options.distance != RIIS_DISTANCE_TRIANGLES)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance is ", options.distance,
+  if (options.measure != RIIS_MEASURE_TRIANGLES)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure,
                ", which works on patches, but a surface from arrays has triangles only: it must be "
-               "RIIS_DISTANCE_TRIANGLES, 0");
+               "RIIS_MEASURE_TRIANGLES, 0");
   if (options.triangulation != RIIS_TRIANGULATION_ADAPTED)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
                ", which is for valves, but a surface from arrays has the caller's triangles: it must be "
@@ -241,10 +239,10 @@ void update_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays
 }
 
 // The arrays of one time, in the surface's memory.
-void fill_from_keyframes(riis_surface &surface, const riis_keyframes *keyframes, double time, double since,
+void fill_from_keyframes(riis_surface &surface, const riis_keyframes *keyframes, double time, double dt,
                          const riis_surface_options &options) {
   const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
-  frames.at(time, since, surface.frame_xyz, surface.frame_velocity);
+  frames.at(time, dt, surface.frame_xyz, surface.frame_velocity);
   riis_surface_arrays arrays = default_arrays;
   const double *xyz = surface.frame_xyz.data(), *velocity = surface.frame_velocity.data();
   arrays.n_vertices = frames.faces().n_vertices;
@@ -259,7 +257,7 @@ template <class Fill>
 void create(const riis_surface_options *options, riis_surface **surface, const Fill &fill_surface) {
   require(surface, "surface");
   auto made = std::make_unique<riis_surface>();
-  fill_surface(*made, riis::completed<options_size>(options, "options", default_options));
+  fill_surface(*made, riis::completed(options, "options", default_options));
   *surface = made.release();
 }
 
@@ -268,11 +266,11 @@ void create(const riis_surface_options *options, riis_surface **surface, const F
 extern "C" {
 
 riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<options_size>(options, struct_size, "options", default_options); });
+  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
 }
 
 riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<arrays_size>(arrays, struct_size, "arrays", default_arrays); });
+  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
 }
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
@@ -298,10 +296,10 @@ riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, 
 }
 
 riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve, const riis_valve *valve_before,
-                                       double seconds, const riis_surface_options *options,
+                                       double dt, const riis_surface_options *options,
                                        const riis_surface_options *options_before) {
   return guarded([&] {
-    const MotionArguments motion{valve_before, seconds, options_before};
+    const MotionArguments motion{valve_before, dt, options_before};
     update_from_valve(surface, valve, options, &motion);
   });
 }
@@ -311,26 +309,26 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
   return guarded([&] {
     require_handle(surface, "surface");
     update_from_arrays(*surface, completed(arrays),
-                       riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+                       riis::completed(options, "options", options ? default_options : surface->options));
   });
 }
 
-riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double since,
+riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                const riis_surface_options *options, riis_surface **surface) {
   return guarded([&] {
     create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
-      fill_from_keyframes(made, keyframes, time, since, whole);
+      fill_from_keyframes(made, keyframes, time, dt, whole);
     });
   });
 }
 
 riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes, double time,
-                                               double since, const riis_surface_options *options) {
+                                               double dt, const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
     fill_from_keyframes(
-        *surface, keyframes, time, since,
-        riis::completed<options_size>(options, "options", options ? default_options : surface->options));
+        *surface, keyframes, time, dt,
+        riis::completed(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -341,9 +339,7 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const riis::Surface &content = riis::content_of(surface);
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
-    // The bound takes a while, so it is made only for callers that know the field.
-    const bool wants_bound = struct_size >= static_cast<int64_t>(sizeof(riis_surface_info));
-    riis::write_struct<info_size>(info, struct_size, "info",
+    riis::write_struct(info, struct_size, "info",
                                   riis_surface_info{set.n_vertices(),
                                                     set.n_triangles(),
                                                     set.n_zero_area,
@@ -354,43 +350,18 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                                     surface->seconds_triangles,
                                                     surface->seconds_scene,
                                                     set.error_bound,
-                                                    wants_bound ? content.velocity_error_bound() : 0});
+                                                    content.velocity_error_bound()});
   });
 }
 
-riis_status riis_surface_vertices(const riis_surface *surface, int64_t *n_vertices, const double **xyz) {
+riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles, int64_t struct_size) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_vertices, set.n_vertices());
-    riis::put(xyz, set.xyz.data());
-  });
-}
-
-riis_status riis_surface_vertex_parameters(const riis_surface *surface, int64_t *n_vertices, const double **uv) {
-  return guarded([&] {
-    const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_vertices, set.n_vertices());
-    riis::put(uv, set.uv.empty() ? nullptr : set.uv.data());
-  });
-}
-
-riis_status riis_surface_vertex_velocities(const riis_surface *surface, int64_t *n_vertices, const double **velocity) {
-  return guarded([&] {
-    const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_vertices, set.n_vertices());
-    riis::put(velocity, set.velocity.empty() ? nullptr : set.velocity.data());
-  });
-}
-
-riis_status riis_surface_triangles(const riis_surface *surface, int64_t *n_triangles, const int64_t **vertex_id,
-                                   const int64_t **triangle_id, const int32_t **leaflet_id, const int32_t **patch_id) {
-  return guarded([&] {
-    const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::put(n_triangles, set.n_triangles());
-    riis::put(vertex_id, set.vertex_id.data());
-    riis::put(triangle_id, set.triangle_id.data());
-    riis::put(leaflet_id, set.leaflet_id.data());
-    riis::put(patch_id, set.patch_id.data());
+    riis::write_struct(triangles, struct_size, "triangles",
+                       riis_triangles{set.n_vertices(), set.xyz.data(), set.uv.empty() ? nullptr : set.uv.data(),
+                                      set.velocity.empty() ? nullptr : set.velocity.data(), set.n_triangles(),
+                                      set.vertex_id.data(), set.triangle_id.data(), set.leaflet_id.data(),
+                                      set.patch_id.data()});
   });
 }
 }

@@ -12,7 +12,6 @@ using riis::require_handle;
 
 namespace {
 
-constexpr std::int64_t patches_size = 72;  // the struct's size in the first release
 const riis_patches default_patches{sizeof(riis_patches), 0, nullptr, nullptr, 0, nullptr, nullptr, nullptr, 0, 0};
 
 }  // namespace
@@ -62,25 +61,25 @@ riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open)
 }
 
 riis_status riis_patches_init(riis_patches *patches, int64_t struct_size) {
-  return guarded([&] { riis::init_struct<patches_size>(patches, struct_size, "patches", default_patches); });
+  return guarded([&] { riis::init_struct(patches, struct_size, "patches", default_patches); });
 }
 
 riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve) {
   return guarded([&] {
     require(valve, "valve");
-    const riis_patches whole = riis::completed<patches_size>(require(patches, "patches"), "patches", default_patches);
+    const riis_patches whole = riis::completed(require(patches, "patches"), "patches", default_patches);
     *valve = new riis_valve{{}, riis::Valve(riis::patches_valve_kind(), riis::patches_from_arrays(whole))};
   });
 }
 
-riis_status riis_valve_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
+riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
   return guarded([&] {
     require_handle(valve, "valve");
     *require(n_parameters, "n_parameters") = riis::view(valve->valve.kind().parameters).size();
   });
 }
 
-riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
+riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
                                  int64_t struct_size) {
   return guarded([&] {
     require_handle(valve, "valve");
@@ -90,7 +89,7 @@ riis_status riis_valve_parameter(const riis_valve *valve, int64_t parameter_id, 
                  " valve has parameters 0 to ", specs.size() - 1);
     const riis::ParameterSpec &spec = riis::view(specs)[parameter_id];
     const auto &defaults = spec.default_values;
-    riis::write_struct<72>(parameter, struct_size, "parameter",
+    riis::write_struct(parameter, struct_size, "parameter",
                            riis_parameter{spec.name.c_str(),
                                           spec.unit,
                                           spec.description,

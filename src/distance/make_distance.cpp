@@ -20,7 +20,7 @@ PlacedPatches make_patches(const PatchSet &set, double max_error, const Placemen
   try {
     return PlacedPatches(set, patch_share * max_error / placement.scale, placement, flip_normals);
   } catch (const Error &error) {
-    fail(error.status, "with a tenth of distance_tolerance for the patches themselves, ", error.message.text());
+    fail(error.status, "with a tenth of measure_tolerance for the patches themselves, ", error.message.text());
   }
 }
 
@@ -30,7 +30,7 @@ std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const Di
                                                    const Placement &placement, bool flip_normals) {
   PlacedPatches patches = make_patches(set, request.max_error, placement, flip_normals);
   const std::size_t n_patches = patches.patches.size();
-  if (request.method == RIIS_DISTANCE_MINIMIZATION)
+  if (request.method == RIIS_MEASURE_MINIMIZATION)
     return std::make_unique<const Minimizer>(std::move(patches), request.max_error);
   auto samples = std::make_unique<const SampleSet>(std::move(patches), request.max_error);
   log_message(RIIS_LOG_INFO, "distances by sampling: ", samples->n_samples(), " samples of ", n_patches, " patches");

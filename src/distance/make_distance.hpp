@@ -10,8 +10,8 @@
 namespace riis {
 
 struct DistanceRequest {
-  std::int32_t method;  // RIIS_DISTANCE_SAMPLING or RIIS_DISTANCE_MINIMIZATION
-  double max_error;     // distance_tolerance * half_thickness, placed units
+  std::int32_t method;  // RIIS_MEASURE_SAMPLING or RIIS_MEASURE_MINIMIZATION
+  double max_error;     // measure_tolerance * half_thickness, placed units
 };
 
 // Fails with RIIS_LIMIT_EXCEEDED if patches or samples would be too many.

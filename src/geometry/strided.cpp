@@ -64,14 +64,31 @@ Bounds bounds_of(const StridedPoints &points, double &sum) {
   return bounds;
 }
 
-[[noreturn]] void refuse_first_unusable(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
+// Single precision is rare, so one point at a time is fast enough.
+Bounds bounds_of(const StridedReals<float> &points, double &sum) {
+  Bounds bounds;
+  for (std::int64_t i = 0; i < points.n; ++i) {
+    const Vec3 p = points[i];
+    bounds.add(p);
+    sum += p.x + p.y + p.z;
+  }
+  return bounds;
+}
+
+template <class Points>
+[[noreturn]] void refuse_first_unusable(const Points &points, const char *what, riis_status bad_coordinate) {
   for (std::int64_t i = 0; i < points.n; ++i) check_point(points, i, what, bad_coordinate);
   fail(bad_coordinate, "the coordinates of the ", what, "s changed while they were checked");
 }
 
+void require_array(const void *array, const char *prefix, const char *name) {
+  if (!array) fail(RIIS_INVALID_ARGUMENT, prefix, name, " is NULL");
+}
+
 }  // namespace
 
-void check_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
+template <class Real>
+void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];
   if (is_usable(p)) return;
   const char *axis = !is_usable(p.x) ? "x" : !is_usable(p.y) ? "y" : "z";
@@ -80,14 +97,23 @@ void check_point(const StridedPoints &points, std::int64_t i, const char *what, 
        " in magnitude");
 }
 
-Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate) {
-  require(points.x, "x");
-  require(points.y, "y");
-  require(points.z, "z");
-  if (points.stride < 1) fail(RIIS_INVALID_ARGUMENT, "stride is ", points.stride, "; it must be at least 1");
-  if (points.n > std::numeric_limits<std::int64_t>::max() / 8 / points.stride)
+template <class Real>
+void check_pointers(const StridedReals<Real> &points, const char *what, const char *prefix) {
+  require_array(points.x, prefix, "x");
+  require_array(points.y, prefix, "y");
+  require_array(points.z, prefix, "z");
+  if (points.stride < 1)
+    fail(RIIS_INVALID_ARGUMENT, prefix, "stride is ", points.stride, "; it must be at least 1");
+  constexpr auto size = static_cast<std::int64_t>(sizeof(Real));
+  if (points.n > std::numeric_limits<std::int64_t>::max() / size / points.stride)
     fail(RIIS_INVALID_ARGUMENT, points.n, " ", what, "s with a stride of ", points.stride,
          " are more than memory can hold");
+}
+
+template <class Real>
+Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
+                    const char *prefix) {
+  check_pointers(points, what, prefix);
   double sum = 0;
   const Bounds bounds = bounds_of(points, sum);
   // Usable coordinates are too small for their sum to be infinite.
@@ -95,5 +121,12 @@ Bounds check_points(const StridedPoints &points, const char *what, riis_status b
   if (!usable) refuse_first_unusable(points, what, bad_coordinate);
   return bounds;
 }
+
+template Bounds check_points(const StridedReals<double> &, const char *, riis_status, const char *);
+template Bounds check_points(const StridedReals<float> &, const char *, riis_status, const char *);
+template void check_pointers(const StridedReals<double> &, const char *, const char *);
+template void check_pointers(const StridedReals<float> &, const char *, const char *);
+template void check_point(const StridedReals<double> &, std::int64_t, const char *, riis_status);
+template void check_point(const StridedReals<float> &, std::int64_t, const char *, riis_status);
 
 }  // namespace riis

@@ -12,17 +12,31 @@
 
 namespace riis {
 
-struct StridedPoints {
+template <class Real>
+struct StridedReals {
   std::int64_t n;
-  const double *x, *y, *z;
+  const Real *x, *y, *z;
   std::int64_t stride;
 
   Vec3 operator[](std::int64_t i) const { return {x[i * stride], y[i * stride], z[i * stride]}; }
   // Asks the processor for the point's coordinates, which are read soon.
   void prefetch(std::int64_t i) const {
-    for (const double *coordinate : {x + i * stride, y + i * stride, z + i * stride}) __builtin_prefetch(coordinate);
+    for (const Real *coordinate : {x + i * stride, y + i * stride, z + i * stride}) __builtin_prefetch(coordinate);
   }
 };
+using StridedPoints = StridedReals<double>;
+
+// Calls use(points) with the points as the numbers of the width that the caller stated.
+template <class Use>
+auto with_points(std::int64_t n, const void *const (&xyz)[3], std::int64_t stride, std::int32_t real_bits,
+                 const Use &use) {
+  const auto of = [&](auto real) {
+    using Real = decltype(real);
+    return StridedReals<Real>{n, static_cast<const Real *>(xyz[0]), static_cast<const Real *>(xyz[1]),
+                              static_cast<const Real *>(xyz[2]), stride};
+  };
+  return real_bits == 32 ? use(of(0.0f)) : use(of(0.0));
+}
 
 // Distances need fourth powers. Coordinates up to the first number and edges from the second one on keep them within doubles.
 inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
@@ -34,10 +48,18 @@ inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_us
 // Checks pointers, stride and every coordinate. Only the calling thread runs: others would not pay, and the caller may not want
 // them. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message then names the
 // point by `what` ("node", "point") and its number. Returns the points' box, which the same pass over memory finds.
-Bounds check_points(const StridedPoints &points, const char *what, riis_status bad_coordinate);
+// Messages name the arguments with `prefix` before them, such as "points.".
+template <class Real>
+Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
+                    const char *prefix = "");
+
+// Checks the pointers and the stride alone.
+template <class Real>
+void check_pointers(const StridedReals<Real> &points, const char *what, const char *prefix = "");
 
 // Checks one point, as check_points checks all.
-void check_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate);
+template <class Real>
+void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
 // Returns point i of points that were checked when they were given. The caller may have written to them since: the call fails
 // as check_points does.

@@ -64,9 +64,9 @@ double KeyTimes::from_key(std::int64_t i, double time) const {
   return is_closed_ && key == 0 ? std::min(distance, if_at(time_[n_keys_ - 1])) : distance;
 }
 
-KeyTimes::Place KeyTimes::place(double time) const {
+KeyTimes::Place KeyTimes::place(double time, const char *name) const {
   if (!(std::abs(time) <= largest_time))
-    fail(RIIS_INVALID_ARGUMENT, "time is ", time, "; it must be finite and at most ", largest_time, " in magnitude");
+    fail(RIIS_INVALID_ARGUMENT, name, " is ", time, "; it must be finite and at most ", largest_time, " in magnitude");
   if (n() == 1) return {{0, 0, 0, 0}, {infinity, infinity, infinity}, 0, true};
   const bool repeats = period_ > 0;
   double in_period = time;

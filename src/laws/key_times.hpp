@@ -34,8 +34,8 @@ class KeyTimes {
   };
   // A time within 8 units of rounding of a key, give or take whole periods, is that key: the first end of its interval.
   // The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time that is not
-  // finite.
-  Place place(double time) const;
+  // finite; the message names it by `name`.
+  Place place(double time, const char *name = "time") const;
 
   // Returns the value and the rate at a place, from the values at its four keys.
   ValueAndRate between(const Place &place, const std::array<double, 4> &values) const;

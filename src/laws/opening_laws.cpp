@@ -48,13 +48,13 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
 
 ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
   check_range("times", "opening_start", times.opening_start, -largest, largest);
-  check_range("times", "opening_seconds", times.opening_seconds, 1 / largest, largest);
-  check_range("times", "closing_start", times.closing_start, times.opening_start + times.opening_seconds, largest);
-  check_range("times", "closing_seconds", times.closing_seconds, 1 / largest, largest);
+  check_range("times", "opening_duration", times.opening_duration, 1 / largest, largest);
+  check_range("times", "closing_start", times.closing_start, times.opening_start + times.opening_duration, largest);
+  check_range("times", "closing_duration", times.closing_duration, 1 / largest, largest);
   check_range("times", "closed", times.closed, 0, 1);
   check_range("times", "open", times.open, 0, 1);
   check_range("times", "period", times.period, 0, largest);
-  const double length = times.closing_start + times.closing_seconds - times.opening_start;
+  const double length = times.closing_start + times.closing_duration - times.opening_start;
   if (times.period > 0 && length > times.period)
     fail(RIIS_INVALID_ARGUMENT, "times.period is ", times.period, "; opening and closing take ", length);
   check_time(time);
@@ -63,13 +63,13 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
     since = std::fmod(since, times.period);
     if (since < 0) since += times.period;
   }
-  const double opened = since / times.opening_seconds;
-  const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_seconds;
+  const double opened = since / times.opening_duration;
+  const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_duration;
   const double height = times.open - times.closed;
   // Rounding must not leave the range of openings.
   return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
                      std::max(times.closed, times.open)),
-          height * (ramp_rate(opened) / times.opening_seconds - ramp_rate(closed) / times.closing_seconds)};
+          height * (ramp_rate(opened) / times.opening_duration - ramp_rate(closed) / times.closing_duration)};
 }
 
 namespace {
@@ -84,9 +84,9 @@ double checked_step(double before, double time, double pressure_difference, doub
 }
 
 // Returns the new value of a filter of first order. The value before is NaN if there was none.
-double filtered(double before, double now, double step, double filter_seconds) {
-  if (std::isnan(before) || filter_seconds == 0) return now;
-  return before - std::expm1(-step / filter_seconds) * (now - before);
+double filtered(double before, double now, double step, double filter_time) {
+  if (std::isnan(before) || filter_time == 0) return now;
+  return before - std::expm1(-step / filter_time) * (now - before);
 }
 
 void check_phase(std::int32_t phase) {
@@ -98,12 +98,12 @@ void check_phase(std::int32_t phase) {
 
 riis_opening_switch_state advance(const riis_opening_switch &law, const riis_opening_switch_state &before, double time,
                                   double pressure_difference, double flow) {
-  check_range("law", "opening_seconds", law.opening_seconds, 1 / largest, largest);
-  check_range("law", "closing_seconds", law.closing_seconds, 1 / largest, largest);
+  check_range("law", "opening_duration", law.opening_duration, 1 / largest, largest);
+  check_range("law", "closing_duration", law.closing_duration, 1 / largest, largest);
   check_range("law", "open_above", law.open_above, -largest, largest);
   check_range("law", "close_below", law.close_below, -largest, largest);
-  check_range("law", "filter_seconds", law.filter_seconds, 0, largest);
-  check_range("law", "dwell_seconds", law.dwell_seconds, 0, largest);
+  check_range("law", "filter_time", law.filter_time, 0, largest);
+  check_range("law", "dwell_time", law.dwell_time, 0, largest);
   check_range("before", "progress", before.progress, 0, 1);
   check_phase(before.phase);
   check_reserved("before.reserved", before.reserved);
@@ -112,24 +112,24 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
   riis_opening_switch_state now = before;
   now.time = time;
   if (step > 0 || std::isnan(before.pressure_difference)) {
-    now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_seconds);
-    now.flow = filtered(before.flow, flow, step, law.filter_seconds);
+    now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
+    now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
   // A valve that has just turned does not turn back for a while, so the noise of a solver does not matter.
-  const bool may_turn = std::isnan(before.since) || time - before.since >= law.dwell_seconds;
+  const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
   if (may_turn && (opens || closes)) {
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
-    now.since = time;
+    now.turn_time = time;
   }
   // The valve moves by the phase that it had during the step, because a turn is known only at the step's end.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
-  const double per_second = is_opening ? 1 / law.opening_seconds : -1 / law.closing_seconds;
+  const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
   now.opening = ramp(now.progress);
   now.rate =
-      ramp_rate(now.progress) * (now.phase == RIIS_PHASE_OPENING ? 1 / law.opening_seconds : -1 / law.closing_seconds);
+      ramp_rate(now.progress) * (now.phase == RIIS_PHASE_OPENING ? 1 / law.opening_duration : -1 / law.closing_duration);
   return now;
 }
 

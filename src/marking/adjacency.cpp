@@ -90,7 +90,7 @@ struct InnerFaces {
 };
 
 template <class Id>
-OwnAdjacency adjacency_from_cells_with(const riis_cells &given, int n_threads, const NarrowLimits &limits) {
+OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
   // One shape takes three quarters of the time. Beyond the limits, each shape's code would be of use to hardly any mesh.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
@@ -159,7 +159,7 @@ riis_csr OwnAdjacency::csr() const {
           0};
 }
 
-OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads, const NarrowLimits &limits) {
+OwnAdjacency adjacency_from_cells(const riis_mesh_cells &cells, int n_threads, const NarrowLimits &limits) {
   check_count("cells.n_nodes", cells.n_nodes, 0);
   check_count("cells.n_cells", cells.n_cells, 0);
   check_bits("cells.id_bits", cells.id_bits);
@@ -169,7 +169,7 @@ OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads, const 
                              : adjacency_from_cells_with<std::int32_t>(cells, n_threads, limits);
 }
 
-OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads) {
+OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   check_count("faces.n_cells", faces.n_cells, 0);
   check_count("faces.n_faces", faces.n_faces, 0);
   check_bits("faces.id_bits", faces.id_bits);

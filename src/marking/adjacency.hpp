@@ -55,8 +55,8 @@ struct NarrowLimits {
   std::int64_t n_nodes = std::numeric_limits<std::int32_t>::max();
 };
 
-OwnAdjacency adjacency_from_cells(const riis_cells &cells, int n_threads, const NarrowLimits &limits = {});
-OwnAdjacency adjacency_from_faces(const riis_faces &faces, int n_threads);
+OwnAdjacency adjacency_from_cells(const riis_mesh_cells &cells, int n_threads, const NarrowLimits &limits = {});
+OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads);
 // Returns the number of a grid's nodes. Fails with RIIS_LIMIT_EXCEEDED for more than memory can hold.
 std::int64_t nodes_of_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk);
 OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads);

@@ -81,7 +81,7 @@ template <class Id>
 class Cells {
  public:
   // Checks the sizes of all cells before any node: only then is it known where the nodes end.
-  Cells(const riis_cells &cells, int n_threads)
+  Cells(const riis_mesh_cells &cells, int n_threads)
       : n_cells_(cells.n_cells),
         n_nodes_(cells.n_nodes),
         nodes_{static_cast<const Id *>(cells.node_ids), static_cast<const Id *>(cells.offsets), cells.nodes_per_cell,

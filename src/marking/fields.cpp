@@ -302,6 +302,14 @@ void NodeFields::reserve(std::int32_t fields, std::int64_t n) {
   for_each_array(fields, [&](auto member, std::int64_t per_node) { reserve_amply(this->*member, per_node * n); });
 }
 
+bool NodeFields::has_room(std::int32_t fields, std::int64_t n) const {
+  bool all = true;
+  for_each_array(fields, [&](auto member, std::int64_t per_node) {
+    all = all && riis::has_room(this->*member, per_node * n);
+  });
+  return all;
+}
+
 void NodeFields::resize(std::int32_t fields, std::int64_t n) {
   for_each_array(all_fields & ~fields, [&](auto member, std::int64_t) { (this->*member).clear(); });
   // Old entries need not be cleared, because every entry is written.

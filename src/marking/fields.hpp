@@ -22,6 +22,7 @@ struct NodeFields {
 
   // Reserves memory for n nodes, so that resize(m) with m <= n does not throw.
   void reserve(std::int32_t fields, std::int64_t n);
+  bool has_room(std::int32_t fields, std::int64_t n) const;
   void resize(std::int32_t fields, std::int64_t n);
 };
 

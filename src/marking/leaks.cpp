@@ -25,8 +25,8 @@ struct Edge {
 // An edge of at most this length that meets the surface has a node within the half thickness: its nearer node is at most half its
 // length from the crossing. The margins count rounding more than once, so this also holds for computed distances. Returns -1 if
 // marks may be missing or do not follow the distances to the triangles: then no edge counts as short.
-double length_that_cannot_leak(const Surface &surface, const MarkResult &result) {
-  if (surface.other_distance() || !result.stats.complete) return -1;
+double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
+  if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
 }
 
@@ -86,17 +86,17 @@ struct alignas(64) Finder {
   }
 };
 
-std::vector<Edge> leaking_edges(const SearchRequest &request, const MarkResult &result) {
+std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks) {
   constexpr std::int64_t blocks_per_task = 16;
   std::vector<Edge> found;
-  const double too_short = length_that_cannot_leak(request.surface, result);
+  const double too_short = length_that_cannot_leak(request.surface, marks);
   const EdgeBlocks &edges = request.mesh.edges(request.n_threads);
   if (edges.longest <= too_short) return found;
   std::vector<Finder> finders;
   resize(finders, request.n_threads);
   for (Finder &finder : finders) {
     finder.request = &request;
-    finder.marked = &result.marked_nodes().node_id;
+    finder.marked = &marks.marked_nodes().node_id;
     finder.too_short = too_short;
   }
   const auto n_blocks = view(edges.blocks).size();
@@ -121,10 +121,10 @@ double closing_distance(const SearchRequest &request, const Edge &edge) {
   });
 }
 
-LeakingEdges listed(const SearchRequest &request, const std::vector<Edge> &edges) {
+Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
   constexpr std::int64_t edges_per_task = 64, few = 512;
   const int n_threads = request.n_threads.for_part(view(edges).size(), few);
-  LeakingEdges list;
+  Leaks list;
   list.node_id.resize(2 * edges.size());
   list.length.resize(edges.size());
   list.distance.resize(edges.size());
@@ -140,30 +140,22 @@ LeakingEdges listed(const SearchRequest &request, const std::vector<Edge> &edges
   return list;
 }
 
-riis_leaks summary_of(const StridedPoints &nodes, const LeakingEdges &list) {
-  riis_leaks leaks{view(list.length).size(), {-1, -1}, 0, {0, 0, 0}, 0, 0};
-  if (list.length.empty()) return leaks;
-  const std::int64_t longest = std::max_element(list.length.begin(), list.length.end()) - list.length.begin();
-  const std::int64_t a = view(list.node_id)[2 * longest], b = view(list.node_id)[2 * longest + 1];
-  const Vec3 middle = mix(nodes[a], nodes[b], 0.5);
-  leaks.longest_node_id[0] = a;
-  leaks.longest_node_id[1] = b;
-  leaks.longest_length = view(list.length)[longest];
-  leaks.longest_middle[0] = middle.x;
-  leaks.longest_middle[1] = middle.y;
-  leaks.longest_middle[2] = middle.z;
-  leaks.half_thickness = *std::max_element(list.distance.begin(), list.distance.end());
-  return leaks;
+void find_longest(const StridedPoints &nodes, Leaks &leaks) {
+  if (leaks.length.empty()) return;
+  const std::int64_t longest = std::max_element(leaks.length.begin(), leaks.length.end()) - leaks.length.begin();
+  for (int end = 0; end < 2; ++end) leaks.longest_node_id[end] = view(leaks.node_id)[2 * longest + end];
+  leaks.longest_length = view(leaks.length)[longest];
+  leaks.longest_middle = mix(nodes[leaks.longest_node_id[0]], nodes[leaks.longest_node_id[1]], 0.5);
+  leaks.half_thickness = *std::max_element(leaks.distance.begin(), leaks.distance.end());
 }
 
 }  // namespace
 
-riis_leaks find_leaks(const SearchRequest &request, MarkResult &result) {
+Leaks find_leaks(const SearchRequest &request, const Marks &marks) {
   const auto start = std::chrono::steady_clock::now();
-  const bool has_nodes = request.mesh.nodes().n > 0;
-  LeakingEdges list = has_nodes ? listed(request, leaking_edges(request, result)) : LeakingEdges{};
-  riis_leaks leaks = summary_of(request.mesh.nodes(), list);
-  result.leaking = std::move(list);
+  if (request.mesh.nodes().n == 0) return {};
+  Leaks leaks = listed(request, leaking_edges(request, marks));
+  find_longest(request.mesh.nodes(), leaks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   leaks.seconds = elapsed.count();
   return leaks;

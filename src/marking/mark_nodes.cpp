@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "base/array_view.hpp"
 #include "base/errors.hpp"
@@ -34,105 +35,146 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   return asked_for;
 }
 
-struct Ran {
+// The search that ran, and its report.
+struct SearchRun {
   std::int32_t search;
   SearchReport report;
 };
 
 // Searches clusters, or exhaustively where the mesh has too many nodes for clusters or single precision is too coarse.
-Ran run_clusters(const SearchRequest &request, MarkResult &result) {
+SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
     if (separates_in_single_precision(request, clusters))
       return {RIIS_SEARCH_CLUSTERS,
-              search_clusters(request, clusters, kernels(request.instructions), result.cluster_scratch, result.found)};
+              search_clusters(request, clusters, kernels(request.instructions), marks.cluster_scratch, marks.found)};
   }
-  return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, result.found)};
+  return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, marks.found)};
 }
 
-Ran run(const SearchRequest &request, std::int32_t search, MarkResult &result) {
+SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   static const std::vector<std::int64_t> nowhere;
   if (request.mesh.nodes().n == 0) {
     // A rank may have no nodes. Then every search is complete and finds nothing.
-    result.found.prepare(1);
+    marks.found.prepare(1);
     return {search, {0, 1, true, 0}};
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
       // A moving valve is near its last place, so the walk starts at the nodes found last. A list from another mesh with as many
       // nodes does no harm.
-      const bool fits = result.stats.n_nodes == request.mesh.nodes().n;
+      const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search,
-              search_neighbors(request, fits ? result.within.node_id : nowhere, result.neighbor_scratch, result.found)};
+              search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch, marks.found)};
     }
     case RIIS_SEARCH_PAPER:
-      return {search, search_as_the_paper(request, result.neighbor_scratch, result.found)};
+      return {search, search_as_the_paper(request, marks.neighbor_scratch, marks.found)};
     case RIIS_SEARCH_CLUSTERS:
-      return run_clusters(request, result);
+      return run_clusters(request, marks);
     default:
-      return {search, search_exhaustively(request, result.found)};
+      return {search, search_exhaustively(request, marks.found)};
   }
+}
+
+// Returns the data that the caller requested, and the fields that K and K u_surface are made of.
+WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked) {
+  WantedData data{asked.fields, asked.fields, asked.resistance != nullptr, false};
+  if (!data.k) return data;
+  if (asked.resistance->cuts_rim) data.fields |= RIIS_FIELD_RIM;
+  data.k_u_surface = !request.surface.other_distance() && !request.surface.triangles().velocity.empty();
+  if (data.k_u_surface) data.fields |= RIIS_FIELD_VELOCITY;
+  return data;
+}
+
+// Gives the lists the sizes that they are filled with. Lists that are too short are made anew, and take the place of the old
+// ones when nothing can fail any more.
+void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
+  if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
+    ListedNodes within, marked;
+    within.reserve(data, n.n_within);
+    marked.reserve(data, n.n_marked);
+    marks.within = std::move(within);
+    marks.marked = std::move(marked);
+  }
+  marks.within.nodes.resize(n.n_within);
+  marks.marked.nodes.resize(n.n_marked);
 }
 
 }  // namespace
 
-void mark_nodes(const SearchRequest &asked, std::int32_t asked_for, std::int32_t fields, MarkResult &result) {
-  const auto start = std::chrono::steady_clock::now();
-  check_fields(asked.surface, fields);
-  SearchRequest request = asked;
-  request.ties = ties_for(request.surface, fields);
-  const auto [search, report] = run(request, search_for(request, asked_for), result);
-  const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
-  // Calls that may fail come before the first list is overwritten.
-  result.fields_within.reserve(fields, result.found.size());
-  if (limit_is_wider) result.fields_marked.reserve(fields, result.found.size());
-  result.field_scratch.prepare(request, fields, result.found);
-  if (need_normals(request.surface, fields, result.found.size()))
-    request.surface.pseudonormals();
-  put_in_order(request.surface, result.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
-               result.order_scratch, result.within, result.marked);
-  make_fields(request, fields, result.within, result.field_scratch, result.fields_within);
-  if (limit_is_wider) select_fields(fields, result.within, result.fields_within, result.marked, result.fields_marked);
-  result.fields = fields;
-  result.was_marked = true;
-  result.limit_is_wider = limit_is_wider;
-  result.distance_limit = request.distance_limit;
-  result.half_thickness = request.surface.half_thickness();
-  result.leaking = {};
-  result.n_threads = request.n_threads;
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  result.stats = {request.mesh.nodes().n,
-                  result.marked_nodes().size(),
-                  result.within.size(),
-                  report.n_queries,
-                  elapsed.count(),
-                  search,
-                  report.n_threads,
-                  report.complete ? 1 : 0,
-                  RIIS_INSTRUCTIONS_BASELINE +
-                      (request.surface.other_distance() ? 0 : static_cast<std::int32_t>(request.instructions)),
-                  report.n_unreached};
+bool ListedNodes::has_room(const WantedData &data, std::int64_t n) const {
+  return nodes.has_room(n) && fields.has_room(data.fields, n) && (!data.k || riis::has_room(k, n)) &&
+         (!data.k_u_surface || riis::has_room(k_u_surface, 3 * n));
 }
 
-void write_dense(const MarkResult &result, double far_distance, std::uint8_t *mark, double *distance,
-                 std::int64_t *triangle_id, std::int32_t *leaflet_id) {
+void ListedNodes::reserve(const WantedData &data, std::int64_t n) {
+  nodes.reserve(n);
+  fields.reserve(data.fields, n);
+  if (data.k) reserve_amply(k, n);
+  if (data.k_u_surface) reserve_amply(k_u_surface, 3 * n);
+}
+
+void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks) {
+  const auto start = std::chrono::steady_clock::now();
+  check_fields(asked.surface, marking.fields);
+  SearchRequest request = asked;
+  const WantedData data = wanted_data(request, marking);
+  request.ties = ties_for(request.surface, data.fields);
+  const auto [search, report] = run(request, search_for(request, marking.search), marks);
+  const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
+  // Calls that may fail come before the lists are overwritten.
+  marks.field_scratch.prepare(request, data.fields, marks.found);
+  if (need_normals(request.surface, data.fields, marks.found.size()))
+    request.surface.pseudonormals();
+  make_room(data,
+            prepare_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
+                          marks.order_scratch),
+            marks);
+  put_in_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
+               marks.order_scratch, marks.within.nodes, marks.marked.nodes);
+  make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
+  if (limit_is_wider)
+    select_fields(data.fields, marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
+  for (ListedNodes *list : {&marks.within, &marks.marked})
+    list_resistance(marking.resistance, data, request.n_threads, *list);
+  marks.data = data;
+  marks.was_marked = true;
+  marks.limit_is_wider = limit_is_wider;
+  marks.distance_limit = request.distance_limit;
+  marks.half_thickness = request.surface.half_thickness();
+  marks.n_threads = request.n_threads;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  marks.stats = {request.mesh.nodes().n,
+                 marks.marked_nodes().size(),
+                 marks.within.nodes.size(),
+                 report.n_queries,
+                 elapsed.count(),
+                 search,
+                 report.n_threads,
+                 report.complete ? 1 : 0,
+                 RIIS_INSTRUCTIONS_BASELINE +
+                     (request.surface.other_distance() ? 0 : static_cast<std::int32_t>(request.instructions)),
+                 report.n_unreached};
+}
+
+void write_dense(const Marks &marks, const riis_dense_arrays &to) {
   constexpr std::int64_t nodes_per_block = 65536, few = 8 * nodes_per_block;
-  const std::int64_t n_nodes = result.stats.n_nodes;
-  parallel_for_ranges(n_nodes, nodes_per_block, result.n_threads.for_part(n_nodes, few), [&](const Range &range, int) {
+  const std::int64_t n_nodes = marks.stats.n_nodes;
+  parallel_for_ranges(n_nodes, nodes_per_block, marks.n_threads.for_part(n_nodes, few), [&](const Range &range, int) {
     const auto [begin, end] = range;
-    if (mark) std::fill(mark + begin, mark + end, std::uint8_t{0});
-    if (distance) std::fill(distance + begin, distance + end, far_distance);
-    if (triangle_id) std::fill(triangle_id + begin, triangle_id + end, std::int64_t{-1});
-    if (leaflet_id) std::fill(leaflet_id + begin, leaflet_id + end, -1);
+    if (to.mark) std::fill(to.mark + begin, to.mark + end, std::uint8_t{0});
+    if (to.distance) std::fill(to.distance + begin, to.distance + end, to.far_distance);
+    if (to.triangle_id) std::fill(to.triangle_id + begin, to.triangle_id + end, std::int64_t{-1});
+    if (to.leaflet_id) std::fill(to.leaflet_id + begin, to.leaflet_id + end, -1);
   });
-  for (const std::int64_t node : result.marked_nodes().node_id)
-    if (mark) mark[node] = 1;
-  const NodeList &within = result.within;
+  if (to.mark)
+    for (const std::int64_t node : marks.marked_nodes().node_id) to.mark[node] = 1;
+  const NodeList &within = marks.within.nodes;
   for (std::int64_t i = 0; i < within.size(); ++i) {
     const std::int64_t node = view(within.node_id)[i];
-    if (distance) distance[node] = view(within.distance)[i];
-    if (triangle_id) triangle_id[node] = view(within.triangle_id)[i];
-    if (leaflet_id) leaflet_id[node] = view(within.leaflet_id)[i];
+    if (to.distance) to.distance[node] = view(within.distance)[i];
+    if (to.triangle_id) to.triangle_id[node] = view(within.triangle_id)[i];
+    if (to.leaflet_id) to.leaflet_id[node] = view(within.leaflet_id)[i];
   }
 }
 

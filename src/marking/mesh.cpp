@@ -3,6 +3,11 @@
 
 namespace riis {
 
+void Mesh::borrow_nodes(const StridedPoints &nodes, const Bounds &bounds) {
+  set_nodes(nodes, bounds);
+  own_xyz_ = {};
+}
+
 void Mesh::set_nodes(const StridedPoints &nodes, const Bounds &bounds) {
   if (nodes.n != nodes_.n) {
     adjacency_.reset();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
@@ -34,8 +35,21 @@ class Mesh {
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // Sets other coordinates of the same nodes, or other nodes. Another number of nodes removes the adjacency.
-  void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
+  // Both set other coordinates of the same nodes, or other nodes. Another number of nodes removes the adjacency.
+  void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
+  // A failure leaves the mesh as it was.
+  template <class Real>
+  void copy_nodes(const StridedReals<Real> &nodes, const Bounds &bounds) {
+    const auto n = static_cast<std::size_t>(3 * nodes.n);
+    if (own_xyz_.capacity() < n) own_xyz_ = with_capacity(n);
+    own_xyz_.resize(n);
+    double *const xyz = own_xyz_.data();
+    for (std::int64_t i = 0; i < nodes.n; ++i) {
+      const Vec3 p = nodes[i];
+      xyz[3 * i] = p.x, xyz[3 * i + 1] = p.y, xyz[3 * i + 2] = p.z;
+    }
+    set_nodes({nodes.n, xyz, xyz + 1, xyz + 2, 3}, bounds);
+  }
   void set_adjacency(const std::optional<Adjacency> &adjacency) {
     adjacency_ = adjacency;
     has_edges_.store(false, std::memory_order_relaxed);
@@ -55,7 +69,15 @@ class Mesh {
   Warned &warned() const { return warned_; }
 
  private:
+  static std::vector<double> with_capacity(std::size_t n) {
+    std::vector<double> made;
+    made.reserve(n);
+    return made;
+  }
+  void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
+
   StridedPoints nodes_;
+  std::vector<double> own_xyz_;  // (3, n), if the nodes are copied
   Bounds bounds_;
   std::optional<Adjacency> adjacency_;
   mutable std::mutex balls_mutex_;

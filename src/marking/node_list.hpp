@@ -18,6 +18,12 @@ void reserve_amply(Array &array, std::int64_t n) {
   if (needed > array.capacity()) array.reserve(needed + needed / 2);
 }
 
+// Returns whether resize(n) keeps the array where it is.
+template <class Array>
+bool has_room(const Array &array, std::int64_t n) {
+  return static_cast<std::size_t>(n) <= array.capacity();
+}
+
 struct NodeList {
   std::vector<std::int64_t> node_id;
   std::vector<double> distance;
@@ -25,6 +31,10 @@ struct NodeList {
   std::vector<std::int32_t> leaflet_id;
 
   std::int64_t size() const { return view(node_id).size(); }
+  bool has_room(std::int64_t n) const {
+    return riis::has_room(node_id, n) && riis::has_room(distance, n) && riis::has_room(triangle_id, n) &&
+           riis::has_room(leaflet_id, n);
+  }
   void reserve(std::int64_t n) {
     reserve_amply(node_id, n);
     reserve_amply(distance, n);

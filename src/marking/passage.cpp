@@ -78,8 +78,8 @@ class Opening {
   bool joins_beyond(double limit) {
     const SearchRequest within{request_.surface,   request_.mesh,      limit,
                                request_.node_mask, request_.n_threads, request_.instructions};
-    mark_nodes(within, RIIS_SEARCH_AUTO, 0, near_);
-    label_open_regions({adjacency_, request_.node_mask, near_.within.node_id}, request_.n_threads, view(parent_));
+    mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr}, near_);
+    label_open_regions({adjacency_, request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
     OpenSets sets = this->sets();
     sets.open(from_);
     sets.open(to_);
@@ -116,7 +116,7 @@ class Opening {
   bool is_joined() { return sets().root(from_) == sets().root(to_); }
 
   std::vector<Candidate> candidates(double nearest) const {
-    const NodeList &within = near_.within;
+    const NodeList &within = near_.within.nodes;
     std::vector<Candidate> made;
     for (std::int64_t i = 0; i < within.size(); ++i)
       if (view(within.distance)[i] > nearest) made.push_back({view(within.distance)[i], view(within.node_id)[i]});
@@ -146,7 +146,7 @@ class Opening {
   const Adjacency &adjacency_;
   std::int64_t from_, to_;  // two more nodes, which all nodes of an end are joined to
   std::vector<std::int64_t> from_ids_, to_ids_;
-  MarkResult near_;
+  Marks near_;
   UnfilledVector<std::int64_t> parent_;
 };
 

@@ -148,20 +148,26 @@ class Ordering {
   OrderScratch &scratch_;
 };
 
+// Other threads would come too late for few nodes.
+int threads_for_order(std::int64_t n_within, int n_threads) {
+  constexpr std::int64_t few = 4096;
+  return n_within < few ? 1 : n_threads;
+}
+
 }  // namespace
+
+OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
+                                   std::int64_t n_nodes, int n_threads, OrderScratch &scratch) {
+  const std::int64_t n_within = found.size();
+  if (view(scratch.by_stretch).size() < n_within) resize(scratch.by_stretch, n_within + n_within / 2);
+  Ordering ordering(surface, found, limit_is_wider, n_nodes, threads_for_order(n_within, n_threads), scratch);
+  const std::int64_t n_marked = ordering.count().n_marked;
+  return {n_within, limit_is_wider ? n_marked : 0};
+}
 
 void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
                   int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked) {
-  const std::int64_t n_within = found.size();
-  constexpr std::int64_t few = 4096;  // other threads would come too late
-  Ordering ordering(surface, found, limit_is_wider, n_nodes, n_within < few ? 1 : n_threads, scratch);
-  const OrderScratch::Counts sum = ordering.count();
-  const std::int64_t n_marked = limit_is_wider ? sum.n_marked : 0;
-  within.reserve(n_within);
-  marked.reserve(n_marked);
-  if (view(scratch.by_stretch).size() < n_within) resize(scratch.by_stretch, n_within + n_within / 2);
-  within.resize(n_within);
-  marked.resize(n_marked);
+  Ordering ordering(surface, found, limit_is_wider, n_nodes, threads_for_order(within.size(), n_threads), scratch);
   ordering.gather();
   ordering.write(within, marked);
 }

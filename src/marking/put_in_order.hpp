@@ -21,7 +21,12 @@ struct OrderScratch {
   std::vector<FoundNode> by_stretch;  // all found nodes, stretch after stretch
 };
 
-// Fills `marked` only where the limit is wider than the half thickness. Reserves all memory before it overwrites a list.
+// Counts the nodes of both lists, which must have these sizes when put_in_order fills them. Only this function allocates.
+OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
+                                   std::int64_t n_nodes, int n_threads, OrderScratch &scratch);
+
+// Fills the lists, `marked` only where the limit is wider than the half thickness. prepare_order comes before, with the same
+// arguments.
 void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
                   int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked);
 

@@ -5,7 +5,7 @@
 
 #include <riis/riis.h>
 
-#include "marking/mark_result.hpp"
+#include "marking/marks.hpp"
 
 namespace riis {
 
@@ -16,12 +16,17 @@ struct Resistance {
   bool cuts_rim;
 };
 
-// All fail with RIIS_INVALID_ARGUMENT if the result lacks data that they need.
-Resistance checked_resistance(const riis_resistance &resistance, const MarkResult &result);
-void add_resistance(const MarkResult &result, const Resistance &resistance, double *coefficient, double *momentum);
-void add_reaction(const MarkResult &result, const Resistance &resistance, const double *velocity, const double *weight,
-                  double *force);
-riis_band_sums band_sums(const MarkResult &result, double inner, double outer, const double *value,
-                         const double *weight);
+// Checks a resistance, the argument `name`, for a marking with these lengths.
+Resistance checked_resistance(const riis_resistance &resistance, const char *name, double half_thickness,
+                              double distance_limit);
+// Makes K and K u_surface of the nodes of a list, which has their fields and room for both. Null stands for no resistance.
+void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads,
+                     ListedNodes &list);
+
+// All fail with RIIS_INVALID_ARGUMENT if the marks lack data that they need.
+Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
+void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
+void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow, double *force);
+riis_band_sums band_sums(const Marks &marks, const riis_band &band);
 
 }  // namespace riis

@@ -63,8 +63,8 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   const double seconds_triangles = stopwatch.lap();
   // Another method for distances is made before the surface, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
-  if (accuracy.distance != RIIS_DISTANCE_TRIANGLES)
-    distance = make_distance(patches, {accuracy.distance, accuracy.distance_error}, placement, request.flip_normals);
+  if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
+    distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
   // Triangles become the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   if (motion)

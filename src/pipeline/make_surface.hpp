@@ -26,7 +26,7 @@ struct SurfaceRequest {
 // Limits for the difference between distances to a generated valve and to the smooth valve, in placed units.
 struct ValveAccuracy {
   double triangle_error;
-  std::int32_t distance;            // RIIS_DISTANCE_*
+  std::int32_t measure;             // RIIS_MEASURE_*
   double distance_error;            // unused if triangles measure distances
   const FixedTriangulation *fixed;  // null: triangles as large as the opening allows
 };

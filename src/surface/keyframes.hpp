@@ -17,12 +17,12 @@ class Keyframes {
  public:
   // Copies all arrays. Fails as triangles_from_arrays does for the faces in the first frame, except that faces without area are
   // left to the surfaces. A bad coordinate is named with its frame.
-  Keyframes(const riis_surface_arrays &faces, const riis_keyframe_arrays &frames);
+  Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // the times stay in place
 
-  // Writes places and velocities (3, n_vertices). With since == time the velocity is the interpolant's derivative,
-  // right-hand at a linear key; else it is the mean from `since` to `time`.
-  void at(double time, double since, std::vector<double> &xyz, std::vector<double> &velocity) const;
+  // Writes places and velocities (3, n_vertices). With dt == 0 the velocity is the interpolant's derivative,
+  // right-hand at a linear key; else it is the mean from time - dt to time.
+  void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
 

@@ -12,6 +12,7 @@ namespace riis {
 namespace {
 
 void check_vertices(const riis_surface_arrays &arrays) {
+  check_bits("arrays.real_bits", arrays.real_bits);
   require(arrays.x, "arrays.x");
   require(arrays.y, "arrays.y");
   require(arrays.z, "arrays.z");
@@ -23,11 +24,10 @@ void check_vertices(const riis_surface_arrays &arrays) {
 
 void check_faces(const riis_surface_arrays &arrays) {
   require(arrays.vertex_ids, "arrays.vertex_ids");
-  check_bits("arrays.vertex_id_bits", arrays.vertex_id_bits);
+  check_bits("arrays.id_bits", arrays.id_bits);
   check_base("arrays.index_base", arrays.index_base);
   if (arrays.corners_per_face != 3 && arrays.corners_per_face != 4)
     fail(RIIS_INVALID_ARGUMENT, "arrays.corners_per_face is ", arrays.corners_per_face, "; it must be 3 or 4");
-  check_reserved("arrays.reserved", arrays.reserved);
   if (arrays.n_vertices < 1)
     fail(RIIS_INVALID_SURFACE, "arrays.n_vertices is ", arrays.n_vertices, "; it must be at least 1");
   if (arrays.n_vertices > std::numeric_limits<std::int32_t>::max())
@@ -39,7 +39,7 @@ void check_faces(const riis_surface_arrays &arrays) {
 }
 
 std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
-  const std::int64_t number = IntegerArray{arrays.vertex_ids, arrays.vertex_id_bits == 64}[i];
+  const std::int64_t number = IntegerArray{arrays.vertex_ids, arrays.id_bits == 64}[i];
   const std::int64_t base = arrays.index_base;
   if (number < base || number - base >= arrays.n_vertices)
     fail(RIIS_INVALID_SURFACE, "arrays.vertex_ids: corner ", i % arrays.corners_per_face, " of face ",
@@ -49,7 +49,8 @@ std::int64_t vertex_id_at(const riis_surface_arrays &arrays, std::int64_t i) {
 }
 
 Vec3 given(const riis_surface_arrays &arrays, std::int64_t vertex) {
-  return StridedPoints{arrays.n_vertices, arrays.x, arrays.y, arrays.z, arrays.stride}[vertex];
+  return with_points(arrays.n_vertices, {arrays.x, arrays.y, arrays.z}, arrays.stride, arrays.real_bits,
+                     [&](const auto &points) { return points[vertex]; });
 }
 
 void place_vertices(const riis_surface_arrays &arrays, const Placement &placement, TriangleSet &set) {
@@ -78,10 +79,11 @@ void place_velocities(const riis_surface_arrays &arrays, const Placement &placem
   if (arrays.velocity_stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
     fail(RIIS_INVALID_ARGUMENT, "arrays.velocity_stride is ", arrays.velocity_stride, ": the velocities of ",
          arrays.n_vertices, " vertices apart by it are more than memory can hold");
-  const StridedPoints velocities{arrays.n_vertices, arrays.vx, arrays.vy, arrays.vz, arrays.velocity_stride};
   set.velocity.reserve(set.xyz.size());
   for (std::int64_t i = 0; i < arrays.n_vertices; ++i) {
-    const Vec3 v = velocities[i], placed = placement.scale * (placement.rotation * v);
+    const Vec3 v = with_points(arrays.n_vertices, {arrays.vx, arrays.vy, arrays.vz}, arrays.velocity_stride,
+                               arrays.real_bits, [&](const auto &velocities) { return velocities[i]; });
+    const Vec3 placed = placement.scale * (placement.rotation * v);
     const auto check = [&](const char *axis, double value, const char *when) {
       if (!is_usable(value))
         fail(RIIS_INVALID_SURFACE, "velocity ", axis, " of vertex ", i, when, " is ", value,

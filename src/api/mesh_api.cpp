@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_mesh_*, riis_csr_*, riis_adjacency_*: argument checks around the caller's nodes and their neighbours.
+#include <memory>
+#include <optional>
+
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "base/errors.hpp"
+#include "base/integer_array.hpp"
+
+using riis::guarded;
+using riis::require;
+using riis::require_handle;
+
+namespace {
+
+const riis_csr default_csr{sizeof(riis_csr), 0, 0, nullptr, nullptr, 32, 32, 0, 0};
+const riis_mesh_cells default_cells{sizeof(riis_mesh_cells), 0, 0, nullptr, nullptr, 4, 32, 0, 0};
+const riis_mesh_faces default_faces{sizeof(riis_mesh_faces), 0, 0, nullptr, nullptr, 1, 32, 0, 0, 0};
+
+void check_n_nodes(std::int64_t n, const char *name) {
+  if (n < 0) riis::fail(RIIS_INVALID_MESH, name, " is ", n, "; it must be at least 0");
+  if (n > riis::max_nodes)
+    riis::fail(RIIS_LIMIT_EXCEEDED, name, " is ", n, "; it must be at most ", riis::max_nodes);
+}
+
+// Returns the nodes' box, which is empty if there are none.
+riis::Bounds check_nodes(const riis::StridedPoints &nodes) {
+  check_n_nodes(nodes.n, "n_nodes");
+  if (nodes.n == 0) return {};
+  return riis::check_points(nodes, "node", RIIS_INVALID_MESH);
+}
+
+void copy_nodes(const riis_points *given, riis::Mesh &mesh) {
+  const riis_points whole = riis::completed(require(given, "nodes"), "nodes", riis::default_points);
+  riis::check_bits("nodes.real_bits", whole.real_bits);
+  riis::check_reserved("nodes.reserved", whole.reserved);
+  check_n_nodes(whole.n_points, "nodes.n_points");
+  riis::with_points(whole.n_points, {whole.x, whole.y, whole.z}, whole.stride, whole.real_bits,
+                    [&](const auto &nodes) {
+                      const riis::Bounds bounds = nodes.n == 0 ? riis::Bounds{}
+                                                               : riis::check_points(nodes, "node", RIIS_INVALID_MESH,
+                                                                                    "nodes.");
+                      mesh.copy_nodes(nodes, bounds);
+                    });
+}
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z, int64_t stride,
+                             riis_mesh **mesh) {
+  return guarded([&] {
+    require(mesh, "mesh");
+    const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
+    *mesh = new riis_mesh(nodes, check_nodes(nodes));
+  });
+}
+
+riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y, const double *z,
+                             int64_t stride) {
+  return guarded([&] {
+    riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
+    content.forget_places();  // the nodes moved, even if the new coordinates are refused
+    const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
+    content.borrow_nodes(nodes, check_nodes(nodes));
+  });
+}
+
+riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh) {
+  return guarded([&] {
+    require(mesh, "mesh");
+    auto made = std::make_unique<riis_mesh>(riis::StridedPoints{0, nullptr, nullptr, nullptr, 1}, riis::Bounds{});
+    copy_nodes(nodes, made->mesh);
+    *mesh = made.release();
+  });
+}
+
+riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes) {
+  return guarded([&] { copy_nodes(nodes, require_handle(mesh, "mesh")->mesh); });
+}
+
+riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
+  return guarded([&] {
+    const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
+    const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
+    if (content.nodes().n > riis::max_clustered_nodes)
+      riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n, " nodes is not made clusters of: at most ",
+                 riis::max_clustered_nodes);
+    if (content.nodes().n > 0) content.clusters(n);
+  });
+}
+
+void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
+
+riis_status riis_csr_init(riis_csr *csr, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(csr, struct_size, "csr", default_csr); });
+}
+
+riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
+  return guarded([&] {
+    riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
+    if (csr)
+      content.set_adjacency(
+          riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n));
+    else
+      content.set_adjacency(std::nullopt);
+  });
+}
+
+riis_status riis_mesh_cells_init(riis_mesh_cells *cells, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(cells, struct_size, "cells", default_cells); });
+}
+
+riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency) {
+  return guarded([&] {
+    require(adjacency, "adjacency");
+    const riis_mesh_cells whole = riis::completed(require(cells, "cells"), "cells", default_cells);
+    const int n_threads = riis::threads_for(whole.n_threads, "cells.n_threads", whole.n_cells, riis::nodes_per_thread);
+    *adjacency = new riis_adjacency{{}, riis::adjacency_from_cells(whole, n_threads)};
+  });
+}
+
+riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(faces, struct_size, "faces", default_faces); });
+}
+
+riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency) {
+  return guarded([&] {
+    require(adjacency, "adjacency");
+    const riis_mesh_faces whole = riis::completed(require(faces, "faces"), "faces", default_faces);
+    const int n_threads = riis::threads_for(whole.n_threads, "faces.n_threads", whole.n_faces, riis::nodes_per_thread);
+    *adjacency = new riis_adjacency{{}, riis::adjacency_from_faces(whole, n_threads)};
+  });
+}
+
+riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
+                                            riis_adjacency **adjacency) {
+  return guarded([&] {
+    require(adjacency, "adjacency");
+    const int n = riis::threads_for(n_threads, "n_threads", riis::nodes_of_grid(ni, nj, nk), riis::nodes_per_thread);
+    *adjacency = new riis_adjacency{{}, riis::adjacency_from_grid(ni, nj, nk, n)};
+  });
+}
+
+riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr, int64_t struct_size) {
+  return guarded([&] {
+    riis_csr value = require_handle(adjacency, "adjacency")->adjacency.csr();
+    value.struct_size = struct_size;
+    riis::write_struct(csr, struct_size, "csr", value);
+  });
+}
+
+void riis_adjacency_destroy(riis_adjacency **adjacency) { riis::destroy_handle(adjacency, "adjacency"); }
+}
